@@ -1,0 +1,20 @@
+# The libraries gobo stands on, found once. tools/setup.sh installs them on Debian.
+find_package(Threads REQUIRED)  # before glslang, whose package file forgets to ask for it
+find_package(glslang REQUIRED CONFIG)
+find_package(SPIRV-Tools REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(tomlplusplus REQUIRED CONFIG)
+find_path(GOBO_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
+find_path(GOBO_JSON_INCLUDE nlohmann/json.hpp REQUIRED)
+find_path(GOBO_CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
+find_path(GOBO_XXHASH_INCLUDE xxhash.h REQUIRED)
+find_path(GOBO_GLM_INCLUDE glm/glm.hpp REQUIRED)
+
+# glslang 14 and later hold everything in fewer libraries: link those of the old names that exist.
+add_library(gobo_glslang INTERFACE)
+foreach(target glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits)
+  if(TARGET ${target})
+    target_link_libraries(gobo_glslang INTERFACE ${target})
+  endif()
+endforeach()
+target_link_libraries(gobo_glslang INTERFACE Threads::Threads)

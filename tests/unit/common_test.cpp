@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "common/diagnostic.hpp"
+#include "common/file_system.hpp"
+#include "common/text.hpp"
+
+namespace gobo {
+namespace {
+
+TEST(Diagnostic, PrintsPlaceMessageSubjectQuotationAndRemedy) {
+    Diagnostic diagnostic;
+    diagnostic.place = {"shader_lib/fog/linear.glsl", 12, 5};
+    diagnostic.message = "unknown function 'mxi'";
+    diagnostic.subject = "fog=linear point=3";
+    diagnostic.quoted_line = "\tvec mxi(1)";
+    diagnostic.remedy = "did you mean 'mix'?";
+    EXPECT_EQ(to_text(diagnostic),
+              "shader_lib/fog/linear.glsl:12:5: error: unknown function 'mxi' [fog=linear point=3]\n"
+              "    \tvec mxi(1)\n"
+              "    \t   ^\n"
+              "  remedy: did you mean 'mix'?\n");
+}
+
+TEST(Diagnostic, ExitStatusIsThatOfTheGravestFault) {
+    const Diagnostics none;
+    EXPECT_EQ(exit_status(none), 0);
+    Diagnostics several(2);
+    several[0].fault = Fault::file;
+    several[1].fault = Fault::usage;
+    EXPECT_EQ(exit_status(several), 3);
+    several[0].severity = Severity::warning;
+    EXPECT_EQ(exit_status(several), 2);
+}
+
+TEST(Text, NearestNeedsFewEdits) {
+    const std::vector<std::string> names = {"linear", "exponential", "exponential_squared"};
+    EXPECT_EQ(nearest("linaer", names), "linear");
+    EXPECT_EQ(nearest("exponental", names), "exponential");
+    EXPECT_EQ(nearest("purple", names), std::nullopt);
+}
+
+TEST(DiskFileSystem, AFullDiskIsAnError) {
+    DiskFileSystem files;
+    const Result<bool> written = files.write("/dev/full", "some text");
+    ASSERT_FALSE(written);
+    EXPECT_EQ(to_text(written.error().front()),
+              "/dev/full: error: cannot be written: No space left on device\n");
+    EXPECT_EQ(exit_status(written.error()), 3);
+}
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,62 @@
+// What composing gives: the distinct pieces, the distinct stages as lists of pieces, and the permutations.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "family/family.hpp"
+
+namespace gobo {
+
+enum class StageKind { vertex, fragment };
+
+/// "vertex" or "fragment".
+[[nodiscard]] std::string_view name_of(StageKind kind);
+
+/// The GLSL dialect that a permutation is composed for.
+enum class Dialect {
+    own,      ///< the #version that the family's templates state themselves; 450 where they state none
+    glsl450,  ///< desktop OpenGL 4.5
+    glsl330,  ///< desktop OpenGL 3.3
+    es300,    ///< OpenGL ES 3.0 and WebGL 2
+};
+
+/// One text of a stage. All pieces of a stage, one after the other, are its source.
+struct Piece {
+    std::string name;  ///< portable: "shader_lib/fog/linear.glsl", or relative to the folder it was found in
+    std::string path;  ///< as diagnostics and depfiles show it; for a generated piece, the file it comes from
+    std::string text;  ///< includes blanked, so line numbers are those of the file
+    bool on_disk = false;  ///< read from a file that a depfile must name
+
+    friend bool operator==(const Piece&, const Piece&) = default;
+};
+
+/// A stage is a list of pieces: the prologue first, then each piece once, depth first.
+struct Stage {
+    StageKind kind = StageKind::vertex;
+    std::vector<int> pieces;  ///< indices into Composition::pieces
+
+    friend bool operator==(const Stage&, const Stage&) = default;
+};
+
+/// A canonical key with its two stages.
+struct Permutation {
+    Key key;
+    int vertex = 0;  ///< index into Composition::stages
+    int fragment = 0;
+};
+
+/// The permutations of one family, with every distinct piece and stage once.
+struct Composition {
+    std::vector<Piece> pieces;
+    std::vector<Stage> stages;
+    std::vector<Permutation> permutations;  ///< in the order of the keys asked for
+    std::vector<std::string> files;         ///< every file on disk that was read, sorted: for the depfile
+    Dialect dialect = Dialect::own;
+};
+
+/// The whole source of a stage: its pieces one after the other.
+[[nodiscard]] std::string source_of(const Composition& composition, const Stage& stage);
+
+}  // namespace gobo

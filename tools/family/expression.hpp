@@ -1,0 +1,43 @@
+// Conditions over the features of a family: `shading == hybrid && directional + point + spot > 12`.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/diagnostic.hpp"
+
+namespace gobo {
+
+struct Feature;
+
+/// A condition over a key. Immutable; copies share their parts.
+///
+/// Grammar: or  := and ("||" and)*        and := not ("&&" not)*
+///          not := "!" not | "(" or ")" | sum op value
+///          sum := feature ("+" feature)*     (more than one only for counts)
+///          op  := "==" | "!=" | "<" | "<=" | ">" | ">="
+/// Choices and defines compare with == and != only; a count compares with a whole number.
+struct Expression {
+    enum class Kind { constant, compare, conjunction, disjunction, negation };
+    enum class Comparison { equal, not_equal, less, less_equal, greater, greater_equal };
+
+    Kind kind = Kind::constant;
+    bool constant = true;                       ///< constant
+    std::vector<int> features;                  ///< compare: the features whose values are added
+    Comparison comparison = Comparison::equal;  ///< compare
+    int value = 0;                              ///< compare: a count, or the index of a choice's value
+    std::vector<std::shared_ptr<const Expression>> parts;  ///< conjunction, disjunction, negation
+};
+
+/// Reads a condition. `place` is that of its first character. An unknown feature or value suggests the
+/// nearest; the fault is that of the caller's choosing (usage for --where, input for a family file).
+[[nodiscard]] Result<Expression> parse_expression(std::string_view text, const std::vector<Feature>& features,
+                                                  const Place& place, Fault fault);
+
+/// Whether the condition holds for a key (value indices in the order of the features it was parsed with;
+/// a count's index is its value).
+[[nodiscard]] bool holds(const Expression& expression, const std::vector<int>& key);
+
+}  // namespace gobo

@@ -1,0 +1,119 @@
+// The data model of a family: a set of shaders that share templates. Read from a TOML file by read_family().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/diagnostic.hpp"
+#include "family/expression.hpp"
+
+namespace gobo {
+
+enum class Role {
+    effect,    ///< called for by a scene: fog, spot lights
+    quality,   ///< accuracy bought with time; the values are listed most accurate first
+    pipeline,  ///< a choice of the application's pipeline: the depth qualifier
+};
+
+enum class FeatureKind {
+    choice,  ///< one value of a list, each a piece FEATURE/VALUE.glsl
+    count,   ///< a whole number from 0 up, a constant in the prologue
+    define,  ///< off or on: a macro that is defined or not, for shaders that have their own #ifdef
+};
+
+/// One axis of a family.
+struct Feature {
+    std::string name;
+    Role role = Role::effect;
+    FeatureKind kind = FeatureKind::choice;
+    std::vector<std::string>
+        values;  ///< in the family's order; the first is the default. Counts: "0", "1", ...
+    std::vector<std::string> retired;  ///< values that measurement has shown to be dominated
+    std::string macro;  ///< the constant of a count or the macro of a define; empty for a choice
+    Place place;        ///< where the family declares it
+
+    /// The index of a value; nothing where there is no such value.
+    [[nodiscard]] std::optional<int> index_of(std::string_view value) const;
+};
+
+/// What the family demands of its keys.
+struct Rule {
+    enum class Kind {
+        defaults,  ///< where `when` holds, the features of `defaults` cannot matter and stand at their
+                   ///< defaults
+        forbid,    ///< keys for which `when` holds are refused, for `reason`
+    };
+    Kind kind = Kind::defaults;
+    Expression when;
+    std::vector<int> defaults;  ///< indices of features
+    std::string reason;
+    std::vector<std::string> dialects;  ///< the dialects it holds in; empty: all
+    Place place;
+};
+
+/// An interpolated value between the stages. The vertex stage writes it only where the fragment stage reads
+/// it.
+struct Varying {
+    std::string name;  ///< the GLSL identifier
+    std::string type;  ///< the GLSL type
+    int location = 0;
+    std::string interpolation;  ///< "flat", "noperspective", or empty
+    std::string piece;          ///< the piece that the vertex stage includes for it
+    std::string value;          ///< the GLSL expression that the vertex stage writes
+    Place place;
+};
+
+/// The range that an input or a uniform may hold, by its reflected name ("Fog.near").
+/// Each component, or the length where `of_length`, lies within [low, high], or is exactly one of `also`.
+struct Domain {
+    std::string name;
+    double low = 0;
+    double high = 0;
+    bool of_length = false;    ///< the range is of the vector's length
+    std::vector<double> also;  ///< values allowed besides the range (0 for an attenuation coefficient)
+    Place place;
+};
+
+/// What `gobo render` feeds a family: attributes and uniforms by name, in TOML as written under [render].
+struct RenderValue {
+    std::string name;    ///< reflected name of an attribute or uniform ("PointLights.lights[0].position")
+    std::string source;  ///< a value the renderer supplies ("normal", "model_view"); empty: `numbers`
+    std::vector<double> numbers;
+    Place place;
+};
+
+/// A way of naming keys; see selection.hpp. The family's own is used where the command line names none.
+struct DefaultSelection {
+    std::vector<std::string> keys;
+    bool all = false;
+    int cover = 0;
+    std::vector<std::string> over;
+    std::string where;
+};
+
+/// A set of shaders that share templates.
+struct Family {
+    std::string name;
+    std::string path;    ///< of the family file, as given
+    std::string folder;  ///< where its templates are searched after the -I folders
+    std::string vertex;  ///< template, by its include path
+    std::string fragment;
+    std::vector<Feature> features;  ///< sorted by name
+    std::vector<Rule> rules;
+    std::vector<Varying> varyings;  ///< sorted by location
+    std::vector<Domain> domains;    ///< sorted by name
+    std::vector<RenderValue> render;
+    std::optional<DefaultSelection> default_selection;
+
+    [[nodiscard]] std::optional<int> index_of(std::string_view feature) const;
+};
+
+/// One value per feature of a family: the index of the value, in the order of Family::features.
+using Key = std::vector<int>;
+
+}  // namespace gobo

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what gobo builds and tests with, where it is missing. Debian 12; on another system it names the packages and stops.
+set -euo pipefail
+
+packages=(
+  ca-certificates g++ clang cmake ninja-build ccache git
+  libexpected-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libxxhash-dev libglm-dev
+  glslang-dev glslang-tools spirv-tools spirv-cross glslc
+  libosmesa6 libegl1 libgl1-mesa-dri libtinyobjloader-dev libtinygltf-dev libopenexr-dev liblodepng-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  if command -v dpkg-query >/dev/null; then
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  else
+    missing+=("$package")
+  fi
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup.sh: this system has no apt-get. Install what corresponds to these Debian 12 packages, then run again:" >&2
+  echo "  ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup.sh: not root, and there is no sudo. As root, run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "setup.sh: installing ${missing[*]}" >&2
+"${as_root[@]}" apt-get update -q >&2
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
