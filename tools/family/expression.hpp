@@ -36,6 +36,9 @@ struct Expression {
 [[nodiscard]] Result<Expression> parse_expression(std::string_view text, const std::vector<Feature>& features,
                                                   const Place& place, Fault fault);
 
+/// `left comparison right`, for whole numbers.
+[[nodiscard]] bool compare(int left, Expression::Comparison comparison, int right);
+
 /// Whether the condition holds for a key (value indices in the order of the features it was parsed with;
 /// a count's index is its value).
 [[nodiscard]] bool holds(const Expression& expression, const std::vector<int>& key);

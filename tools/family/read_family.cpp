@@ -1,0 +1,149 @@
+#include "family/read_family.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "family/read_features.hpp"
+#include "family/toml_reader.hpp"
+
+namespace gobo {
+namespace {
+
+std::string folder_of(const std::string& path) {
+    const auto slash = path.rfind('/');
+    if (slash == std::string::npos) return ".";
+    return path.substr(0, slash);
+}
+
+std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) {
+    std::vector<Varying> varyings;
+    const toml::table* table = reader.table(root, "varyings");
+    if (table == nullptr) return varyings;
+    for (const auto& [key, node] : *table) {
+        Varying varying;
+        varying.name = key.str();
+        varying.place = reader.place_of(node);
+        const std::string what = fmt::format("varying '{}'", varying.name);
+        const toml::table* row = node.as_table();
+        if (row == nullptr || !is_identifier(varying.name)) {
+            reader.error(node, what + " must be a GLSL identifier with a table",
+                         "write [varyings.NAME] with location, type, piece and value");
+            break;
+        }
+        reader.only(*row, what, {"location", "type", "interpolation", "piece", "value"});
+        varying.location = static_cast<int>(reader.integer(*row, "location").value_or(-1));
+        if (varying.location < 0)
+            reader.error(node, what + " lacks its location", "add location = 0 or more");
+        varying.type = reader.required_string(*row, what, "type");
+        varying.value = reader.required_string(*row, what, "value");
+        varying.piece = reader.string(*row, "piece").value_or("");
+        varying.interpolation = reader.string(*row, "interpolation").value_or("");
+        varyings.push_back(std::move(varying));
+    }
+    std::stable_sort(varyings.begin(), varyings.end(),
+                     [](const Varying& a, const Varying& b) { return a.location < b.location; });
+    return varyings;
+}
+
+Domain read_domain(TomlReader& reader, std::string name, const toml::node& node) {
+    Domain domain;
+    domain.name = std::move(name);
+    domain.place = reader.place_of(node);
+    std::vector<double> range;
+    if (const toml::table* table = node.as_table()) {
+        reader.only(*table, fmt::format("the domain of '{}'", domain.name), {"range", "length", "also"});
+        domain.of_length = table->contains("length");
+        range = reader.numbers(*table, domain.of_length ? "length" : "range");
+        domain.also = reader.numbers(*table, "also");
+    } else {
+        range = reader.numbers_of(node, domain.name);
+    }
+    if (range.size() != 2 || range[0] > range[1]) {
+        reader.error(node, fmt::format("the domain of '{}' is no range", domain.name), "write [low, high]");
+        return domain;
+    }
+    domain.low = range[0];
+    domain.high = range[1];
+    return domain;
+}
+
+std::vector<Domain> read_domains(TomlReader& reader, const toml::table& root) {
+    std::vector<Domain> domains;
+    const toml::table* table = reader.table(root, "domain");
+    if (table == nullptr) return domains;
+    for (const auto& [key, node] : *table)
+        domains.push_back(read_domain(reader, std::string(key.str()), node));
+    return domains;
+}
+
+std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root) {
+    std::vector<RenderValue> values;
+    const toml::table* table = reader.table(root, "render");
+    if (table == nullptr) return values;
+    for (const auto& [key, node] : *table) {
+        RenderValue value;
+        value.name = key.str();
+        value.place = reader.place_of(node);
+        if (const auto* source = node.as_string()) {
+            value.source = source->get();
+        } else if (const toml::table* row = node.as_table()) {
+            reader.only(*row, fmt::format("the render value of '{}'", value.name), {"source", "numbers"});
+            value.source =
+                reader.required_string(*row, fmt::format("the render value of '{}'", value.name), "source");
+            value.numbers = reader.numbers(*row, "numbers");
+        } else {
+            value.numbers = reader.numbers_of(node, value.name);
+        }
+        values.push_back(std::move(value));
+    }
+    return values;
+}
+
+std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root) {
+    const toml::table* table = reader.table(root, "default_set");
+    if (table == nullptr) return std::nullopt;
+    reader.only(*table, "[default_set]", {"keys", "all", "cover", "over", "where"});
+    DefaultSelection selection;
+    selection.keys = reader.strings(*table, "keys");
+    selection.all = reader.boolean(*table, "all").value_or(false);
+    selection.cover = static_cast<int>(reader.integer(*table, "cover").value_or(0));
+    selection.over = reader.strings(*table, "over");
+    selection.where = reader.string(*table, "where").value_or("");
+    if (selection.keys.empty() && !selection.all && selection.cover < 1) {
+        reader.error(*table, "[default_set] selects nothing", "add keys = [...], all = true or cover = 2");
+    }
+    return selection;
+}
+
+}  // namespace
+
+Result<Family> read_family(std::string_view text, const std::string& path) {
+    TomlReader reader(text, path);
+    Family family;
+    family.path = path;
+    family.folder = folder_of(path);
+    const toml::table& root = reader.root();
+    reader.only(
+        root, "the family",
+        {"name", "vertex", "fragment", "features", "rules", "varyings", "domain", "render", "default_set"});
+    family.name = reader.required_string(root, "the family", "name");
+    if (!reader.failed() && !is_identifier(family.name)) {
+        reader.error(*root.get("name"), fmt::format("'{}' cannot name a family", family.name),
+                     "use letters, digits and _, not starting with a digit: it names a C++ namespace");
+    }
+    family.vertex = reader.required_string(root, "the family", "vertex");
+    family.fragment = reader.required_string(root, "the family", "fragment");
+    family.features = read_features(reader, root);
+    family.rules = read_rules(reader, root, family.features);
+    family.varyings = read_varyings(reader, root);
+    family.domains = read_domains(reader, root);
+    family.render = read_render(reader, root);
+    family.default_selection = read_default_set(reader, root);
+    if (reader.failed()) return tl::unexpected(reader.errors());
+    return family;
+}
+
+}  // namespace gobo

@@ -1,0 +1,142 @@
+#include "family/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+
+namespace gobo {
+
+TomlReader::TomlReader(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {
+    toml::parse_result parsed = toml::parse(text, path_);
+    if (parsed) {
+        root_ = std::move(parsed).table();
+        return;
+    }
+    const toml::source_position at = parsed.error().source().begin;
+    error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
+          fmt::format("not valid TOML: {}", parsed.error().description()),
+          "see https://toml.io for the syntax");
+}
+
+Place TomlReader::place_of(const toml::node& node) const {
+    const toml::source_position at = node.source().begin;
+    return {path_, static_cast<int>(at.line), static_cast<int>(at.column)};
+}
+
+void TomlReader::error(const Place& place, std::string message, std::string remedy) {
+    if (failed()) return;
+    Diagnostic diagnostic;
+    diagnostic.place = place;
+    diagnostic.message = std::move(message);
+    diagnostic.quoted_line = line_of(text_, place.line);
+    diagnostic.remedy = std::move(remedy);
+    errors_.push_back(std::move(diagnostic));
+}
+
+void TomlReader::take(Diagnostics errors) {
+    for (Diagnostic& diagnostic : errors)
+        error(diagnostic.place, std::move(diagnostic.message), std::move(diagnostic.remedy));
+}
+
+void TomlReader::only(const toml::table& table, std::string_view what,
+                      const std::vector<std::string>& known) {
+    for (const auto& [key, node] : table) {
+        const std::string name(key.str());
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const toml::source_position at = key.source().begin;
+        error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
+              fmt::format("unknown name '{}' in {}", name, what), suggestion(name, known));
+    }
+}
+
+void TomlReader::wrong_type(const toml::node& node, std::string_view name, std::string_view wanted) {
+    error(node, fmt::format("'{}' must be {}", name, wanted), fmt::format("write {} = ...", name));
+}
+
+std::optional<std::string> TomlReader::string(const toml::table& table, std::string_view name) {
+    const toml::node* node = table.get(name);
+    if (node == nullptr) return std::nullopt;
+    if (const auto* text = node->as_string()) return text->get();
+    wrong_type(*node, name, "a string");
+    return std::nullopt;
+}
+
+std::optional<std::int64_t> TomlReader::integer(const toml::table& table, std::string_view name) {
+    const toml::node* node = table.get(name);
+    if (node == nullptr) return std::nullopt;
+    if (const auto* number = node->as_integer()) return number->get();
+    wrong_type(*node, name, "a whole number");
+    return std::nullopt;
+}
+
+std::optional<bool> TomlReader::boolean(const toml::table& table, std::string_view name) {
+    const toml::node* node = table.get(name);
+    if (node == nullptr) return std::nullopt;
+    if (const auto* value = node->as_boolean()) return value->get();
+    wrong_type(*node, name, "true or false");
+    return std::nullopt;
+}
+
+std::vector<std::string> TomlReader::strings(const toml::table& table, std::string_view name) {
+    const toml::node* node = table.get(name);
+    if (node == nullptr) return {};
+    std::vector<std::string> values;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) {
+        wrong_type(*node, name, "an array of strings");
+        return {};
+    }
+    for (const toml::node& element : *array) {
+        if (const auto* text = element.as_string()) {
+            values.push_back(text->get());
+        } else {
+            wrong_type(element, name, "an array of strings");
+        }
+    }
+    return values;
+}
+
+std::vector<double> TomlReader::numbers(const toml::table& table, std::string_view name) {
+    const toml::node* node = table.get(name);
+    return node == nullptr ? std::vector<double>{} : numbers_of(*node, name);
+}
+
+std::vector<double> TomlReader::numbers_of(const toml::node& node, std::string_view name) {
+    std::vector<double> values;
+    const auto add = [&](const toml::node& element) {
+        const std::optional<double> value = element.value<double>();
+        if (!element.is_number() || !value || !std::isfinite(*value)) {
+            wrong_type(element, name, "finite numbers");
+        } else {
+            values.push_back(*value);
+        }
+    };
+    if (const toml::array* array = node.as_array()) {
+        for (const toml::node& element : *array) add(element);
+    } else {
+        add(node);
+    }
+    return values;
+}
+
+const toml::table* TomlReader::table(const toml::table& parent, std::string_view name) {
+    const toml::node* node = parent.get(name);
+    if (node == nullptr) return nullptr;
+    if (const toml::table* found = node->as_table()) return found;
+    wrong_type(*node, name, "a table");
+    return nullptr;
+}
+
+std::string TomlReader::required_string(const toml::table& table, std::string_view what,
+                                        std::string_view name) {
+    const bool present = table.contains(name);
+    const std::optional<std::string> value = string(table, name);
+    if (!present)
+        error(table, fmt::format("{} lacks '{}'", what, name), fmt::format("add {} = \"...\"", name));
+    return value.value_or("");
+}
+
+}  // namespace gobo

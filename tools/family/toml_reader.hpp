@@ -1,0 +1,62 @@
+// Reading a TOML document strictly: every table says which names it knows, every value what it must be, and
+// each error names its place. Shared by whatever gobo reads from TOML.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include "common/diagnostic.hpp"
+
+namespace gobo {
+
+/// A document being read. The first error is kept; reads after it return defaults, so that callers need not
+/// test each.
+class TomlReader {
+  public:
+    /// Parses `text`; a syntax error is already an error of the reader.
+    TomlReader(std::string_view text, std::string path);
+
+    [[nodiscard]] const toml::table& root() const { return root_; }
+    [[nodiscard]] bool failed() const { return !errors_.empty(); }
+    [[nodiscard]] const Diagnostics& errors() const { return errors_; }
+    [[nodiscard]] Place place_of(const toml::node& node) const;
+
+    /// Refuses names that are not in `known`, suggesting the nearest. `what` names the table in messages.
+    void only(const toml::table& table, std::string_view what, const std::vector<std::string>& known);
+
+    // Each is nothing where the name is absent, and an error where the value has another type.
+    [[nodiscard]] std::optional<std::string> string(const toml::table& table, std::string_view name);
+    [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view name);
+    [[nodiscard]] std::optional<bool> boolean(const toml::table& table, std::string_view name);
+    [[nodiscard]] std::vector<std::string> strings(const toml::table& table, std::string_view name);
+    [[nodiscard]] std::vector<double> numbers(const toml::table& table, std::string_view name);
+    [[nodiscard]] const toml::table* table(const toml::table& parent, std::string_view name);
+
+    /// As string(), and an error where it is absent.
+    [[nodiscard]] std::string required_string(const toml::table& table, std::string_view what,
+                                              std::string_view name);
+    /// Finite numbers of an array node; a single number is an array of one.
+    [[nodiscard]] std::vector<double> numbers_of(const toml::node& node, std::string_view name);
+
+    void error(const Place& place, std::string message, std::string remedy);
+    void error(const toml::node& node, std::string message, std::string remedy) {
+        error(place_of(node), std::move(message), std::move(remedy));
+    }
+    /// Takes over errors found elsewhere in the document, quoting its lines.
+    void take(Diagnostics errors);
+
+  private:
+    void wrong_type(const toml::node& node, std::string_view name, std::string_view wanted);
+
+    std::string_view text_;
+    std::string path_;
+    toml::table root_;
+    Diagnostics errors_;
+};
+
+}  // namespace gobo
