@@ -1,0 +1,243 @@
+#include "compose/compose.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "compose/dialect.hpp"
+#include "compose/piece_library.hpp"
+
+namespace gobo {
+namespace {
+
+/// Includes nested deeper than this are refused: a chain of that length is a mistake.
+constexpr std::size_t deepest_include = 100;
+
+/// A stage being put together: the pieces placed so far and the includes that lead to the one being placed.
+struct Placement {
+    const Key& key;
+    StageKind stage;
+    std::vector<int> placed;
+    std::vector<int> open;                       ///< pieces whose includes are being followed
+    bool wants_varyings = false;                 ///< an `#include <varyings>` was met
+    const std::vector<int>* varyings = nullptr;  ///< to write, in the vertex stage
+};
+
+std::vector<std::string> identifiers_of_interest(const Family& family) {
+    std::vector<std::string> names = {"BLOCK", "VARYING", "ATTRIBUTE", "OUTPUT", "SAMPLER", "DEPTH"};
+    for (const Feature& feature : family.features) {
+        if (!feature.macro.empty()) names.push_back(feature.macro);
+    }
+    for (const Varying& varying : family.varyings) names.push_back(varying.name);
+    return names;
+}
+
+class Composer {
+  public:
+    Composer(const Family& family, const SearchPath& search, Dialect dialect)
+        : family_(family), dialect_(dialect), library_(family, search, identifiers_of_interest(family)) {}
+
+    Diagnostics add(const Key& key) {
+        Result<Placement> fragment = place_template(key, StageKind::fragment, family_.fragment, nullptr);
+        if (!fragment) return fragment.error();
+        const std::vector<int> read = varyings_read(fragment->placed);
+        Result<Placement> vertex = place_template(key, StageKind::vertex, family_.vertex, &read);
+        if (!vertex) return vertex.error();
+        Permutation permutation{key, 0, 0};
+        permutation.vertex = finish(*vertex, read);
+        permutation.fragment = finish(*fragment, read);
+        permutations_.push_back(std::move(permutation));
+        return {};
+    }
+
+    Composition result() && {
+        Composition composition;
+        composition.pieces = library_.pieces();
+        composition.stages = std::move(stages_);
+        composition.permutations = std::move(permutations_);
+        composition.files = library_.files();
+        composition.dialect = dialect_;
+        return composition;
+    }
+
+  private:
+    Result<Placement> place_template(const Key& key, StageKind stage, const std::string& path,
+                                     const std::vector<int>* varyings) {
+        const Result<int> piece = library_.fixed(path, stage, nullptr);
+        if (!piece) return tl::unexpected(piece.error());
+        Placement placement{key, stage, {}, {}, false, varyings};
+        Diagnostics errors = place(placement, *piece, nullptr);
+        if (!errors.empty()) return tl::unexpected(std::move(errors));
+        return placement;
+    }
+
+    /// Places a piece after everything it includes, once.
+    Diagnostics place(Placement& placement, int piece, const Include* from) {
+        if (std::find(placement.placed.begin(), placement.placed.end(), piece) != placement.placed.end())
+            return {};
+        if (std::find(placement.open.begin(), placement.open.end(), piece) != placement.open.end()) {
+            return cycle(placement, piece, *from);
+        }
+        if (placement.open.size() > deepest_include) return too_deep(*from);
+        placement.open.push_back(piece);
+        for (std::size_t i = 0; i < library_.entry(piece).includes.size(); ++i) {
+            const Include include = library_.entry(piece).includes[i];  // a copy: loading moves the entries
+            Diagnostics errors = follow(placement, include);
+            if (!errors.empty()) return errors;
+        }
+        placement.open.pop_back();
+        placement.placed.push_back(piece);
+        return {};
+    }
+
+    Diagnostics follow(Placement& placement, const Include& include) {
+        if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings")) {
+            return follow_varyings(placement, include);
+        }
+        if (!include.of_feature) {
+            const Result<int> piece = library_.fixed(include.target, placement.stage, &include);
+            return piece ? place(placement, *piece, &include) : piece.error();
+        }
+        const Result<std::optional<int>> piece = library_.chosen(include, placement.key, placement.stage);
+        if (!piece) return piece.error();
+        return *piece ? place(placement, **piece, &include) : Diagnostics{};
+    }
+
+    /// `#include <varyings>` in the vertex stage: the pieces that the written varyings need, then their
+    /// declarations.
+    Diagnostics follow_varyings(Placement& placement, const Include& include) {
+        if (placement.varyings == nullptr) return {};  // the fragment stage's stand behind its prologue
+        placement.wants_varyings = true;
+        for (const int index : *placement.varyings) {
+            const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
+            if (varying.piece.empty()) continue;
+            const Include needed{false, varying.piece, varying.place, include.line};
+            const Result<int> piece = library_.fixed(varying.piece, placement.stage, &needed);
+            Diagnostics errors = piece ? place(placement, *piece, &needed) : piece.error();
+            if (!errors.empty()) return errors;
+        }
+        placement.placed.push_back(
+            library_.generated(varyings_piece(*placement.varyings, StageKind::vertex)));
+        return {};
+    }
+
+    Diagnostics cycle(const Placement& placement, int piece, const Include& from) const {
+        std::string path;
+        const auto first = std::find(placement.open.begin(), placement.open.end(), piece);
+        for (auto at = first; at != placement.open.end(); ++at)
+            path += library_.entry(*at).piece.name + " -> ";
+        path += library_.entry(piece).piece.name;
+        Diagnostic diagnostic;
+        diagnostic.place = from.place;
+        diagnostic.quoted_line = from.line;
+        diagnostic.message = "include cycle: " + path;
+        diagnostic.remedy = "move what both need into a piece of its own";
+        return {diagnostic};
+    }
+
+    static Diagnostics too_deep(const Include& from) {
+        Diagnostic diagnostic;
+        diagnostic.place = from.place;
+        diagnostic.quoted_line = from.line;
+        diagnostic.message = fmt::format("includes are nested more than {} deep", deepest_include);
+        diagnostic.remedy = "include the piece from the template";
+        return {diagnostic};
+    }
+
+    [[nodiscard]] bool mentions(const std::vector<int>& placed, std::string_view identifier) const {
+        const auto& names = library_.interest();
+        const auto index =
+            static_cast<std::size_t>(std::find(names.begin(), names.end(), identifier) - names.begin());
+        return index < names.size() && std::any_of(placed.begin(), placed.end(), [&](int piece) {
+                   return library_.entry(piece).mentions[index] != 0;
+               });
+    }
+
+    /// Indices of the varyings that some piece of the fragment stage mentions.
+    [[nodiscard]] std::vector<int> varyings_read(const std::vector<int>& fragment) const {
+        std::vector<int> read;
+        for (std::size_t i = 0; i < family_.varyings.size(); ++i) {
+            if (mentions(fragment, family_.varyings[i].name)) read.push_back(static_cast<int>(i));
+        }
+        return read;
+    }
+
+    /// The declarations of varyings, each on the line of the family file where it stands, so that a
+    /// diagnostic and the module's debug lines name that place; in the vertex stage also the function that
+    /// writes them.
+    [[nodiscard]] Piece varyings_piece(const std::vector<int>& varyings, StageKind stage) const {
+        std::map<int, std::string> lines;
+        std::string writes;
+        for (const int index : varyings) {
+            const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
+            const std::string qualifier = varying.interpolation.empty() ? "" : varying.interpolation + " ";
+            lines[varying.place.line] +=
+                fmt::format("{}VARYING({}) {} {};", qualifier, varying.location, varying.type, varying.name);
+            writes += fmt::format("    {} = {};\n", varying.name, varying.value);
+        }
+        std::string text;
+        int at = 1;
+        for (const auto& [line, declaration] : lines) {
+            text.append(static_cast<std::size_t>(std::max(line - at, 0)), '\n');
+            text += declaration + "\n";
+            at = line + 1;
+        }
+        if (stage == StageKind::vertex) text += fmt::format("void writeVaryings() {{\n{}}}\n", writes);
+        return {fmt::format("{}[varyings]", family_.name), family_.path, std::move(text), false};
+    }
+
+    [[nodiscard]] Piece prologue(const Placement& placement, bool has_varyings) const {
+        const std::string& version = library_.entry(placement.placed.back()).version;
+        const Mentions asks = [&](std::string_view name) {
+            return (has_varyings && name == "VARYING") || mentions(placement.placed, name);
+        };
+        std::string text = dialect_prologue(dialect_, placement.stage, version, asks);
+        for (std::size_t i = 0; i < family_.features.size(); ++i) {
+            const Feature& feature = family_.features[i];
+            const int value = placement.key[i];
+            const bool is_defined =
+                feature.kind == FeatureKind::count || (feature.kind == FeatureKind::define && value != 0);
+            if (is_defined && mentions(placement.placed, feature.macro))
+                text += fmt::format("#define {} {}\n", feature.macro, value);
+        }
+        return {"prologue", "prologue", std::move(text), false};
+    }
+
+    /// Puts the prologue in front and gives the stage its number; equal lists are the same stage.
+    int finish(const Placement& placement, const std::vector<int>& read) {
+        const bool is_fragment = placement.stage == StageKind::fragment;
+        const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
+        Stage stage{placement.stage, {library_.generated(prologue(placement, declares))}};
+        if (is_fragment && declares) {
+            stage.pieces.push_back(library_.generated(varyings_piece(read, StageKind::fragment)));
+        }
+        stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), placement.placed.end());
+        const auto [at, is_new] = numbers_.try_emplace(stage.pieces, static_cast<int>(stages_.size()));
+        if (is_new) stages_.push_back(std::move(stage));
+        return at->second;
+    }
+
+    const Family& family_;
+    Dialect dialect_;
+    PieceLibrary library_;
+    std::vector<Stage> stages_;
+    std::vector<Permutation> permutations_;
+    std::map<std::vector<int>, int> numbers_;
+};
+
+}  // namespace
+
+Result<Composition> compose(const Family& family, const std::vector<Key>& keys, const SearchPath& search,
+                            Dialect dialect) {
+    Composer composer(family, search, dialect);
+    for (const Key& key : keys) {
+        Diagnostics errors = composer.add(key);
+        if (!errors.empty()) return tl::unexpected(std::move(errors));
+    }
+    return std::move(composer).result();
+}
+
+}  // namespace gobo

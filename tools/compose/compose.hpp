@@ -1,0 +1,17 @@
+// From a family and keys to the distinct pieces, the stages as lists of them, and the permutations.
+#pragma once
+
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "compose/search_path.hpp"
+
+namespace gobo {
+
+/// Composes every key (canonical ones, as select() gives them). Each file is read and scanned once.
+/// Errors name the include's file and line: a missing piece (with the folders searched and the nearest file),
+/// an unknown feature, an include cycle (printed whole), a path that leaves the folders searched.
+[[nodiscard]] Result<Composition> compose(const Family& family, const std::vector<Key>& keys,
+                                          const SearchPath& search, Dialect dialect);
+
+}  // namespace gobo

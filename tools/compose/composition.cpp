@@ -1,0 +1,15 @@
+#include "compose/composition.hpp"
+
+namespace gobo {
+
+std::string_view name_of(StageKind kind) {
+    return kind == StageKind::vertex ? "vertex" : "fragment";
+}
+
+std::string source_of(const Composition& composition, const Stage& stage) {
+    std::string source;
+    for (const int piece : stage.pieces) source += composition.pieces[static_cast<std::size_t>(piece)].text;
+    return source;
+}
+
+}  // namespace gobo

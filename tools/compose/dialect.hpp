@@ -1,0 +1,27 @@
+// What differs between the GLSL dialects: the version line and six macros by which pieces spell their
+// interfaces.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compose/composition.hpp"
+
+namespace gobo {
+
+/// "450", "330" or "es300"; Dialect::own is "450", the dialect of templates that state no version.
+[[nodiscard]] std::string_view name_of(Dialect dialect);
+[[nodiscard]] std::optional<Dialect> dialect_of(std::string_view name);
+
+/// Asks whether a stage mentions an identifier.
+using Mentions = std::function<bool(std::string_view)>;
+
+/// The head of a prologue: the version line, then of extensions and macros those that the stage mentions:
+/// BLOCK(binding, name), VARYING(location), ATTRIBUTE(location), OUTPUT(location), SAMPLER(binding, type),
+/// DEPTH(qualifier). `own_version` is the template's own #version, used where the dialect is Dialect::own.
+[[nodiscard]] std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
+                                           const Mentions& mentions);
+
+}  // namespace gobo

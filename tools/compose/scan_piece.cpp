@@ -1,0 +1,191 @@
+#include "compose/scan_piece.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+
+namespace gobo {
+namespace {
+
+/// glslang 12 recurses once per bracket and overflows its stack on hostile input; no honest shader comes
+/// near.
+constexpr int deepest_nesting = 200;
+
+tl::unexpected<Diagnostics> error_at(const Place& place, std::string_view line, std::string message,
+                                     std::string remedy) {
+    Diagnostic diagnostic;
+    diagnostic.place = place;
+    diagnostic.quoted_line = line;
+    diagnostic.message = std::move(message);
+    diagnostic.remedy = std::move(remedy);
+    return fail(std::move(diagnostic));
+}
+
+/// The text with each comment's characters replaced by blanks; lines and columns stay true.
+std::string without_comments(std::string_view text) {
+    std::string bare(text);
+    std::size_t i = 0;
+    const auto blank_until = [&](std::size_t end) {
+        for (; i < end; ++i) {
+            if (bare[i] != '\n') bare[i] = ' ';
+        }
+    };
+    while (i + 1 < bare.size()) {
+        if (bare[i] == '/' && bare[i + 1] == '/') {
+            blank_until(std::min(bare.find('\n', i), bare.size()));
+        } else if (bare[i] == '/' && bare[i + 1] == '*') {
+            const std::size_t end = bare.find("*/", i + 2);
+            blank_until(end == std::string::npos ? bare.size() : end + 2);
+        } else {
+            ++i;
+        }
+    }
+    return bare;
+}
+
+std::set<std::string, std::less<>> identifiers_of(std::string_view bare) {
+    std::set<std::string, std::less<>> found;
+    std::size_t i = 0;
+    while (i < bare.size()) {
+        if (!is_identifier_part(bare[i])) {
+            ++i;
+            continue;
+        }
+        const std::size_t start = i;
+        while (i < bare.size() && is_identifier_part(bare[i])) ++i;
+        if (is_identifier_start(bare[start])) found.emplace(bare.substr(start, i - start));
+    }
+    return found;
+}
+
+/// The word after `#`, and what follows it, where the line is a directive.
+struct Directive {
+    std::string_view name;
+    std::string_view rest;
+};
+
+std::optional<Directive> directive_of(std::string_view bare_line) {
+    std::string_view line = trim(bare_line);
+    if (!line.starts_with('#')) return std::nullopt;
+    line = trim(line.substr(1));
+    const auto end = std::find_if_not(line.begin(), line.end(), is_identifier_part) - line.begin();
+    return Directive{line.substr(0, static_cast<std::size_t>(end)),
+                     trim(line.substr(static_cast<std::size_t>(end)))};
+}
+
+/// Walks over the lines of one file, collecting into `result`.
+class Scanner {
+  public:
+    Scanner(std::string text, const std::string& path) : path_(path), bare_(without_comments(text)) {
+        result_.text = std::move(text);
+    }
+
+    Result<ScannedPiece> run() {
+        std::size_t start = 0;
+        for (int number = 1; start < bare_.size(); ++number) {
+            const std::size_t end = std::min(bare_.find('\n', start), bare_.size());
+            Diagnostics errors = line(number, start, end);
+            if (!errors.empty()) return tl::unexpected(std::move(errors));
+            start = end + 1;
+        }
+        result_.identifiers = identifiers_of(bare_);
+        return std::move(result_);
+    }
+
+  private:
+    Diagnostics line(int number, std::size_t start, std::size_t end) {
+        const std::string_view bare = std::string_view(bare_).substr(start, end - start);
+        const std::string_view shown = line_of(std::string_view(result_.text).substr(start, end - start), 1);
+        const auto directive = directive_of(bare);
+        const auto column = static_cast<int>(std::min(bare.find_first_not_of(" \t"), bare.size())) + 1;
+        const Place place{path_, number, column};
+        if (directive && directive->name == "version") {
+            result_.version = directive->rest;
+            blank(start, end);
+        } else if (directive && directive->name == "include") {
+            if (seen_code_) {
+                return error_at(place, shown, "#include after code",
+                                "includes stand at the top of a piece, after comments only")
+                    .value();
+            }
+            auto include = parse_include(*directive, place, shown);
+            if (!include) return include.error();
+            result_.includes.push_back(std::move(*include));
+            blank(start, end);
+        } else if (!trim(bare).empty() && !(directive && directive->name == "extension")) {
+            seen_code_ = true;
+        }
+        return nesting(bare, place, shown);
+    }
+
+    static Result<Include> parse_include(const Directive& directive, const Place& place,
+                                         std::string_view shown) {
+        const std::string_view rest = directive.rest;
+        const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
+        const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
+        const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
+        if (target.empty() || (angle && !is_identifier(target))) {
+            return error_at(place, shown, "malformed #include",
+                            "write #include <feature> or #include \"folder/piece.glsl\"");
+        }
+        return Include{angle, target, place, std::string(shown)};
+    }
+
+    Diagnostics nesting(std::string_view bare, const Place& place, std::string_view shown) {
+        for (const char c : bare) {
+            if (c == '(' || c == '[' || c == '{') ++depth_;
+            if (c == ')' || c == ']' || c == '}') depth_ = std::max(0, depth_ - 1);
+            if (depth_ <= deepest_nesting) continue;
+            return error_at({place.file, place.line, 0}, shown.substr(0, 80),
+                            fmt::format("brackets are nested more than {} deep", deepest_nesting),
+                            "split the expression or the function")
+                .value();
+        }
+        return {};
+    }
+
+    void blank(std::size_t start, std::size_t end) {
+        for (std::size_t i = start; i < end; ++i) result_.text[i] = bare_[i] = ' ';
+    }
+
+    std::string path_;
+    std::string bare_;
+    ScannedPiece result_;
+    bool seen_code_ = false;
+    int depth_ = 0;
+};
+
+/// Blanks left where a directive stood would only swell the header.
+std::string without_trailing_blanks(const std::string& text) {
+    std::string result;
+    result.reserve(text.size() + 1);
+    std::size_t start = 0;
+    while (start < text.size()) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        const std::size_t last = text.find_last_not_of(" \t\r", end == 0 ? 0 : end - 1);
+        if (last != std::string::npos && last >= start && last < end)
+            result.append(text, start, last + 1 - start);
+        result += '\n';
+        start = end + 1;
+    }
+    return result;
+}
+
+}  // namespace
+
+Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    if (const auto nul = text.find('\0'); nul != std::string::npos) {
+        const auto line = 1 + static_cast<int>(std::count(
+                                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n'));
+        return error_at({path, line, 0}, "", "holds a NUL byte and is no text", "name a GLSL file");
+    }
+    Result<ScannedPiece> piece = Scanner(std::move(text), path).run();
+    if (piece) piece->text = without_trailing_blanks(piece->text);
+    return piece;
+}
+
+}  // namespace gobo

@@ -1,0 +1,34 @@
+// Reads what composing must know of one GLSL file: its includes, its #version and the identifiers it
+// mentions.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/diagnostic.hpp"
+
+namespace gobo {
+
+/// `#include <feature>` or `#include "path"`.
+struct Include {
+    bool of_feature = false;
+    std::string target;
+    Place place;
+    std::string line;  ///< as it stands in the file, for diagnostics
+};
+
+/// One GLSL file as the composer sees it.
+struct ScannedPiece {
+    std::string text;     ///< the file with #include and #version lines blanked, ending in a newline
+    std::string version;  ///< "330 core" of its #version line, or empty
+    std::vector<Include> includes;
+    std::set<std::string, std::less<>> identifiers;  ///< outside comments
+};
+
+/// Scans a file. Errors: an include after code, a malformed include, brackets nested so deeply that parsing
+/// the shader could exhaust the stack, bytes that are no text.
+[[nodiscard]] Result<ScannedPiece> scan_piece(std::string text, const std::string& path);
+
+}  // namespace gobo

@@ -1,0 +1,44 @@
+// Where pieces are found: the -I folders, then the family's folder, then the shipped library.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/file_system.hpp"
+#include "compose/composition.hpp"
+
+namespace gobo {
+
+/// Folders searched in order for an include path.
+class SearchPath {
+  public:
+    /// A folder of `files`. `name_prefix` goes before an include path to make the portable name of what is
+    /// found there; `on_disk` says whether a depfile must name it. `files` must outlive the search path.
+    void add(const FileSystem& files, std::string folder, std::string name_prefix, bool on_disk);
+
+    /// The first piece of that include path ("fog/linear.glsl"), its text as it stands in the file; nothing
+    /// where no folder has it. Fault::file where it cannot be read; Fault::input where a link leads out of
+    /// its folder.
+    [[nodiscard]] Result<std::optional<Piece>> find(const std::string& include_path) const;
+
+    /// The folders as diagnostics name them.
+    [[nodiscard]] std::vector<std::string> folders() const;
+    /// The include paths of all files, sorted, each once.
+    [[nodiscard]] std::vector<std::string> all_include_paths() const;
+
+  private:
+    struct Root {
+        const FileSystem* files;
+        std::string folder;
+        std::string name_prefix;
+        bool on_disk;
+    };
+    std::vector<Root> roots_;
+};
+
+/// Whether a path is relative and stays within its folder once `.` and `..` are followed.
+[[nodiscard]] bool stays_inside(std::string_view include_path);
+
+}  // namespace gobo
