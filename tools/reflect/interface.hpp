@@ -23,7 +23,7 @@ struct Member {
 
 /// A uniform block, laid out by std140 unless it says otherwise.
 struct Block {
-    std::string name;                 ///< of the block, not of its instance
+    std::string name;                 ///< of the block, not of its instance; "Name[1]" in an array of blocks
     int binding = -1;                 ///< -1 where the source states none
     int size = 0;                     ///< bytes, as OpenGL reports UNIFORM_BLOCK_DATA_SIZE
     std::vector<std::string> stages;  ///< "vertex", "fragment", sorted as the pipeline runs
@@ -56,7 +56,8 @@ struct Sampler {
 
 /// A vertex attribute, a fragment output, or a value between the stages.
 struct Variable {
-    std::string name;
+    std::string
+        name;  ///< in a block or struct the path, as OpenGL spells it: "Surface.normal", "ray[1].origin"
     std::string type;
     int location = -1;
     std::vector<int> array;
@@ -67,7 +68,8 @@ struct Variable {
 /// Of one stage, or of a linked program. Each list is sorted by name.
 struct Interface {
     std::vector<std::string> stages;
-    std::vector<Block> blocks;
+    std::vector<Block> blocks;          ///< uniform blocks
+    std::vector<Block> storage_blocks;  ///< shader storage blocks; a last array without a size has extent 0
     std::vector<Uniform> uniforms;
     std::vector<Sampler> samplers;
     std::vector<Variable> inputs;   ///< of the first stage

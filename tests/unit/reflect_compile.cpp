@@ -1,0 +1,50 @@
+#include "reflect_compile.hpp"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+namespace gobo::testing {
+namespace {
+
+GlTypes types_of(glslang::TProgram& program) {
+    GlTypes types;
+    program.buildReflection(EShReflectionAllBlockVariables);
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        const glslang::TObjectReflection& uniform = program.getUniform(i);
+        types[uniform.name] = uniform.glDefineType;
+    }
+    return types;
+}
+
+}  // namespace
+
+Compiled compile(Stage stage, const std::string& source) {
+    glslang::InitializeProcess();
+    const EShLanguage language = stage == Stage::vertex ? EShLangVertex : EShLangFragment;
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules);
+    const char* const text = source.c_str();
+    glslang::TShader shader(language);
+    shader.setStrings(&text, 1);
+    shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientOpenGL, 450);
+    shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+    shader.setAutoMapLocations(true);
+    shader.setAutoMapBindings(true);
+    Compiled compiled;
+    if (!shader.parse(GetDefaultResources(), 450, false, messages)) {
+        compiled.log = shader.getInfoLog();
+        return compiled;
+    }
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages) || !program.mapIO()) {
+        compiled.log = program.getInfoLog();
+        return compiled;
+    }
+    compiled.types = types_of(program);
+    glslang::GlslangToSpv(*program.getIntermediate(language), compiled.spirv);
+    return compiled;
+}
+
+}  // namespace gobo::testing

@@ -1,0 +1,26 @@
+// From SPIR-V to the interface that an application sees.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/diagnostic.hpp"
+#include "reflect/interface.hpp"
+#include "reflect/spirv_module.hpp"
+
+namespace gobo {
+
+/// The interface of one stage: the first entry point of the module. Offsets and strides are those that the
+/// module's decorations state; names are those of the source. gl_PerVertex and other built-in variables are
+/// left out. Members of type `bool` in blocks read "uint" (see restore_bools()). Errors (Fault::internal): a
+/// malformed module, none or an unknown kind of entry point, a block without layout.
+[[nodiscard]] Result<Interface> reflect_stage(const std::vector<std::uint32_t>& words);
+[[nodiscard]] Result<Interface> reflect_stage(const spirv::Module& module);
+
+/// The variable is one of OpenGL's own: gl_Position, gl_PerVertex, gl_DepthRange.
+[[nodiscard]] bool is_built_in(const spirv::Module& module, const spirv::Variable& variable);
+
+/// The name under which OpenGL knows the variable: a block's own rather than its instance's.
+[[nodiscard]] std::string interface_name(const spirv::Module& module, const spirv::Variable& variable);
+
+}  // namespace gobo
