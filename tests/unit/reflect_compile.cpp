@@ -9,7 +9,8 @@ namespace {
 
 GlTypes types_of(glslang::TProgram& program) {
     GlTypes types;
-    program.buildReflection(EShReflectionAllBlockVariables);
+    // Without the second option, blocks that nothing reads are left out.
+    program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO);
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const glslang::TObjectReflection& uniform = program.getUniform(i);
         types[uniform.name] = uniform.glDefineType;

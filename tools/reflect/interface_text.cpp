@@ -10,8 +10,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// Rows of cells with every column as wide as its widest cell, numbers too short to need aligning to the
-/// right.
+/// Rows of cells with every column as wide as its widest cell; columns without any text take no room.
 std::string table(const std::vector<Row>& rows) {
     std::vector<std::size_t> widths;
     for (const Row& row : rows) {
@@ -21,7 +20,9 @@ std::string table(const std::vector<Row>& rows) {
     std::string text;
     for (const Row& row : rows) {
         std::string line = "  ";
-        for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (widths[i] > 0) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+        }
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
     }
