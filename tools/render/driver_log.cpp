@@ -12,6 +12,8 @@ int line_ends(std::string_view text) {
     return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// The piece that holds line `line` (from 1) of string number `string` (from 0) as a driver counts them;
+/// `line` becomes the piece's own. Null where there is none.
 const Piece* piece_at(const std::vector<Piece>& pieces, int string, int& line) {
     if (string > 0) return string < static_cast<int>(pieces.size()) ? &pieces[string] : nullptr;
     for (const Piece& piece : pieces) {
@@ -64,23 +66,6 @@ Diagnostic without_place(std::string_view text) {
 }
 
 }  // namespace
-
-StageText stage_text(const Composition& composition, int stage) {
-    const Stage& source = composition.stages[static_cast<std::size_t>(stage)];
-    StageText text{source.kind, {}};
-    for (const int piece : source.pieces)
-        text.pieces.push_back(composition.pieces[static_cast<std::size_t>(piece)]);
-    return text;
-}
-
-StageText stage_text(StageKind kind, const std::string& name, const std::string& text) {
-    return {kind, {Piece{name, name, text, false}}};
-}
-
-Place place_in_pieces(const std::vector<Piece>& pieces, int string, int line) {
-    const Piece* piece = piece_at(pieces, string, line);
-    return piece == nullptr ? Place{} : Place{piece->path, line, 0};
-}
 
 Diagnostics diagnostics_of_log(std::string_view log, const StageText& stage) {
     Diagnostics diagnostics;
