@@ -1,0 +1,8 @@
+// Diffuse light by Lambert's law (S1).
+//
+// Model:  n.s where it is positive.
+// Source: OpenGL 4 Shading Language Cookbook, ch. 2, Implementing Diffuse Shading.
+// Range:  cosine above 0, result the same.
+
+/// The scattered share of a light that arrives at an angle of the given cosine to the normal.
+float diffuseFactor(float cosine) { return cosine; }

@@ -1,0 +1,14 @@
+// Fog that is thin nearby and closes quickly further on (F3).
+//
+// Model:  f = exp(-(density z)^2).
+// Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.
+// Ranges: density 0 to 1e3, z not negative.
+// Edges:  at any distance finite (H-F2): beyond 16 the exponential is 0 in a float, so the product stops there.
+#include <fog_distance>
+#include "fog/blend.glsl"
+
+/// The radiance that is seen.
+vec3 throughFog(vec3 radiance) {
+    float thickness = min(fog.density * fogDistance(), 16.0);  // H-F2: the square does not overflow
+    return blendFog(radiance, exp(-thickness * thickness));
+}

@@ -1,0 +1,8 @@
+// Fog by the depth in front of the viewer (F4): cheaper, but the fog thins towards the picture's corners.
+//
+// Model:  z = |p.z|.
+// Space:  eye.
+#include "surface/position.glsl"
+
+/// How much fog lies before the surface, as a distance; not negative.
+float fogDistance() { return abs(surfacePosition().z); }

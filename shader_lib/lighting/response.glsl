@@ -1,0 +1,34 @@
+// The surface's response to its lights: scattered (diffuse) and reflected (specular) light, summed apart.
+//
+// Model:  K_d sum f_d(n.s) L + K_s sum f_s L, f_d chosen by `diffuse`, f_s by `specular`, L after attenuation.
+// Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour (S5).
+// Space:  eye. Ranges: n and s unit or zero; result linear and unclamped.
+// Edges:  a light gives exactly nothing unless n.s > 0 (S1, S4, H-S4), nor where s or n is zero (H-N1, H-L1).
+#include <diffuse>
+#include <specular>
+#include "light_sum/plain.glsl"
+#include "material/uniform.glsl"
+#include "surface/normal.glsl"
+
+/// The normal that the lights are weighed against, and the scattered light so far.
+vec3 litNormal;
+LightSum scattered;
+
+/// Prepares what all lights share. To be called before the first light.
+void beginResponse() {
+    litNormal = surfaceNormal();
+    scattered = emptySum();
+    beginHighlights();
+}
+
+/// Adds a light that arrives with radiance `light` from the unit direction `toLight` (zero: from nowhere).
+void addLight(vec3 toLight, vec3 light) {
+    float cosine = dot(litNormal, toLight);
+    if (cosine > 0.0) {  // H-S4; NaN does not pass
+        addTerm(scattered, diffuseFactor(cosine) * light);
+        addHighlight(litNormal, toLight, light);
+    }
+}
+
+/// The radiance that the surface gives back of all lights added.
+vec3 responseRadiance() { return material.diffuse * totalOf(scattered) + highlightRadiance(); }
