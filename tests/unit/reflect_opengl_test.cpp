@@ -1,0 +1,93 @@
+// Reflection against OpenGL itself: the program-interface queries of a program linked on OSMesa.
+#include "reflect_opengl.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reflect/merge.hpp"
+#include "reflect/reflect.hpp"
+#include "reflect_compile.hpp"
+#include "reflect_shaders.hpp"
+
+namespace gobo {
+namespace {
+
+using testing::Stage;
+
+constexpr const char* plain_vertex = "#version 450\nvoid main() { gl_Position = vec4(1.0); }\n";
+
+Interface reflected(Stage stage, const std::string& source) {
+    const testing::Compiled compiled = testing::compile(stage, source);
+    EXPECT_EQ(compiled.log, "");
+    return restore_bools(reflect_stage(compiled.spirv).value_or(Interface{}), compiled.types);
+}
+
+/// What OpenGL says of the program; nothing but failed expectations where it does not link.
+testing::OpenGlFacts linked(const std::string& vertex, const std::string& fragment) {
+    const Result<Context> context = open_context(Backend::osmesa);
+    EXPECT_TRUE(context);
+    if (!context) return {};
+    const Result<Program> program =
+        link_program(*context, {stage_text(StageKind::vertex, "a.vert", vertex),
+                                stage_text(StageKind::fragment, "a.frag", fragment)});
+    EXPECT_TRUE(program) << to_text(program.error().front());
+    return program ? testing::opengl_facts(*context, *program) : testing::OpenGlFacts{};
+}
+
+class BlockLayout : public ::testing::TestWithParam<testing::Shader> {};
+
+TEST_P(BlockLayout, AgreesWithOpenGl) {
+    const std::string source = source_of(GetParam());
+    const Interface interface = reflected(GetParam().stage, source);
+    EXPECT_EQ(testing::opengl_facts(interface).blocks, linked(plain_vertex, source).blocks);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shaders, BlockLayout, ::testing::ValuesIn(testing::block_shaders),
+                         [](const auto& row) { return row.param.name; });
+
+TEST(WholeProgram, AgreesWithOpenGl) {
+    const std::string vertex = R"(#version 450
+layout(std140, binding = 1) uniform Camera { mat4 viewProjection; mat3 normal; bool mirrored; } camera;
+layout(location = 2) uniform float scales[3];
+layout(location = 0) in vec3 position;
+layout(location = 1) in mat3 frame;
+layout(location = 4) in vec2 uvs[2];
+layout(location = 6) in ivec2 ids;
+layout(location = 0) out vec3 direction;
+void main() {
+    vec3 p = frame * position * scales[ids.x] + vec3(uvs[ids.y], 0.0);
+    direction = camera.normal * p;
+    gl_Position = camera.viewProjection * vec4(p, float(gl_VertexID));
+}
+)";
+    const std::string fragment = R"(#version 450
+struct Light { vec3 color; bool on; };
+struct Surface { vec4 tint; float weights[2]; bool glossy; };
+layout(std140, binding = 1) uniform Camera { mat4 viewProjection; mat3 normal; bool mirrored; } camera;
+layout(std140, binding = 7) uniform Lights { int count; Light lights[4]; };
+layout(location = 10) uniform Surface surfaces[2];
+layout(location = 30) uniform bvec2 flags;
+layout(binding = 3) uniform sampler2DArrayShadow shadows;
+layout(binding = 5) uniform sampler2D maps[2];
+layout(location = 0) in vec3 direction;
+layout(location = 0) out vec4 color;
+layout(location = 1) out vec4 more[2];
+layout(location = 3) out uint id;
+void main() {
+    Surface s = surfaces[count];
+    color = s.tint * s.weights[count] + texture(shadows, vec4(direction, 0.5)) + texture(maps[1], direction.xy);
+    if (s.glossy && lights[count].on || all(flags)) color += texture(maps[0], direction.yz);
+    more[0] = color.wzyx;
+    more[1] = color.xxyy;
+    id = 7u;
+}
+)";
+    const Interface interface = merge(reflected(Stage::vertex, vertex), reflected(Stage::fragment, fragment));
+    const testing::OpenGlFacts ours = testing::opengl_facts(interface);
+    const testing::OpenGlFacts theirs = linked(vertex, fragment);
+    EXPECT_EQ(ours.blocks, theirs.blocks);
+    EXPECT_EQ(ours.bindings, theirs.bindings);
+    EXPECT_EQ(ours.others, theirs.others);
+}
+
+}  // namespace
+}  // namespace gobo
