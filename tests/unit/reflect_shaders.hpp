@@ -27,6 +27,7 @@ inline std::string source_of(const Shader& shader) {
            shader.body + "}\n";
 }
 
+/// Each declares uniform blocks that nothing reads.
 inline constexpr Shader block_shaders[] = {
     {"scalars_and_vectors", Stage::fragment,
      "layout(std140, binding = 4) uniform Plain { float a; vec2 b; vec3 c; float d; ivec3 e; uvec4 f; int g; "
@@ -63,18 +64,18 @@ inline constexpr Shader block_shaders[] = {
      "struct Item { float a; vec2 b; float c[2]; };\n"
      "layout(std140) uniform Loose { Item item; float end; };\n"
      "layout(std430, binding = 3) buffer Tight { Item items[2]; float last; };"},
-    {"storage_without_size", Stage::fragment,
-     "layout(std430, binding = 5) buffer Stream { uint n; vec4 rows[]; };"},
     {"doubles", Stage::fragment,
      "uniform Doubles { double a; dvec2 b; dvec3 c; dvec4 d[2]; dmat2x3 e; float f; };"},
     {"explicit_offsets", Stage::fragment,
      "layout(std140) uniform Explicit { layout(offset = 32) vec4 a; layout(offset = 96, align = 32) float b; "
      "};"},
-    {"array_of_blocks", Stage::fragment,
-     "layout(binding = 6) uniform Material { vec4 color; } materials[3];"},
 };
 
 inline constexpr Shader other_shaders[] = {
+    {"storage_without_size", Stage::fragment,
+     "layout(std430, binding = 5) buffer Stream { uint n; vec4 rows[]; };"},
+    {"array_of_blocks", Stage::fragment,
+     "layout(binding = 6) uniform Material { vec4 color; } materials[3];"},
     {"samplers", Stage::fragment,
      "layout(binding = 0) uniform sampler2D a; uniform sampler1D b; uniform sampler3D c; uniform samplerCube "
      "d;\n"
