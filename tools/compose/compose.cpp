@@ -41,12 +41,13 @@ class Composer {
         : family_(family), dialect_(dialect), library_(family, search, identifiers_of_interest(family)) {}
 
     Diagnostics add(const Key& key) {
+        Permutation permutation;
+        permutation.key = key;
         Result<Placement> fragment = place_template(key, StageKind::fragment, family_.fragment, nullptr);
         if (!fragment) return fragment.error();
         const std::vector<int> read = varyings_read(fragment->placed);
         Result<Placement> vertex = place_template(key, StageKind::vertex, family_.vertex, &read);
         if (!vertex) return vertex.error();
-        Permutation permutation{key, 0, 0};
         permutation.vertex = finish(*vertex, read);
         permutation.fragment = finish(*fragment, read);
         permutations_.push_back(std::move(permutation));
@@ -59,6 +60,7 @@ class Composer {
         composition.stages = std::move(stages_);
         composition.permutations = std::move(permutations_);
         composition.files = library_.files();
+        composition.stated_bindings = library_.stated_bindings();
         composition.dialect = dialect_;
         return composition;
     }
@@ -66,9 +68,10 @@ class Composer {
   private:
     Result<Placement> place_template(const Key& key, StageKind stage, const std::string& path,
                                      const std::vector<int>* varyings) {
+        Placement placement{key, stage, {}, {}, false, varyings};
+        if (path.empty()) return placement;
         const Result<int> piece = library_.fixed(path, stage, nullptr);
         if (!piece) return tl::unexpected(piece.error());
-        Placement placement{key, stage, {}, {}, false, varyings};
         Diagnostics errors = place(placement, *piece, nullptr);
         if (!errors.empty()) return tl::unexpected(std::move(errors));
         return placement;
@@ -208,6 +211,7 @@ class Composer {
 
     /// Puts the prologue in front and gives the stage its number; equal lists are the same stage.
     int finish(const Placement& placement, const std::vector<int>& read) {
+        if (placement.placed.empty()) return -1;
         const bool is_fragment = placement.stage == StageKind::fragment;
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
         Stage stage{placement.stage, {library_.generated(prologue(placement, declares))}};

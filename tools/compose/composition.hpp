@@ -1,6 +1,7 @@
 // What composing gives: the distinct pieces, the distinct stages as lists of pieces, and the permutations.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,9 @@ struct Composition {
     std::vector<Stage> stages;
     std::vector<Permutation> permutations;  ///< in the order of the keys asked for
     std::vector<std::string> files;         ///< every file on disk that was read, sorted: for the depfile
+    /// Bindings that pieces state by BLOCK(binding, name) and SAMPLER(binding, type) name, by name: some
+    /// dialects' text cannot carry them.
+    std::map<std::string, int> stated_bindings;
     Dialect dialect = Dialect::own;
 };
 

@@ -41,6 +41,7 @@ Result<std::optional<int>> PieceLibrary::load(const std::string& path) {
         entry.mentions.push_back(scanned->identifiers.contains(identifier) ? 1 : 0);
     }
     entries_.push_back(std::move(entry));
+    stated_bindings_.merge(scanned->bindings);
     return by_path_[path] = static_cast<int>(entries_.size()) - 1;
 }
 

@@ -38,6 +38,7 @@ class PieceLibrary {
     [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
     [[nodiscard]] std::vector<Piece> pieces() const;
     [[nodiscard]] std::vector<std::string> files() const;
+    [[nodiscard]] const std::map<std::string, int>& stated_bindings() const { return stated_bindings_; }
     [[nodiscard]] const std::vector<std::string>& interest() const { return interest_; }
 
   private:
@@ -51,6 +52,7 @@ class PieceLibrary {
     const SearchPath& search_;
     std::vector<std::string> interest_;
     std::vector<Entry> entries_;
+    std::map<std::string, int> stated_bindings_;
     std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
     std::map<std::string, int, std::less<>> by_generated_text_;
     std::map<std::tuple<int, int, StageKind>, std::optional<int>> by_choice_;  ///< feature, value, stage

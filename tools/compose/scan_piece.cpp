@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -61,6 +62,19 @@ std::set<std::string, std::less<>> identifiers_of(std::string_view bare) {
     return found;
 }
 
+/// The bindings stated by BLOCK(3, Fog) and SAMPLER(2, sampler2D) shadowMap.
+std::map<std::string, int> bindings_of(const std::string& bare) {
+    static const std::regex block(R"(\bBLOCK\s*\(\s*(\d{1,6})\s*,\s*(\w+)\s*\))");
+    static const std::regex sampler(R"(\bSAMPLER\s*\(\s*(\d{1,6})\s*,\s*\w+\s*\)\s*(\w+))");
+    std::map<std::string, int> bindings;
+    for (const std::regex* pattern : {&block, &sampler}) {
+        for (std::sregex_iterator at(bare.begin(), bare.end(), *pattern), end; at != end; ++at) {
+            bindings[(*at)[2]] = std::stoi((*at)[1]);
+        }
+    }
+    return bindings;
+}
+
 /// The word after `#`, and what follows it, where the line is a directive.
 struct Directive {
     std::string_view name;
@@ -92,6 +106,9 @@ class Scanner {
             start = end + 1;
         }
         result_.identifiers = identifiers_of(bare_);
+        if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos) {
+            result_.bindings = bindings_of(bare_);
+        }
         return std::move(result_);
     }
 

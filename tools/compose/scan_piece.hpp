@@ -2,6 +2,7 @@
 // mentions.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ struct ScannedPiece {
     std::string version;  ///< "330 core" of its #version line, or empty
     std::vector<Include> includes;
     std::set<std::string, std::less<>> identifiers;  ///< outside comments
+    std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 
 /// Scans a file. Errors: an include after code, a malformed include, brackets nested so deeply that parsing

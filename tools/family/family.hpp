@@ -101,8 +101,8 @@ struct Family {
     std::string name;
     std::string path;    ///< of the family file, as given
     std::string folder;  ///< where its templates are searched after the -I folders
-    std::string vertex;  ///< template, by its include path
-    std::string fragment;
+    std::string vertex;    ///< template, by its include path; empty where loose files give no vertex stage
+    std::string fragment;  ///< likewise
     std::vector<Feature> features;  ///< sorted by name
     std::vector<Rule> rules;
     std::vector<Varying> varyings;  ///< sorted by location

@@ -15,14 +15,14 @@ using SpirvModule = std::vector<std::uint32_t>;
 /// One distinct stage after glslang.
 struct ValidatedStage {
     SpirvModule spirv;    ///< empty unless asked for
-    Interface interface;  ///< of this stage alone
+    Interface interface;  ///< of this stage alone; a location or binding that the source does not state is -1
 };
 
 /// The stages in the order of Composition::stages.
 struct Validated {
     std::vector<ValidatedStage> stages;
     Diagnostics
-        diagnostics;  ///< errors and warnings, grouped over permutations; stages of failed ones are empty
+        diagnostics;  ///< errors and warnings, grouped over permutations; the stages of failed ones are empty
 };
 
 }  // namespace gobo

@@ -1,0 +1,196 @@
+#include "validate/glslang_stage.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include "reflect/reflect.hpp"
+#include "reflect/restore_bools.hpp"
+#include "validate/glsl_version.hpp"
+#include "validate/glslang_log.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr auto spirv_rules = static_cast<EShMessages>(EShMsgSpvRules);
+
+EShLanguage language_of(StageKind kind) {
+    return kind == StageKind::vertex ? EShLangVertex : EShLangFragment;
+}
+
+bool has_errors(const Diagnostics& diagnostics) {
+    return exit_status(diagnostics) != 0;
+}
+
+/// Bindings that the source states, by name; unstated ones are -1. Asked of glslang before it assigns the
+/// others.
+std::map<std::string, int> stated_bindings(const glslang::TProgram& program) {
+    std::map<std::string, int> bindings;
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
+        bindings[program.getUniformBlock(i).name] = program.getUniformBlock(i).getBinding();
+    }
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        const glslang::TObjectReflection& uniform = program.getUniform(i);
+        const std::string name = uniform.name.substr(0, uniform.name.find('['));
+        if (uniform.index < 0) bindings[name] = uniform.getBinding();
+    }
+    return bindings;
+}
+
+GlTypes gl_types(const glslang::TProgram& program) {
+    GlTypes types;
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        types[program.getUniform(i).name] = program.getUniform(i).glDefineType;
+    }
+    return types;
+}
+
+template <class Bound>
+void forget_assigned(std::vector<Bound>& list, const std::map<std::string, int>& stated) {
+    for (Bound& bound : list) {
+        if (const auto found = stated.find(bound.name); found != stated.end()) bound.binding = found->second;
+    }
+}
+
+bool lacks_locations(const Interface& interface) {
+    const auto lacks = [](const auto& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [](const auto& variable) { return variable.location < 0; });
+    };
+    return lacks(interface.inputs) || lacks(interface.outputs) || lacks(interface.uniforms);
+}
+
+SpirvModule spirv_of(const glslang::TIntermediate& intermediate, bool debug_information) {
+    glslang::SpvOptions options;
+    options.disableOptimizer = true;
+    options.generateDebugInfo = debug_information;
+    SpirvModule module;
+    spv::SpvBuildLogger logger;
+    glslang::GlslangToSpv(intermediate, module, &logger, &options);
+    return module;
+}
+
+tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
+    Diagnostic diagnostic;
+    diagnostic.fault = Fault::internal;
+    diagnostic.message = fmt::format("glslang refuses a stage that it parsed: {}", log);
+    return fail(std::move(diagnostic));
+}
+
+}  // namespace
+
+GlslangProcess::GlslangProcess() {
+    glslang::InitializeProcess();
+}
+
+GlslangProcess::~GlslangProcess() {
+    glslang::FinalizeProcess();
+}
+
+/// glslang's shader with the strings it points into.
+struct GlslangStage::Shader {
+    explicit Shader(EShLanguage language) : shader(language) {}
+
+    std::string prologue;
+    std::vector<const char*> texts;
+    std::vector<int> lengths;
+    std::vector<const char*> names;
+    glslang::TShader shader;
+};
+
+GlslangStage::GlslangStage(StageKind kind, std::vector<const Piece*> pieces)
+    : kind_(kind), pieces_(std::move(pieces)) {}
+
+GlslangStage::~GlslangStage() = default;
+
+std::unique_ptr<GlslangStage::Shader> GlslangStage::parse_as(const std::string& prologue, bool for_spirv,
+                                                             bool map_bindings) {
+    auto parsed = std::make_unique<Shader>(language_of(kind_));
+    parsed->prologue = prologue;
+    for (const Piece* piece : pieces_) {
+        const std::string& text = piece == pieces_.front() ? parsed->prologue : piece->text;
+        parsed->texts.push_back(text.data());
+        parsed->lengths.push_back(static_cast<int>(text.size()));
+        parsed->names.push_back(piece->path.c_str());
+    }
+    glslang::TShader& shader = parsed->shader;
+    shader.setStringsWithLengthsAndNames(parsed->texts.data(), parsed->lengths.data(), parsed->names.data(),
+                                         static_cast<int>(parsed->texts.size()));
+    if (for_spirv) {
+        shader.setEnvInput(glslang::EShSourceGlsl, language_of(kind_), glslang::EShClientOpenGL, 100);
+        shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+        shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+    }
+    shader.setAutoMapLocations(true);
+    shader.setAutoMapBindings(map_bindings);
+    bindings_mapped_ = map_bindings;
+    const bool is_fine =
+        shader.parse(GetDefaultResources(), 110, false, for_spirv ? spirv_rules : EShMsgDefault);
+    diagnostics_ = diagnostics_of_log(shader.getInfoLog(), pieces_, {pieces_.back()->path, 0, 0});
+    if (!is_fine && !has_errors(diagnostics_)) {
+        diagnostics_ = fail(Fault::internal, "glslang refuses a stage without saying why").value();
+    }
+    return parsed;
+}
+
+bool GlslangStage::parse() {
+    const std::string& prologue = pieces_.front()->text;
+    const GlslVersion version = version_of(prologue);
+    if (!makes_spirv(version)) {
+        parse_as(prologue, false, false);
+        if (has_errors(diagnostics_)) return false;
+        shader_ = parse_as(raised_for_spirv(prologue), true, true);
+        return !has_errors(diagnostics_);
+    }
+    const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
+    shader_ = parse_as(prologue, true, !can_state_bindings);
+    const bool wants_bindings =
+        std::any_of(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& diagnostic) {
+            return diagnostic.message.find("layout(binding=X)") != std::string::npos;
+        });
+    if (wants_bindings) shader_ = parse_as(prologue, true, true);
+    return !has_errors(diagnostics_);
+}
+
+Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {
+    glslang::TProgram program;
+    program.addShader(&vertex.shader_->shader);
+    program.addShader(&fragment.shader_->shader);
+    const bool is_fine = program.link(spirv_rules);
+    Diagnostics found = diagnostics_of_log(program.getInfoLog(), {}, {fragment.pieces_.back()->path, 0, 0});
+    if (!is_fine && found.empty())
+        return fail(Fault::internal, "glslang refuses to link without saying why").value();
+    return found;
+}
+
+Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
+    glslang::TProgram program;
+    program.addShader(&shader_->shader);
+    if (!program.link(spirv_rules)) return glslang_fault(program.getInfoLog());
+    const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
+    ValidatedStage stage;
+    stage.spirv = spirv_of(intermediate, debug_information);
+    Result<Interface> interface = reflect_stage(stage.spirv);
+    if (!interface) return tl::unexpected(interface.error());
+    if (bindings_mapped_ || may_hold_bools(*interface)) {
+        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSeparateBuffers);
+        *interface = restore_bools(std::move(*interface), gl_types(program));
+    }
+    if (bindings_mapped_) {
+        const std::map<std::string, int> stated = stated_bindings(program);
+        forget_assigned(interface->blocks, stated);
+        forget_assigned(interface->samplers, stated);
+    }
+    if (bindings_mapped_ || lacks_locations(*interface)) {
+        if (!program.mapIO()) return glslang_fault(program.getInfoLog());
+        stage.spirv = spirv_of(intermediate, debug_information);
+    }
+    stage.interface = std::move(*interface);
+    return stage;
+}
+
+}  // namespace gobo
