@@ -27,7 +27,8 @@ struct Placement {
 };
 
 std::vector<std::string> identifiers_of_interest(const Family& family) {
-    std::vector<std::string> names = {"BLOCK", "VARYING", "ATTRIBUTE", "OUTPUT", "SAMPLER", "DEPTH"};
+    std::vector<std::string> names = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
+                                      "SAMPLER", "DEPTH",   "early_fragment_tests"};
     for (const Feature& feature : family.features) {
         if (!feature.macro.empty()) names.push_back(feature.macro);
     }

@@ -34,17 +34,12 @@ constexpr std::array macros = {
           "layout(qualifier_)"},
 };
 
-/// Depth layouts are core in 4.2; before, they come with extensions.
-std::string_view depth_extensions(Dialect dialect) {
-    switch (dialect) {
-        case Dialect::glsl330:
-            return "#extension GL_ARB_conservative_depth : enable\n"
-                   "#extension GL_ARB_shader_image_load_store : enable\n";
-        case Dialect::es300:
-            return "#extension GL_EXT_conservative_depth : enable\n";
-        default:
-            return "";
-    }
+/// What the DEPTH macro's qualifiers need before 4.2, where they became core.
+std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
+    if (dialect == Dialect::glsl450 || !mentions("DEPTH")) return "";
+    if (mentions("early_fragment_tests")) return "#extension GL_ARB_shader_image_load_store : enable\n";
+    return dialect == Dialect::es300 ? "#extension GL_EXT_conservative_depth : enable\n"
+                                     : "#extension GL_ARB_conservative_depth : enable\n";
 }
 
 std::string_view text_for(const Macro& macro, Dialect dialect) {
@@ -91,7 +86,7 @@ std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view 
                              const Mentions& mentions) {
     std::string text = version_line(dialect, own_version);
     const Dialect spelling = spelling_of(dialect, own_version);
-    if (mentions("DEPTH")) text += depth_extensions(spelling);
+    text += depth_extension(spelling, mentions);
     if (dialect == Dialect::es300) text += "precision highp float;\nprecision highp int;\n";
     for (const Macro& macro : macros) {
         const bool other_stage = (macro.when == When::in_vertex && stage != StageKind::vertex) ||

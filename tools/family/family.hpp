@@ -99,8 +99,8 @@ struct DefaultSelection {
 /// A set of shaders that share templates.
 struct Family {
     std::string name;
-    std::string path;    ///< of the family file, as given
-    std::string folder;  ///< where its templates are searched after the -I folders
+    std::string path;      ///< of the family file, as given
+    std::string folder;    ///< where its templates are searched after the -I folders
     std::string vertex;    ///< template, by its include path; empty where loose files give no vertex stage
     std::string fragment;  ///< likewise
     std::vector<Feature> features;  ///< sorted by name

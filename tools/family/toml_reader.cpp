@@ -10,15 +10,13 @@
 namespace gobo {
 
 TomlReader::TomlReader(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {
-    toml::parse_result parsed = toml::parse(text, path_);
-    if (parsed) {
-        root_ = std::move(parsed).table();
-        return;
+    try {  // the packaged library reports by exceptions only; they end here
+        root_ = toml::parse(text, path_);
+    } catch (const toml::parse_error& failure) {
+        const toml::source_position at = failure.source().begin;
+        error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
+              fmt::format("not valid TOML: {}", failure.description()), "see https://toml.io for the syntax");
     }
-    const toml::source_position at = parsed.error().source().begin;
-    error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
-          fmt::format("not valid TOML: {}", parsed.error().description()),
-          "see https://toml.io for the syntax");
 }
 
 Place TomlReader::place_of(const toml::node& node) const {

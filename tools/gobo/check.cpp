@@ -1,0 +1,51 @@
+// gobo check: composes and validates a selection; says nothing when all is well.
+#include <fmt/format.h>
+
+#include "gobo/commands.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+struct CheckOptions {
+    CommonOptions common;
+    SelectionOptions selection;
+    std::string family;
+    std::string dialect;
+    bool spirv_val = false;
+};
+
+Outcome run(const CheckOptions& options, const World& world) {
+    const Result<Dialect> dialect = read_dialect(options.dialect);
+    if (!dialect) return failed(dialect.error());
+    Result<LoadedFamily> family = load_family(world, options.family, options.common);
+    if (!family) return failed(family.error());
+    const Result<Composition> composition = load_composition(world, *family, options.selection, *dialect);
+    if (!composition) return failed(composition.error());
+    ValidateOptions validate_options;
+    validate_options.jobs = options.common.jobs;
+    validate_options.spirv_val = options.spirv_val;
+    return {{}, validate(family->family, *composition, validate_options).diagnostics, {}};
+}
+
+}  // namespace
+
+Command check_command(CLI::App& gobo) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* app =
+        gobo.add_subcommand("check", "Compose and validate a selection; prints nothing when all is well");
+    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
+    add_selection_options(*app, options->selection);
+    add_dialect_option(*app, options->dialect);
+    app->add_flag("--spirv-val", options->spirv_val, "Ask SPIRV-Tools' validator as well");
+    add_common_options(*app, options->common);
+    app->footer(
+        "Examples:\n"
+        "  gobo check lit                              the family's default set\n"
+        "  gobo check lit --cover 3 --spirv-val\n"
+        "  gobo check lit --all --where 'point <= 1 && spot <= 1 && directional <= 1' --dialect es300\n"
+        "  gobo check game.toml -I my_pieces");
+    return {app, [options](const World& world) { return run(*options, world); }};
+}
+
+}  // namespace gobo
