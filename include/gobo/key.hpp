@@ -1,0 +1,112 @@
+// Keys of a generated header as text: for messages, logs and the KEYS of a build.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+namespace gobo::runtime {
+
+enum class FeatureKind : std::uint8_t { choice, count, define };
+
+/// One axis of a family. The names of its values stand in Tables::value_names from `first_name` on; a count
+/// has none, its values are their numbers.
+struct Feature {
+    std::string_view name;
+    FeatureKind kind = FeatureKind::choice;
+    int value_count = 0;
+    int first_name = 0;
+};
+
+/// A key as value numbers, in the order of Tables::features.
+template <class Tables>
+using Values = std::array<int, Tables::features.size()>;
+
+/// The text of a feature's value; of a value that the feature does not have, its number.
+template <class Tables>
+[[nodiscard]] std::string value_text(const Feature& feature, int value) {
+    const bool named = feature.kind != FeatureKind::count && value >= 0 && value < feature.value_count;
+    if (!named) return std::to_string(value);
+    return std::string(Tables::value_names[static_cast<std::size_t>(feature.first_name + value)]);
+}
+
+/// "fog=linear point=3": sorted by feature, defaults left out; "default" where all are.
+template <class Tables>
+[[nodiscard]] std::string key_text(const Values<Tables>& values) {
+    std::string text;
+    for (std::size_t index = 0; index < values.size(); ++index) {
+        if (values[index] == 0) continue;
+        if (!text.empty()) text += ' ';
+        text += Tables::features[index].name;
+        text += '=';
+        text += value_text<Tables>(Tables::features[index], values[index]);
+    }
+    return text.empty() ? "default" : text;
+}
+
+/// The names of the features in which two keys differ, with ", " between them.
+template <class Tables>
+[[nodiscard]] std::string differing_features(const Values<Tables>& left, const Values<Tables>& right) {
+    std::string text;
+    for (std::size_t index = 0; index < left.size(); ++index) {
+        if (left[index] == right[index]) continue;
+        if (!text.empty()) text += ", ";
+        text += Tables::features[index].name;
+    }
+    return text;
+}
+
+/// How far two keys are apart: first the number of features that differ, then by how much their counts do.
+template <class Tables>
+[[nodiscard]] std::uint64_t distance(const Values<Tables>& left, const Values<Tables>& right) {
+    std::uint64_t features = 0;
+    std::uint64_t counts = 0;
+    for (std::size_t index = 0; index < left.size(); ++index) {
+        if (left[index] == right[index]) continue;
+        ++features;
+        if (Tables::features[index].kind != FeatureKind::count) continue;
+        counts += static_cast<std::uint64_t>(std::abs(left[index] - right[index]));
+    }
+    return (features << 32U) + counts;
+}
+
+/// Which feature of a key holds a value that the family does not have; empty where none does.
+template <class Tables>
+[[nodiscard]] std::string describe_out_of_range(const Values<Tables>& values) {
+    for (std::size_t index = 0; index < values.size(); ++index) {
+        const Feature& feature = Tables::features[index];
+        if (values[index] >= 0 && values[index] < feature.value_count) continue;
+        return std::string(feature.name) + "=" + std::to_string(values[index]) + " is out of range: 0 to " +
+               std::to_string(feature.value_count - 1);
+    }
+    return {};
+}
+
+/// Why a canonical key within range that was not built is missing, the nearest built key (fewest differing
+/// features, then nearest counts, then first in order), and what to add to the build. `values_at(i)` gives
+/// the values of the built key number i, for i below `built`.
+template <class Tables, class ValuesAt>
+[[nodiscard]] std::string describe_not_built(const Values<Tables>& wanted, std::size_t built,
+                                             ValuesAt values_at) {
+    const std::string key = key_text<Tables>(wanted);
+    std::string text = key + " was not built";
+    Values<Tables> nearest{};
+    std::uint64_t least = ~std::uint64_t{0};
+    for (std::size_t index = 0; index < built; ++index) {
+        const Values<Tables> values = values_at(index);
+        const std::uint64_t apart = distance<Tables>(values, wanted);
+        if (apart >= least) continue;
+        least = apart;
+        nearest = values;
+    }
+    if (built > 0) {
+        text += "; the nearest that was: " + key_text<Tables>(nearest) + " (differs in " +
+                differing_features<Tables>(nearest, wanted) + ")";
+    }
+    return text + "; to build it, add KEYS \"" + key + "\"";
+}
+
+}  // namespace gobo::runtime

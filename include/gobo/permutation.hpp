@@ -1,0 +1,116 @@
+// What a generated header is made of: pieces of text, stages as lists of pieces, packed keys and their
+// search. Plain data and constant functions; no OpenGL.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace gobo::runtime {
+
+/// One text of a stage. A long file is cut into several pieces, so that no literal exceeds what compilers
+/// take.
+struct Piece {
+    std::string_view name;  ///< the file: "shader_lib/fog/linear.glsl"
+    std::string_view text;
+    int first_line = 1;  ///< the line of the file at which `text` starts
+};
+
+/// A stage of a permutation: an index into the tables of its generated header.
+template <class Tables>
+struct Stage {
+    std::uint32_t number = 0;
+
+    /// How many texts for_each_piece() passes.
+    [[nodiscard]] constexpr int piece_count() const {
+        return static_cast<int>(Tables::stage_begins[number + 1] - Tables::stage_begins[number]);
+    }
+    /// The piece at a position from 0 to piece_count() - 1.
+    [[nodiscard]] constexpr const Piece& piece(int position) const {
+        const std::size_t begin = Tables::stage_begins[number];
+        return Tables::pieces[Tables::piece_lists[begin + static_cast<std::size_t>(position)]];
+    }
+    /// Calls `callback(std::string_view)` with each text in order. One after the other they are the source;
+    /// glShaderSource takes them as they are, with their lengths (they may lack a terminating zero).
+    template <class Callback>
+    constexpr void for_each_piece(Callback&& callback) const {
+        for (int position = 0; position < piece_count(); ++position) callback(piece(position).text);
+    }
+    /// The whole source as one text.
+    [[nodiscard]] std::string source() const {
+        std::string whole;
+        for_each_piece([&whole](std::string_view text) { whole += text; });
+        return whole;
+    }
+    friend constexpr bool operator==(const Stage& left, const Stage& right) {
+        return left.number == right.number;
+    }
+    friend constexpr bool operator!=(const Stage& left, const Stage& right) { return !(left == right); }
+};
+
+/// A packed key of a family whose features need more than 64 bits. The first word weighs most.
+template <std::size_t Words>
+struct WideKey {
+    std::array<std::uint64_t, Words> words;
+
+    friend constexpr bool operator==(const WideKey& left, const WideKey& right) {
+        std::uint64_t difference = 0;
+        for (std::size_t word = 0; word < Words; ++word) difference |= left.words[word] ^ right.words[word];
+        return difference == 0;
+    }
+    friend constexpr bool operator<(const WideKey& left, const WideKey& right) {
+        unsigned less = 0;
+        for (std::size_t word = Words; word-- > 0;) {
+            const unsigned below = left.words[word] < right.words[word] ? 1U : 0U;
+            const unsigned same = left.words[word] == right.words[word] ? 1U : 0U;
+            less = below | (same & less);
+        }
+        return less != 0;
+    }
+};
+
+/// The first position in sorted `keys` whose key is not below `wanted`; Count where all are.
+/// The number of steps depends on Count alone and each step is an addition, not a jump: nothing to
+/// mispredict.
+template <class Packed, std::size_t Count>
+[[nodiscard]] constexpr std::size_t lower_bound(const std::array<Packed, Count>& keys, const Packed& wanted) {
+    std::size_t first = 0;
+    for (std::size_t length = Count; length > 0; length /= 2) {
+        const std::size_t half = length / 2;
+        first += static_cast<std::size_t>(keys[first + half] < wanted) * (length - half);
+    }
+    return first;
+}
+
+/// The binding point of a uniform block, for dialects that cannot state it in the shader.
+struct BlockBinding {
+    std::string_view name;
+    int binding = 0;
+};
+
+/// The texture unit of a sampler; an array of samplers takes `count` units from `binding` on.
+struct SamplerBinding {
+    std::string_view name;
+    std::string_view type;  ///< the GLSL type
+    int binding = 0;
+    int count = 1;
+};
+
+/// A vertex attribute or a fragment output.
+struct VariableLocation {
+    std::string_view name;
+    std::string_view type;  ///< the GLSL type
+    int location = -1;      ///< -1 where the driver chooses
+};
+
+/// A uniform outside any block.
+struct UniformLocation {
+    std::string_view name;
+    std::string_view type;  ///< the GLSL type
+    int location = -1;      ///< -1 where the driver chooses: ask glGetUniformLocation
+    int count = 1;          ///< elements of an array
+};
+
+}  // namespace gobo::runtime

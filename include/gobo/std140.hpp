@@ -1,0 +1,123 @@
+// Members of uniform blocks as std140 lays them out: GLM types, and padded ones where GLM's have no padding.
+// Each is plain data that memcpy takes to a buffer, and converts from and to GLM's own type.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/mat2x2.hpp>
+#include <glm/mat2x3.hpp>
+#include <glm/mat2x4.hpp>
+#include <glm/mat3x2.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat3x4.hpp>
+#include <glm/mat4x2.hpp>
+#include <glm/mat4x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace gobo::std140 {
+
+/// glm::vec2 and so on in GLM's packed layout: the very same types, unless the application defines
+/// GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, which would change their sizes.
+template <int Length, class Number>
+using Vector = glm::vec<Length, Number, glm::packed_highp>;
+template <int Columns, int Rows, class Number>
+using PlainMatrix = glm::mat<Columns, Rows, Number, glm::packed_highp>;
+
+using vec2 = Vector<2, float>;
+using vec3 = Vector<3, float>;
+using vec4 = Vector<4, float>;
+using ivec2 = Vector<2, std::int32_t>;
+using ivec3 = Vector<3, std::int32_t>;
+using ivec4 = Vector<4, std::int32_t>;
+using uvec2 = Vector<2, std::uint32_t>;
+using uvec3 = Vector<3, std::uint32_t>;
+using uvec4 = Vector<4, std::uint32_t>;
+using dvec2 = Vector<2, double>;
+using dvec3 = Vector<3, double>;
+using dvec4 = Vector<4, double>;
+using mat4 = PlainMatrix<4, 4, float>;
+
+/// A value and the padding up to `Bytes`: an element of an array, whose stride is 16 at least.
+template <class Value, std::size_t Bytes>
+struct Padded {
+    Value value;
+    std::byte padding[Bytes - sizeof(Value)];
+
+    Padded() = default;
+    // Implicit, so that elements are assigned as if they were not padded.
+    constexpr Padded(const Value& given) : value(given), padding{} {}
+    constexpr operator const Value&() const { return value; }
+    constexpr operator Value&() { return value; }
+};
+
+/// GLSL's bool: 32 bits, 0 or 1.
+struct Bool {
+    std::uint32_t value;
+
+    Bool() = default;
+    constexpr Bool(bool given) : value(given ? 1U : 0U) {}
+    constexpr operator bool() const { return value != 0; }
+};
+
+/// GLSL's bvec2, bvec3 and bvec4.
+template <int Length>
+struct BoolVector {
+    Bool components[Length];
+
+    constexpr Bool& operator[](int index) { return components[index]; }
+    constexpr const Bool& operator[](int index) const { return components[index]; }
+};
+using bvec2 = BoolVector<2>;
+using bvec3 = BoolVector<3>;
+using bvec4 = BoolVector<4>;
+
+/// A column-major matrix whose columns are `Stride` bytes apart: in std140 each column is padded to 16.
+template <int Columns, int Rows, class Number, std::size_t Stride>
+struct Matrix {
+    static_assert(Stride > Rows * sizeof(Number), "a matrix without padding is a PlainMatrix");
+    using Column = Padded<Vector<Rows, Number>, Stride>;
+    Column columns[Columns];
+
+    Matrix() = default;
+    template <glm::qualifier Layout>
+    constexpr Matrix(const glm::mat<Columns, Rows, Number, Layout>& given) : columns{} {
+        for (int column = 0; column < Columns; ++column) columns[column].value = given[column];
+    }
+    constexpr operator PlainMatrix<Columns, Rows, Number>() const {
+        PlainMatrix<Columns, Rows, Number> result(Number(1));
+        for (int column = 0; column < Columns; ++column) result[column] = columns[column].value;
+        return result;
+    }
+    constexpr Vector<Rows, Number>& operator[](int column) { return columns[column].value; }
+    constexpr const Vector<Rows, Number>& operator[](int column) const { return columns[column].value; }
+};
+using Mat2 = Matrix<2, 2, float, 16>;
+using Mat3 = Matrix<3, 3, float, 16>;
+
+/// A matrix that the shader declares row_major: its rows stand in memory, `Stride` bytes apart. It converts
+/// from and to GLM's column-major matrix of the same value, so nobody transposes by hand.
+template <int Columns, int Rows, class Number, std::size_t Stride>
+struct RowMajorMatrix {
+    Number numbers[Rows][Stride / sizeof(Number)];  ///< numbers[row][column]; the rest of each row is padding
+
+    RowMajorMatrix() = default;
+    template <glm::qualifier Layout>
+    constexpr RowMajorMatrix(const glm::mat<Columns, Rows, Number, Layout>& given) : numbers{} {
+        for (int row = 0; row < Rows; ++row) {
+            for (int column = 0; column < Columns; ++column) numbers[row][column] = given[column][row];
+        }
+    }
+    constexpr operator PlainMatrix<Columns, Rows, Number>() const {
+        PlainMatrix<Columns, Rows, Number> result(Number(1));
+        for (int row = 0; row < Rows; ++row) {
+            for (int column = 0; column < Columns; ++column) result[column][row] = numbers[row][column];
+        }
+        return result;
+    }
+};
+
+}  // namespace gobo::std140

@@ -1,0 +1,70 @@
+// Generated headers, compiled by both compilers in both standards with every warning an error, and used.
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "common/file_system.hpp"
+#include "emit/header.hpp"
+#include "sample_family.hpp"
+
+namespace gobo {
+namespace {
+
+struct Compiler {
+    const char* name;
+    const char* command;
+};
+
+class GeneratedHeader : public testing::TestWithParam<Compiler> {
+  protected:
+    void write_header(const sample::Built& built, const std::string& name) {
+        const auto templates = read_header_templates(files_, GOBO_SOURCE_DIR "/templates/header");
+        ASSERT_TRUE(templates) << to_text(templates.error().front());
+        const auto header = emit_header(built.input(name), *templates);
+        ASSERT_TRUE(header) << to_text(header.error().front());
+        ASSERT_TRUE(files_.write(fmt::format("{}/{}.hpp", folder_, name), *header));
+    }
+
+    /// Compiles a caller with the headers and runs it: what both print; empty where all is well.
+    std::string compile_and_run(const std::string& caller, const std::string& options = {}) {
+        const std::string program = fmt::format("{}/{}", folder_, caller);
+        const std::string log = program + ".log";
+        const std::string command = fmt::format(
+            "{} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror {} -I'{}' -I'{}/include' "
+            "'{}/tests/unit/emit/{}.cpp' -o '{}' > '{}' 2>&1 && '{}' > '{}' 2>&1",
+            GetParam().command, options, folder_, GOBO_SOURCE_DIR, GOBO_SOURCE_DIR, caller, program, log,
+            program, log);
+        const int status = std::system(command.c_str());
+        const Result<std::string> printed = files_.read(log);
+        const std::string text = printed ? *printed : "no log";
+        return status == 0 || !text.empty() ? text : "failed without a word";
+    }
+
+    DiskFileSystem files_;
+    std::string folder_ = fmt::format("{}gobo_generated_header_{}", testing::TempDir(), GetParam().name);
+};
+
+TEST_P(GeneratedHeader, CompilesWithoutWarningsAndAnswersAsItShould) {
+    write_header(sample::lit(), "lit");
+    write_header(sample::nasty(), "nasty");
+    write_header(sample::bare(), "bare");
+    EXPECT_EQ(compile_and_run("header_caller"), "");
+}
+
+TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {
+    write_header(sample::lit(), "lit");
+    EXPECT_EQ(compile_and_run("old_caller"), "");
+    write_header(sample::grown_lit(), "lit");
+    EXPECT_EQ(compile_and_run("old_caller"), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Compilers, GeneratedHeader,
+                         testing::Values(Compiler{"gcc17", "g++ -std=c++17"},
+                                         Compiler{"gcc20", "g++ -std=c++20"},
+                                         Compiler{"clang17", "clang++ -std=c++17"},
+                                         Compiler{"clang20", "clang++ -std=c++20"}),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+}  // namespace
+}  // namespace gobo

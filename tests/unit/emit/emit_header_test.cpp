@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include "common/file_system.hpp"
+#include "emit/cpp_text.hpp"
+#include "emit/header.hpp"
+#include "emit/identifiers.hpp"
+#include "emit/std140_type.hpp"
+#include "emit/struct_section.hpp"
+#include "sample_family.hpp"
+
+namespace gobo {
+namespace {
+
+using sample::Built;
+
+HeaderTemplates templates() {
+    const DiskFileSystem files;
+    return read_header_templates(files, GOBO_SOURCE_DIR "/templates/header").value();
+}
+
+std::string header_of(const Built& built) {
+    return emit_header(built.input(), templates()).value();
+}
+
+struct NameRow {
+    const char* name;
+    const char* identifier;
+    const char* type;
+};
+
+class CppNames : public testing::TestWithParam<NameRow> {};
+
+TEST_P(CppNames, AreIdentifiers) {
+    EXPECT_EQ(cpp_identifier(GetParam().name), GetParam().identifier);
+    EXPECT_EQ(cpp_type_name(GetParam().name), GetParam().type);
+    EXPECT_TRUE(is_cpp_identifier(GetParam().identifier));
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, CppNames,
+                         testing::Values(NameRow{"fog_distance", "fog_distance", "FogDistance"},
+                                         NameRow{"default", "default_", "Default"},
+                                         NameRow{"co_await", "co_await_", "CoAwait"},
+                                         NameRow{"4x", "_4x", "_4x"}, NameRow{"a-b", "a_b", "AB"},
+                                         NameRow{"__Bool", "Bool", "Bool"}, NameRow{"a__b", "a_b", "AB"},
+                                         NameRow{"linux", "linux_", "Linux"},
+                                         NameRow{"--", "unnamed", "unnamed"}));
+
+TEST(CppScope, HandsOutEachNameOnce) {
+    CppScope scope({"Fog"});
+    EXPECT_EQ(scope.claim("Fog", "_block"), "Fog_block");
+    EXPECT_EQ(scope.claim("Fog", "_block"), "Fog_block2");
+    EXPECT_EQ(scope.claim("default_"), "default_");
+    EXPECT_EQ(scope.claim("default_"), "default_2") << "two '_' in a row are reserved";
+}
+
+TEST(CppLiteral, IsRawOnlyWhereThatIsSafe) {
+    EXPECT_EQ(cpp_literal("a\tb\n"), "R\"gobo(a\tb\n)gobo\"");
+    EXPECT_EQ(cpp_literal(")gobo\"\n"), "R\"gobo2()gobo\"\n)gobo2\"");
+    EXPECT_EQ(cpp_literal("say \"\\\""), R"("say \"\\\"")");
+    EXPECT_EQ(cpp_literal("\r\n\x01"
+                          "1"),
+              R"("\015\n\0011")")
+        << "a raw literal would lose the carriage return";
+}
+
+TEST(CppLiteral, LongTextsAreCutAtLineEnds) {
+    const std::string line(99, 'x');
+    std::string text;
+    for (int number = 0; number < 400; ++number) text += line + "\n";
+    const auto parts = cut_for_literals(text);
+    ASSERT_EQ(parts.size(), 3U);
+    EXPECT_EQ(parts[0].size(), 16000U);
+    EXPECT_EQ(parts[1].size(), 16000U);
+    EXPECT_EQ(std::string(parts[0]) + std::string(parts[1]) + std::string(parts[2]), text);
+    EXPECT_EQ(cut_for_literals("").size(), 1U);
+}
+
+struct TypeRow {
+    const char* name;
+    Member member;
+    const char* type;
+    const char* extents;
+    int size;
+};
+
+class CppMemberTypes : public testing::TestWithParam<TypeRow> {};
+
+TEST_P(CppMemberTypes, HaveTheReflectedSize) {
+    const auto type = cpp_type_of(GetParam().member);
+    ASSERT_TRUE(type);
+    EXPECT_EQ(type->type, GetParam().type);
+    EXPECT_EQ(type->extents, GetParam().extents);
+    EXPECT_EQ(type->size, GetParam().size);
+}
+
+Member double_matrix() {
+    Member result = sample::member("m", "dmat3", 0);
+    result.matrix_stride = 32;
+    return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, CppMemberTypes,
+    testing::Values(
+        TypeRow{"uint", sample::member("m", "uint", 0), "std::uint32_t", "", 4},
+        TypeRow{"dvec3", sample::member("m", "dvec3", 0), "std140::dvec3", "", 24},
+        TypeRow{"bvec2", sample::member("m", "bvec2", 0), "std140::bvec2", "", 8},
+        TypeRow{"mat2", sample::matrix("m", "mat2", 0), "std140::Mat2", "", 32},
+        TypeRow{"mat2x4", sample::matrix("m", "mat2x4", 0), "std140::PlainMatrix<2, 4, float>", "", 32},
+        TypeRow{"mat4x3", sample::matrix("m", "mat4x3", 0), "std140::Matrix<4, 3, float, 16>", "", 64},
+        TypeRow{"row_major_mat4x3", sample::matrix("m", "mat4x3", 0, true),
+                "std140::RowMajorMatrix<4, 3, float, 16>", "", 48},
+        TypeRow{"dmat3", double_matrix(), "std140::Matrix<3, 3, double, 32>", "", 96},
+        TypeRow{"ivec4_array", sample::array(sample::member("m", "ivec4", 0), {5}, 16), "std140::ivec4",
+                "[5]", 80},
+        TypeRow{"float_arrays", sample::array(sample::member("m", "float", 0), {2, 3}, 48),
+                "std140::Padded<float, 16>", "[2][3]", 96}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(Domains, AreCommentsWhateverTheIndex) {
+    const std::vector<Domain> domains = {{"L.lights[].k", 0.001, 10, false, {0}, {}},
+                                         {"n", 0.5, 2, true, {}, {}}};
+    EXPECT_EQ(domain_text(domains, "L.lights.k"), "[0.001, 10], or 0");
+    EXPECT_EQ(domain_text(domains, "n"), "length in [0.5, 2]");
+    EXPECT_EQ(domain_text(domains, "other"), "");
+}
+
+TEST(EmitHeader, GivesTheSameBytesWhateverTheOrderOfTheKeys) {
+    const Built built = sample::lit();
+    Built shuffled = built;
+    std::reverse(shuffled.composition.permutations.begin(), shuffled.composition.permutations.end());
+    EXPECT_EQ(header_of(built), header_of(shuffled));
+}
+
+TEST(EmitHeader, LeavesOutWhatNoPermutationUses) {
+    Built built = sample::lit();
+    built.composition.permutations.resize(1);
+    const std::string header = header_of(built);
+    EXPECT_EQ(header.find("piece of point=3"), std::string::npos);
+    EXPECT_NE(header.find("piece of default"), std::string::npos);
+}
+
+TEST(EmitHeader, RulesOfOtherDialectsDoNotHold) {
+    Built built = sample::lit();
+    built.family.rules.back().dialects = {"330"};
+    EXPECT_EQ(header_of(built).find("varying components"), std::string::npos);
+    built.composition.dialect = Dialect::glsl330;
+    EXPECT_NE(header_of(built).find("varying components"), std::string::npos);
+}
+
+TEST(EmitHeader, RefusesWhatIsNoNamespace) {
+    const Built built = sample::lit();
+    for (const char* name : {"a b", "a::", "::a", "a::class", "1a"}) {
+        const auto header = emit_header(built.input(name), templates());
+        ASSERT_FALSE(header) << name;
+        EXPECT_EQ(to_text(header.error().front()),
+                  std::string("gobo: error: '") + name +
+                      "' is no C++ namespace\n"
+                      "  remedy: use identifiers with '::' between them, such as game::shaders\n");
+        EXPECT_EQ(exit_status(header.error()), 2);
+    }
+    EXPECT_NE(emit_header(built.input("game::shaders"), templates())->find("namespace game::shaders {"),
+              std::string::npos);
+}
+
+TEST(EmitHeader, RefusesALayoutThatOverlaps) {
+    Built built = sample::lit();
+    built.interface.blocks = {
+        sample::block("Odd", 0, 32, {sample::member("a", "vec4", 0), sample::member("b", "vec4", 8)})};
+    const auto header = emit_header(built.input(), templates());
+    ASSERT_FALSE(header);
+    EXPECT_EQ(to_text(header.error().front()),
+              "gobo: error: no C++ struct has the layout of 'Odd.b'\n"
+              "  remedy: declare the block with layout(std140)\n");
+}
+
+TEST(TextTemplate, APlaceholderWithoutValueIsAFaultOfOurOwn) {
+    const TextTemplate text_template{"header.hpp.in", "one {{known}}\ntwo {{unknown}}\n"};
+    const auto text = fill(text_template, {{"known", "1"}});
+    ASSERT_FALSE(text);
+    EXPECT_EQ(to_text(text.error().front()),
+              "header.hpp.in:2: error: the placeholder 'unknown' has no value\n"
+              "    two {{unknown}}\n");
+    EXPECT_EQ(exit_status(text.error()), 4);
+}
+
+}  // namespace
+}  // namespace gobo

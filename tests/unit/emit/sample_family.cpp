@@ -1,0 +1,186 @@
+#include "sample_family.hpp"
+
+#include <fmt/format.h>
+
+namespace gobo::sample {
+namespace {
+
+int add_piece(Composition& composition, const std::string& name, const std::string& text) {
+    composition.pieces.push_back({name, name, text, false});
+    return static_cast<int>(composition.pieces.size()) - 1;
+}
+
+Interface lit_interface() {
+    Interface interface;
+    const std::vector<Member> light = {member("position", "vec4", 0), member("color", "vec3", 16),
+                                       member("attenuation", "vec3", 32), member("enabled", "bool", 44)};
+    interface.blocks = {
+        block("Camera", 0, 112, {matrix("projection", "mat4", 0), matrix("normalMatrix", "mat3", 64)}),
+        block("Fog", 3, 32,
+              {member("color", "vec3", 0), member("near", "float", 12), member("far", "float", 16)}),
+        block("PointLights", 2, 16 + 3 * 48,
+              {member("ambient", "vec3", 0), array(structure("lights", "PointLight", 16, light), {3}, 48)}),
+    };
+    interface.inputs = {{"normal", "vec3", 1, {}}, {"position", "vec3", 0, {}}};
+    interface.outputs = {{"fragmentColor", "vec4", -1, {}}};
+    interface.samplers = {{"shadowMaps", "sampler2DArrayShadow", 4, {}, {"fragment"}}};
+    interface.uniforms = {{"exposure", "float", -1, {}, {}, {"fragment"}}};
+    return interface;
+}
+
+Interface nasty_interface() {
+    Interface interface;
+    const std::vector<Member> inner = {matrix("basis", "mat3", 0), member("switch", "float", 48)};
+    const std::vector<Member> outer = {array(structure("inner", "Inner", 0, inner), {2}, 64),
+                                       member("Inner", "vec2", 128)};
+    interface.blocks = {
+        // A member with the block's own name, and one with that of a constant.
+        block("Lights", -1, 32,
+              {member("Lights", "vec4", 0), member("binding", "ivec3", 16), member("size", "uint", 28)}),
+        block("default", 1, 16, {member("bytes", "bool", 0)}),
+        block("std140", -1, 496,
+              {array(member("weights", "float", 0), {3}, 16), array(member("pairs", "vec2", 48), {2, 3}, 48),
+               array(matrix("turns", "mat3", 144), {2}, 48), matrix("rows", "mat3x2", 240, true),
+               matrix("columns", "mat3x2", 272), matrix("square", "mat4", 320, true),
+               member("flags", "bvec3", 384), structure("outer", "Outer", 400, outer)}),
+        block("key", 7, 144, {structure("Outer", "Outer", 0, outer)}),
+    };
+    interface.blocks[2].size = 544;
+    interface.inputs = {{"auto", "vec3", -1, {}}, {"bones", "mat4", 0, {}}, {"gl_VertexID", "int", -1, {}}};
+    interface.samplers = {{"int_", "sampler2D", -1, {4}, {"fragment"}},
+                          {"register", "samplerCube", -1, {}, {}}};
+    interface.outputs = {{"a", "vec4", 0, {}}, {"b", "vec4", 1, {}}};
+    return interface;
+}
+
+}  // namespace
+
+void compose_keys(Built& built, const std::vector<std::string>& keys) {
+    Composition& composition = built.composition;
+    const int shared =
+        add_piece(composition, "shader_lib/common.glsl", "// shared\nfloat half() { return 0.5; }\n");
+    const int vertex = add_piece(composition, "lit.vert", "void main() {}\n");
+    composition.stages.push_back({StageKind::vertex, {shared, vertex}});
+    for (const std::string& text : keys) {
+        const Key key = canonical(built.family, parse_key(built.family, text).value(), "450");
+        const std::string name = key_text(built.family, key);
+        const int own =
+            add_piece(composition, "piece of " + name, "// " + name + "\n\"quoted\" \\ )gobo\" )gobo2\"\n");
+        composition.stages.push_back({StageKind::fragment, {shared, own}});
+        composition.permutations.push_back({key, 0, static_cast<int>(composition.stages.size()) - 1});
+    }
+}
+
+Built lit() {
+    Built built;
+    Family& family = built.family;
+    family.name = "lit";
+    family.features = {
+        choice("depth", {"default", "early", "less"}),
+        count("directional", 8),
+        choice("fog", {"none", "linear", "exponential"}),
+        choice("fog_distance", {"radial", "planar"}),
+        count("point", 8),
+        choice("shading", {"fragment", "vertex", "hybrid"}),
+        choice("specular", {"none", "phong", "blinn"}),
+    };
+    family.rules = {
+        defaults(family, "fog == none", {"fog_distance"}),
+        defaults(family, "directional + point == 0", {"specular", "shading"}),
+        forbid(family, "shading == hybrid && directional + point > 12",
+               "more than the 60 varying components that OpenGL guarantees"),
+    };
+    family.domains = {{"Fog.near", 0, 1e6, false, {}, {}},
+                      {"PointLights.lights[].attenuation", 0.001, 10, false, {0}, {}},
+                      {"normal", 0.5, 2, true, {}, {}}};
+    built.interface = lit_interface();
+    compose_keys(built,
+                 {"default", "fog=linear", "point=3 shading=vertex fog=linear", "point=3", "directional=2"});
+    return built;
+}
+
+Built grown_lit() {
+    Built built = lit();
+    Family& family = built.family;
+    family.features.insert(family.features.begin(), choice("attenuation", {"quadratic", "window"}));
+    family.features[3].values = {"none", "height", "linear", "exponential"};
+    // Conditions hold feature numbers: they are read again.
+    family.rules = {defaults(family, "fog == none", {"fog_distance"}),
+                    defaults(family, "directional + point == 0", {"specular", "shading", "attenuation"})};
+    built.composition = {};
+    compose_keys(built, {"default", "fog=linear", "point=3 shading=vertex fog=linear", "point=3",
+                         "directional=2", "attenuation=window point=3"});
+    return built;
+}
+
+Built nasty() {
+    Built built;
+    Family& family = built.family;
+    family.name = "class";
+    family.features = {
+        choice("2d", {"4x", "16x", "_8x", "8x"}),
+        choice("Key", {"Key", "NULL", "linux"}),
+        define("default"),
+        choice("fog", {"Fog", "fog", "a__b", "a-b"}),
+        choice("fog_", {"none"}),
+        count("int", 8),
+        choice("key", {"register", "co_await"}),
+        choice("switch", {"int", "default", "requires"}),
+    };
+    for (int number = 10; number < 30; ++number)
+        family.features.push_back(count(fmt::format("z{}", number), 15));
+    family.rules = {
+        // The second rule sets what the first one looks at: one pass is not enough.
+        defaults(family, "default == off", {"int"}),
+        defaults(family, "switch == int", {"default"}),
+        forbid(family, "!(int <= 6) || (switch == requires && key == co_await)",
+               "because \"quoted\" \\ \t odd ?\?/"),
+    };
+    built.interface = nasty_interface();
+    compose_keys(built,
+                 {"default", "switch=default default=on int=5", "z10=15 z29=7 2d=8x", "z29=8 Key=linux"});
+    Piece& piece = built.composition.pieces.front();
+    for (int line = 0; line < 3000; ++line)
+        piece.text += fmt::format("// line {} of a long file\n", line + 3);
+    built.composition.pieces[1].text = std::string(
+        "bytes \x01 \xC3\xA9 \0 ?"
+        "?/ end without a line end",
+        39);
+    return built;
+}
+
+Built bare() {
+    Built built;
+    built.family.name = "bare";
+    compose_keys(built, {"default"});
+    return built;
+}
+
+Built large(int permutations) {
+    Built built = lit();
+    Family& family = built.family;
+    family.features = {count("a", 15), count("b", 15), count("c", 15), count("d", 15),
+                       choice("e", {"x", "y"})};
+    family.rules = {defaults(family, "a == 0", {"e"}), defaults(family, "b + c == 0", {"d"})};
+    Composition& composition = built.composition;
+    composition = {};
+    for (int piece = 0; piece < 200; ++piece) {
+        std::string text;
+        for (int line = 0; line < 40; ++line)
+            text += fmt::format("float f{}_{}() {{ return 1.0; }}\n", piece, line);
+        add_piece(composition, fmt::format("shader_lib/piece_{}.glsl", piece), text);
+    }
+    composition.stages.push_back({StageKind::vertex, {0, 1, 2}});
+    for (int number = 0; number < permutations; ++number) {
+        Stage stage{StageKind::fragment, {}};
+        for (int piece = 0; piece < 13; ++piece)
+            stage.pieces.push_back((number * 7 + piece * (number + 1)) % 200);
+        composition.stages.push_back(stage);
+        // a and b + c are never 0, so every key is canonical.
+        const Key key = {1 + number % 15, 1 + number / 15 % 15, number / 225 % 16, number / 3600 % 16, 0};
+        composition.permutations.push_back({key, 0, number + 1});
+    }
+    return built;
+}
+
+}  // namespace gobo::sample

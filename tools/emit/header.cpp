@@ -1,0 +1,98 @@
+#include "emit/header.hpp"
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "emit/interface_section.hpp"
+#include "emit/key_section.hpp"
+#include "emit/permutation_section.hpp"
+#include "emit/struct_section.hpp"
+#include "family/key.hpp"
+
+namespace gobo {
+namespace {
+
+/// Names that header.hpp.in uses in the namespace or as local names: nothing of the family's may hide them.
+CppScope header_scope() {
+    return CppScope({"Key",
+                     "Permutation",
+                     "Stage",
+                     "attribute",
+                     "attributes",
+                     "bits",
+                     "blocks",
+                     "canonical",
+                     "detail",
+                     "find",
+                     "describe_missing",
+                     "glm",
+                     "gobo",
+                     "key",
+                     "key_text",
+                     "left",
+                     "output",
+                     "outputs",
+                     "permutations",
+                     "position",
+                     "reason",
+                     "right",
+                     "sampler",
+                     "samplers",
+                     "std",
+                     "std140",
+                     "uniforms",
+                     "wanted",
+                     "found",
+                     "before",
+                     "changed",
+                     "count",
+                     "check",
+                     "select"});
+}
+
+Result<std::string> namespace_of(const EmitInput& input) {
+    if (input.cpp_namespace.empty()) return cpp_identifier(input.family.name);
+    std::string_view rest = input.cpp_namespace;
+    while (true) {
+        const auto end = rest.find("::");
+        if (!is_cpp_identifier(rest.substr(0, end))) {
+            return fail(Fault::usage, fmt::format("'{}' is no C++ namespace", input.cpp_namespace),
+                        "use identifiers with '::' between them, such as game::shaders");
+        }
+        if (end == std::string_view::npos) return input.cpp_namespace;
+        rest.remove_prefix(end + 2);
+    }
+}
+
+std::vector<Rule> rules_of(const Family& family, Dialect dialect) {
+    std::vector<Rule> rules;
+    for (const Rule& rule : family.rules) {
+        if (applies_in(rule, name_of(dialect))) rules.push_back(rule);
+    }
+    return rules;
+}
+
+}  // namespace
+
+Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
+    const Result<std::string> cpp_namespace = namespace_of(input);
+    if (!cpp_namespace) return cpp_namespace;
+    TemplateValues values;
+    values["family"] = input.family.name;
+    values["namespace"] = *cpp_namespace;
+    values["dialect"] = name_of(input.composition.dialect);
+
+    CppScope scope = header_scope();
+    const CppKey key = name_key(input.family, scope);
+    describe_key(input.family, rules_of(input.family, input.composition.dialect), key, values);
+    const Interface interface = with_places(input.interface);
+    Result<std::string> structs =
+        struct_section(interface.blocks, input.family.domains, templates.structure, scope);
+    if (!structs) return structs;
+    values["structs"] = std::move(*structs);
+    describe_interface(interface, input.family.domains, values);
+    describe_permutations(input.composition, key, values);
+    return fill(templates.header, values);
+}
+
+}  // namespace gobo

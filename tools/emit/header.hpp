@@ -1,0 +1,25 @@
+// The C++ header that gives applications a family's permutations: the last stage of the flow.
+#pragma once
+
+#include <string>
+
+#include "compose/composition.hpp"
+#include "emit/text_template.hpp"
+#include "family/family.hpp"
+#include "reflect/interface.hpp"
+
+namespace gobo {
+
+/// What a generated header and its manifest are made from.
+struct EmitInput {
+    const Family& family;
+    const Composition& composition;
+    const Interface& interface;  ///< of all permutations together: the largest extent of each array
+    std::string cpp_namespace;   ///< "lit" or "game::shaders"; empty: the family's name
+};
+
+/// The text of the header: C++17, constant data only. The same input gives the same bytes. A namespace that
+/// is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
+[[nodiscard]] Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates);
+
+}  // namespace gobo

@@ -1,0 +1,119 @@
+#include "emit/manifest.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "compose/dialect.hpp"
+#include "emit/interface_section.hpp"
+#include "family/key.hpp"
+#include "reflect/interface_format.hpp"
+
+namespace gobo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int indent = 2;
+
+/// As JSON; bytes that are no UTF-8 (a file's name may hold any) become U+FFFD.
+std::string text_of(const Json& value, int indentation = -1) {
+    return value.dump(indentation, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string_view role_name(Role role) {
+    switch (role) {
+        case Role::effect:
+            return "effect";
+        case Role::quality:
+            return "quality";
+        case Role::pipeline:
+            return "pipeline";
+    }
+    return "";
+}
+
+std::string_view kind_name(FeatureKind kind) {
+    switch (kind) {
+        case FeatureKind::choice:
+            return "choice";
+        case FeatureKind::count:
+            return "count";
+        case FeatureKind::define:
+            return "define";
+    }
+    return "";
+}
+
+std::vector<std::string> feature_rows(const Family& family) {
+    std::vector<std::string> rows;
+    for (const Feature& feature : family.features) {
+        Json row;
+        row["name"] = feature.name;
+        row["role"] = role_name(feature.role);
+        row["kind"] = kind_name(feature.kind);
+        row["values"] = feature.values;
+        rows.push_back(text_of(row));
+    }
+    return rows;
+}
+
+std::vector<std::string> stage_rows(const Composition& composition) {
+    // Names are quoted once per piece, not once per mention: thousands of stages share them.
+    std::vector<std::string> names;
+    for (const Piece& piece : composition.pieces) names.push_back(text_of(piece.name));
+    std::vector<std::string> rows;
+    for (const Stage& stage : composition.stages) {
+        std::vector<std::string_view> pieces;
+        for (const int piece : stage.pieces) pieces.emplace_back(names[static_cast<std::size_t>(piece)]);
+        rows.push_back(
+            fmt::format("{{\"stage\":\"{}\",\"pieces\":[{}]}}", name_of(stage.kind), fmt::join(pieces, ",")));
+    }
+    return rows;
+}
+
+std::vector<std::string> permutation_rows(const Family& family, const Composition& composition) {
+    std::vector<std::pair<std::string, const Permutation*>> sorted;
+    for (const Permutation& permutation : composition.permutations) {
+        sorted.emplace_back(key_text(family, permutation.key), &permutation);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::string> rows;
+    for (const auto& [key, permutation] : sorted) {
+        rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}}}", text_of(key),
+                                   permutation->vertex, permutation->fragment));
+    }
+    return rows;
+}
+
+std::string array_text(const std::vector<std::string>& rows) {
+    if (rows.empty()) return "[]";
+    return fmt::format("[\n    {}\n  ]", fmt::join(rows, ",\n    "));
+}
+
+/// A text of several lines, as a value within the manifest's outermost object.
+std::string indented(const std::string& text) {
+    std::string result;
+    for (const char character : text) {
+        result += character;
+        if (character == '\n') result.append(indent, ' ');
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string emit_manifest(const EmitInput& input) {
+    const Json interface = to_json(with_places(input.interface));
+    return fmt::format(
+        "{{\n  \"family\": {},\n  \"dialect\": {},\n  \"features\": {},\n  \"interface\": {},\n"
+        "  \"stages\": {},\n  \"permutations\": {}\n}}\n",
+        text_of(input.family.name), text_of(name_of(input.composition.dialect)),
+        array_text(feature_rows(input.family)), indented(text_of(interface, indent)),
+        array_text(stage_rows(input.composition)),
+        array_text(permutation_rows(input.family, input.composition)));
+}
+
+}  // namespace gobo
