@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -80,8 +81,8 @@ bool may_hold(spv::Op opcode, spv::Op part) {
            (part != spv::Op::OpTypeVoid && part != spv::Op::OpTypeFunction);
 }
 
-/// A literal string: bytes from the lowest of each word up to a zero; nothing where the zero is missing.
-std::optional<std::string> literal_string(std::span<const std::uint32_t> words) {
+/// A literal string: bytes from the lowest of each word up to a zero.
+std::string literal_string(std::span<const std::uint32_t> words) {
     std::string text;
     for (const std::uint32_t word : words) {
         for (int shift = 0; shift < 32; shift += 8) {
@@ -90,7 +91,33 @@ std::optional<std::string> literal_string(std::span<const std::uint32_t> words) 
             text += byte;
         }
     }
-    return std::nullopt;
+    return text;
+}
+
+/// Whether some byte of the literal string is zero.
+bool ends(std::span<const std::uint32_t> words) {
+    const auto has_zero = [](std::uint32_t word) {
+        return (word & 0xffu) == 0 || (word & 0xff00u) == 0 || (word & 0xff0000u) == 0 || (word >> 24) == 0;
+    };
+    return std::ranges::any_of(words, has_zero);
+}
+
+using NameKey = std::tuple<Id, int>;
+NameKey key_of(const Name& name) {
+    return {name.id, name.member};
+}
+
+using DecorationKey = std::tuple<Id, int, spv::Decoration>;
+DecorationKey key_of(const Decoration& decoration) {
+    return {decoration.id, decoration.member, decoration.kind};
+}
+
+/// The entry with that key in a list sorted by key, or null.
+template <class Entry, class Key>
+const Entry* find(const std::vector<Entry>& sorted, const Key& key) {
+    const auto by_key = [](const Entry& entry) { return key_of(entry); };
+    const auto found = std::ranges::lower_bound(sorted, key, {}, by_key);
+    return found != sorted.end() && key_of(*found) == key ? &*found : nullptr;
 }
 
 Image image_of(std::span<const std::uint32_t> operands) {
@@ -112,6 +139,7 @@ class Reader {
         if (!read_header()) return failure();
         while (problem_.empty() && position_ < module_.words.size()) read_instruction();
         if (!problem_.empty()) return failure();
+        sort();
         return std::move(module_);
     }
 
@@ -154,13 +182,13 @@ class Reader {
             case spv::Op::OpEntryPoint:
                 return read_entry_point(operands);
             case spv::Op::OpName:
-                return read_name({operands[0], whole}, operands.subspan(1));
+                return read_name(operands[0], whole, operands.subspan(1));
             case spv::Op::OpMemberName:
-                return read_name({operands[0], static_cast<int>(operands[1])}, operands.subspan(2));
+                return read_name(operands[0], static_cast<int>(operands[1]), operands.subspan(2));
             case spv::Op::OpDecorate:
-                return read_decoration({operands[0], whole}, operands.subspan(1));
+                return read_decoration(operands[0], whole, operands.subspan(1));
             case spv::Op::OpMemberDecorate:
-                return read_decoration({operands[0], static_cast<int>(operands[1])}, operands.subspan(2));
+                return read_decoration(operands[0], static_cast<int>(operands[1]), operands.subspan(2));
             case spv::Op::OpGroupDecorate:
             case spv::Op::OpGroupMemberDecorate:
                 return stop("decoration groups are not supported");
@@ -176,20 +204,20 @@ class Reader {
     }
 
     void read_entry_point(Operands operands) {
-        const std::optional<std::string> name = literal_string(operands.subspan(2));
-        if (!name) return stop("a string without an end");
-        module_.entry_points.push_back({static_cast<spv::ExecutionModel>(operands[0]), operands[1], *name});
+        const Operands name = operands.subspan(2);
+        if (!ends(name)) return stop("a string without an end");
+        module_.entry_points.push_back(
+            {static_cast<spv::ExecutionModel>(operands[0]), operands[1], literal_string(name)});
     }
 
-    void read_name(std::pair<Id, int> target, Operands literal) {
-        std::optional<std::string> name = literal_string(literal);
-        if (!name) return stop("a string without an end");
-        module_.names[target] = std::move(*name);
+    void read_name(Id id, int member, Operands literal) {
+        if (!ends(literal)) return stop("a string without an end");
+        module_.names.push_back({id, member, literal});
     }
 
-    void read_decoration(std::pair<Id, int> target, Operands operands) {
+    void read_decoration(Id id, int member, Operands operands) {
         const std::uint32_t value = operands.size() > 1 ? operands[1] : 0;
-        module_.decorations[target].push_back({static_cast<spv::Decoration>(operands[0]), value});
+        module_.decorations.push_back({id, member, static_cast<spv::Decoration>(operands[0]), value});
     }
 
     void read_constant(spv::Op opcode, Operands operands) {
@@ -270,6 +298,12 @@ class Reader {
         if (type.depth > deepest || type.parts > most_parts) stop("types nested without end");
     }
 
+    void sort() {
+        std::ranges::stable_sort(module_.names, {}, [](const Name& name) { return key_of(name); });
+        std::ranges::stable_sort(module_.decorations, {},
+                                 [](const Decoration& decoration) { return key_of(decoration); });
+    }
+
     void stop(std::string problem) {
         if (problem_.empty()) problem_ = std::move(problem);
     }
@@ -282,18 +316,14 @@ class Reader {
 }  // namespace
 
 std::string Module::name(Id id, int member) const {
-    const auto found = names.find({id, member});
-    return found == names.end() ? std::string() : found->second;
+    const Name* const found = find(names, NameKey(id, member));
+    return found == nullptr ? std::string() : literal_string(found->literal);
 }
 
 std::optional<int> Module::decoration(Id id, spv::Decoration kind, int member) const {
-    const auto found = decorations.find({id, member});
-    if (found == decorations.end()) return std::nullopt;
-    for (const Decoration& decoration : found->second) {
-        if (decoration.kind == kind)
-            return static_cast<int>(std::min<std::uint32_t>(decoration.value, largest));
-    }
-    return std::nullopt;
+    const Decoration* const found = find(decorations, DecorationKey(id, member, kind));
+    if (found == nullptr) return std::nullopt;
+    return static_cast<int>(std::min<std::uint32_t>(found->value, largest));
 }
 
 Result<Module> read_module(std::vector<std::uint32_t> words) {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <spirv/unified1/spirv.hpp11>
@@ -60,14 +59,23 @@ struct EntryPoint {
     std::string name;
 };
 
-/// A decoration with its first literal, 0 where it has none.
+/// Stands for the whole id, in place of one of its members.
+inline constexpr int whole = -1;
+
+/// The literal string that names an id or one of its members.
+struct Name {
+    Id id = 0;
+    int member = whole;
+    std::span<const std::uint32_t> literal;  ///< ends in a zero
+};
+
+/// A decoration of an id or of one of its members, with its first literal, 0 where it has none.
 struct Decoration {
+    Id id = 0;
+    int member = whole;
     spv::Decoration kind = spv::Decoration::Max;
     std::uint32_t value = 0;
 };
-
-/// Stands for the whole id, in place of one of its members.
-inline constexpr int whole = -1;
 
 /// A module. It owns the words that its instructions refer to, so it moves but does not copy.
 class Module {
@@ -85,8 +93,8 @@ class Module {
     std::vector<Variable> variables;      ///< in the order of declaration
     std::map<Id, Type> types;             ///< every type that the module declares
     std::map<Id, std::int64_t> integers;  ///< integer constants; specialisable ones by their defaults
-    std::map<std::pair<Id, int>, std::string> names;  ///< of an id (`whole`) or of a struct's member
-    std::map<std::pair<Id, int>, std::vector<Decoration>> decorations;
+    std::vector<Name> names;              ///< sorted by id and member
+    std::vector<Decoration> decorations;  ///< sorted by id, member and kind
 
     /// The type of an id that some Type or Variable of this module names.
     [[nodiscard]] const Type& type(Id id) const { return types.at(id); }
