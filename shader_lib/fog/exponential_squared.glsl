@@ -3,7 +3,8 @@
 // Model:  f = exp(-(density z)^2).
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.
 // Ranges: density 0 to 1e3, z not negative.
-// Edges:  at any distance finite (H-F2): beyond 16 the exponential is 0 in a float, so the product stops there.
+// Edges:  at any distance finite (H-F2): the exponential of -16^2 is 0 in a float, so the
+//         product stops there.
 #include <fog_distance>
 #include "fog/blend.glsl"
 

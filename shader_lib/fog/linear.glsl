@@ -1,4 +1,4 @@
-// Fog that thickens evenly from a near distance, where it begins, to a far one, where it hides everything (F1).
+// Fog that thickens evenly from a near distance, where it begins, to a far one, where it hides all (F1).
 //
 // Model:  f = (far - z) / (far - near), clamped to [0, 1].
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.

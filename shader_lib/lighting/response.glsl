@@ -1,6 +1,7 @@
 // The surface's response to its lights: scattered (diffuse) and reflected (specular) light, summed apart.
 //
-// Model:  K_d sum f_d(n.s) L + K_s sum f_s L, f_d chosen by `diffuse`, f_s by `specular`, L after attenuation.
+// Model:  K_d sum f_d(n.s) L + K_s sum f_s L, L after attenuation; f_d is chosen by `diffuse`, f_s by
+//         `specular`.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour (S5).
 // Space:  eye. Ranges: n and s unit or zero; result linear and unclamped.
 // Edges:  a light gives exactly nothing unless n.s > 0 (S1, S4, H-S4), nor where s or n is zero (H-N1, H-L1).

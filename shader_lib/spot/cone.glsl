@@ -4,8 +4,8 @@
 //         0 from the outer angle on, between them ((u_outer - u) / (u_outer - u_inner))^2.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Spotlights; glTF 2.0 KHR_lights_punctual for the edge.
 // Space:  any. Ranges: versines 0 to 2 (1 - cos of the half angle), exponent 0 to 1e6; result 0 to 1.
-// Edges:  outer angle 0 is nothing, 90 degrees the half space, 180 degrees everything (H-P2); inner = outer is
-//         a hard edge (H-P1); the edge is true to 0.3 % of the angle down to 1e-4 radians (H-P4).
+// Edges:  outer angle 0 is nothing, 90 degrees the half space, 180 degrees everything (H-P2); inner = outer
+//         is a hard edge (H-P1); the edge is true to 0.3 % of the angle down to 1e-4 radians (H-P4).
 #include "angle/versine.glsl"
 #include "power/exact.glsl"
 

@@ -11,8 +11,8 @@
 #include "surface/position.glsl"
 
 /// `position` is in eye space, its w is 1 (L6); `axis` is the unit vector along which the light shines. The
-/// cone is given by the versines of its half angles, 1 - cos(angle), which hold an angle of 1e-4 as well as one
-/// of 90 degrees; `attenuation` holds k_c, k_l, k_q.
+/// cone is given by the versines of its half angles, 1 - cos(angle), which hold an angle of 1e-4 as well as
+/// one of 90 degrees; `attenuation` holds k_c, k_l, k_q.
 struct SpotLight {
     vec4 position;
     vec3 color;
