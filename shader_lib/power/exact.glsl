@@ -6,7 +6,8 @@
 // Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.1.27.
 // Ranges: versine 0 to 2, exponent 0 to 1e6; result 0 to 1.
 // Edges:  x^0 is 1 for every x, 0^0 too (H-S1); the base is never negative (H-S2, H-P3) nor above 1; at a
-//         large exponent what remains is the rounding of the directions, about 2 sqrt(m) 2^-24 / |s + v| (H-S3).
+//         large exponent what remains is the rounding of the directions, about 2 sqrt(m) 2^-24 / |s + v|
+//         (H-S3).
 
 /// log(1 - versine) for a versine in [0, 1).
 float logarithmOfCosine(float versine) {
