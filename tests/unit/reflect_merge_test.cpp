@@ -93,11 +93,12 @@ void PrintTo(const Conflict& row, std::ostream* stream) {
 }
 
 constexpr Conflict conflicts[] = {
-    {"member_type", "uniform Fog { float near; };", "uniform Fog { int near; };", "Fog"},
+    {"member_type", "uniform Fog { float near; };", "uniform Fog { int near; };", "Fog.near"},
     {"member_order", "uniform Fog { float near; float far; };", "uniform Fog { float far; float near; };",
-     "Fog"},
+     "Fog.near"},
     {"array_before_the_last", "uniform Fog { float w[2]; float far; };",
-     "uniform Fog { float w[3]; float far; };", "Fog"},
+     "uniform Fog { float w[3]; float far; };", "Fog.w"},
+    {"one_member_more", "uniform Fog { float a; };", "uniform Fog { float a; float b; };", "Fog"},
     {"block_binding", "layout(binding = 1) uniform Fog { float a; };",
      "layout(binding = 2) uniform Fog { float a; };", "Fog"},
     {"sampler_type", "uniform sampler2D map;", "uniform samplerCube map;", "map"},

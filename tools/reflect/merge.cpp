@@ -63,6 +63,16 @@ void reconcile(Variable& entry, Variable& other) {
     settle(entry.location, other.location);
 }
 
+/// What two entries disagree about: the name, with the first member that differs where it is a block.
+template <class Entry>
+std::string contested(const Entry& entry, const Entry&) {
+    return entry.name;
+}
+std::string contested(const Block& entry, const Block& other) {
+    const auto [mine, theirs] = std::ranges::mismatch(entry.members, other.members);
+    return mine == entry.members.end() ? entry.name : entry.name + "." + mine->name;
+}
+
 template <class Entry>
 void unite_stages(Entry& entry, Entry& other) {
     if constexpr (requires { entry.stages; }) {
@@ -71,7 +81,7 @@ void unite_stages(Entry& entry, Entry& other) {
     }
 }
 
-/// Adds `more` to `list`, both sorted by name. Names of entries that disagree go to `conflicts`.
+/// Adds `more` to `list`, both sorted by name. What they disagree about goes to `conflicts`.
 template <class Entry>
 void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more,
                  std::vector<std::string>& conflicts) {
@@ -83,7 +93,7 @@ void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more,
         }
         reconcile(*place, other);
         unite_stages(*place, other);
-        if (*place != other) conflicts.push_back(other.name);
+        if (*place != other) conflicts.push_back(contested(*place, other));
     }
 }
 
