@@ -190,7 +190,10 @@ class Composer {
             at = line + 1;
         }
         if (stage == StageKind::vertex) text += fmt::format("void writeVaryings() {{\n{}}}\n", writes);
-        return {fmt::format("{}[varyings]", family_.name), family_.path, std::move(text), false};
+        const std::string& path =
+            varyings.empty() ? family_.path
+                             : family_.varyings[static_cast<std::size_t>(varyings.front())].place.file;
+        return {fmt::format("{}[varyings]", family_.name), path, std::move(text), false};
     }
 
     [[nodiscard]] Piece prologue(const Placement& placement, bool has_varyings) const {

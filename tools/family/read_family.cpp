@@ -118,17 +118,39 @@ std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml:
     return selection;
 }
 
+/// Follows `extends`, once: a family that is extended stands on its own feet.
+Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base) {
+    const toml::node* extends = reader.root().get("extends");
+    if (extends == nullptr || reader.failed()) return FamilyText{};
+    Diagnostic diagnostic;
+    diagnostic.place = reader.place_of(*extends);
+    diagnostic.remedy = "name a shipped family or a .toml file: extends = \"lit\"";
+    if (!extends->is_string() || !find_base) {
+        diagnostic.message = "'extends' must name a family";
+        return fail(std::move(diagnostic));
+    }
+    Result<FamilyText> base = find_base(extends->as_string()->get());
+    if (base) return base;
+    diagnostic.message =
+        fmt::format("cannot extend '{}': {}", extends->as_string()->get(), base.error().front().message);
+    diagnostic.remedy = base.error().front().remedy;
+    return fail(std::move(diagnostic));
+}
+
 }  // namespace
 
-Result<Family> read_family(std::string_view text, const std::string& path) {
+Result<Family> read_family(std::string_view text, const std::string& path, const FindFamily& find_base) {
     TomlReader reader(text, path);
+    const Result<FamilyText> base = base_of(reader, find_base);
+    if (!base) return tl::unexpected(base.error());
+    if (!base->path.empty()) reader.extend(base->text, base->path, {"values", "retired", "rules"});
     Family family;
     family.path = path;
     family.folder = folder_of(path);
     const toml::table& root = reader.root();
-    reader.only(
-        root, "the family",
-        {"name", "vertex", "fragment", "features", "rules", "varyings", "domain", "render", "default_set"});
+    reader.only(root, "the family",
+                {"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
+                 "default_set"});
     family.name = reader.required_string(root, "the family", "name");
     if (!reader.failed() && !is_identifier(family.name)) {
         reader.error(*root.get("name"), fmt::format("'{}' cannot name a family", family.name),

@@ -1,6 +1,7 @@
 // From the text of a family file to a Family.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -8,8 +9,21 @@
 
 namespace gobo {
 
+/// The text of a family file and its path.
+struct FamilyText {
+    std::string text;
+    std::string path;
+};
+
+/// Finds the family that another one extends, by name or path.
+using FindFamily = std::function<Result<FamilyText>(const std::string& name)>;
+
 /// Reads a family file (docs/family_file.md describes it). `path` stands in diagnostics and decides the
 /// folder of the templates. Anything unknown, missing or of the wrong type is an error with its place.
-[[nodiscard]] Result<Family> read_family(std::string_view text, const std::string& path);
+///
+/// `extends = "lit"` lays the file over another family: its features' values and its rules are added behind
+/// those of the other, whatever else it states takes the other's place.
+[[nodiscard]] Result<Family> read_family(std::string_view text, const std::string& path,
+                                         const FindFamily& find_base = {});
 
 }  // namespace gobo

@@ -9,19 +9,58 @@
 
 namespace gobo {
 
-TomlReader::TomlReader(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {
-    try {  // the packaged library reports by exceptions only; they end here
-        root_ = toml::parse(text, path_);
-    } catch (const toml::parse_error& failure) {
-        const toml::source_position at = failure.source().begin;
-        error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
-              fmt::format("not valid TOML: {}", failure.description()), "see https://toml.io for the syntax");
+namespace {
+
+/// Moves everything of `over` into `base`. Nodes are moved, not copied: a copy forgets its place in the
+/// document.
+void merge_into(toml::table& base, toml::table& over, const std::vector<std::string>& appended) {
+    for (auto&& [key, node] : over) {
+        toml::node* present = base.get(key);
+        const bool grows = std::find(appended.begin(), appended.end(), key.str()) != appended.end();
+        if (present != nullptr && present->is_table() && node.is_table()) {
+            merge_into(*present->as_table(), *node.as_table(), appended);
+        } else if (present != nullptr && grows && present->is_array() && node.is_array()) {
+            for (toml::node& element : *node.as_array()) {
+                element.visit([&](auto& value) { present->as_array()->push_back(std::move(value)); });
+            }
+        } else {
+            node.visit([&](auto& value) { base.insert_or_assign(key, std::move(value)); });
+        }
     }
 }
 
+}  // namespace
+
+TomlReader::TomlReader(std::string_view text, std::string path) : path_(std::move(path)) {
+    root_ = parse(text, path_);
+}
+
+toml::table TomlReader::parse(std::string_view text, const std::string& path) {
+    texts_[path] = text;
+    try {  // the packaged library reports by exceptions only; they end here
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& failure) {
+        const toml::source_position at = failure.source().begin;
+        error(Place{path, static_cast<int>(at.line), static_cast<int>(at.column)},
+              fmt::format("not valid TOML: {}", failure.description()), "see https://toml.io for the syntax");
+        return {};
+    }
+}
+
+void TomlReader::extend(std::string_view base_text, std::string base_path,
+                        const std::vector<std::string>& appended) {
+    toml::table base = parse(base_text, base_path);
+    merge_into(base, root_, appended);
+    root_ = std::move(base);
+}
+
+Place TomlReader::place_of(const toml::source_region& region) const {
+    return {region.path ? *region.path : path_, static_cast<int>(region.begin.line),
+            static_cast<int>(region.begin.column)};
+}
+
 Place TomlReader::place_of(const toml::node& node) const {
-    const toml::source_position at = node.source().begin;
-    return {path_, static_cast<int>(at.line), static_cast<int>(at.column)};
+    return place_of(node.source());
 }
 
 void TomlReader::error(const Place& place, std::string message, std::string remedy) {
@@ -29,7 +68,8 @@ void TomlReader::error(const Place& place, std::string message, std::string reme
     Diagnostic diagnostic;
     diagnostic.place = place;
     diagnostic.message = std::move(message);
-    diagnostic.quoted_line = line_of(text_, place.line);
+    const auto text = texts_.find(place.file);
+    if (text != texts_.end()) diagnostic.quoted_line = line_of(text->second, place.line);
     diagnostic.remedy = std::move(remedy);
     errors_.push_back(std::move(diagnostic));
 }
@@ -44,9 +84,8 @@ void TomlReader::only(const toml::table& table, std::string_view what,
     for (const auto& [key, node] : table) {
         const std::string name(key.str());
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const toml::source_position at = key.source().begin;
-        error(Place{path_, static_cast<int>(at.line), static_cast<int>(at.column)},
-              fmt::format("unknown name '{}' in {}", name, what), suggestion(name, known));
+        error(place_of(key.source()), fmt::format("unknown name '{}' in {}", name, what),
+              suggestion(name, known));
     }
 }
 

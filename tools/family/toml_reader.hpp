@@ -2,6 +2,7 @@
 // each error names its place. Shared by whatever gobo reads from TOML.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,11 @@ class TomlReader {
   public:
     /// Parses `text`; a syntax error is already an error of the reader.
     TomlReader(std::string_view text, std::string path);
+
+    /// Lays this document over another one: tables merge, the arrays in `appended` grow by this document's
+    /// elements, any other value of this document takes the place of the other's. Errors keep naming the
+    /// document they are in.
+    void extend(std::string_view base_text, std::string base_path, const std::vector<std::string>& appended);
 
     [[nodiscard]] const toml::table& root() const { return root_; }
     [[nodiscard]] bool failed() const { return !errors_.empty(); }
@@ -50,9 +56,11 @@ class TomlReader {
     void take(Diagnostics errors);
 
   private:
+    [[nodiscard]] toml::table parse(std::string_view text, const std::string& path);
+    [[nodiscard]] Place place_of(const toml::source_region& region) const;
     void wrong_type(const toml::node& node, std::string_view name, std::string_view wanted);
 
-    std::string_view text_;
+    std::map<std::string, std::string_view> texts_;  ///< of the documents, by path
     std::string path_;
     toml::table root_;
     Diagnostics errors_;

@@ -47,7 +47,7 @@ Result<FamilySource> find_family(const World& world, const std::string& name, co
     if (!files.is_file(place)) {
         const auto known = from_disk ? std::vector<std::string>{} : shipped_families(world.shipped);
         return fail(Fault::usage, fmt::format("there is no shipped family '{}'", name),
-                    suggestion(name, known) + "; a family of your own is named by its .toml file");
+                    suggestion(name, known) + " (a family of your own is named by its .toml file)");
     }
     Result<std::string> text = files.read(place);
     if (!text) return tl::unexpected(text.error());
@@ -125,9 +125,16 @@ Result<Dialect> read_dialect(const std::string& name) {
 Result<LoadedFamily> load_family(const World& world, const std::string& name, const CommonOptions& options) {
     Result<FamilySource> source = find_family(world, name, options);
     if (!source) return tl::unexpected(source.error());
-    Result<Family> family = read_family(source->text, source->path);
+    LoadedFamily loaded;
+    const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
+        Result<FamilySource> base = find_family(world, base_name, options);
+        if (!base) return tl::unexpected(base.error());
+        if (base->on_disk) loaded.files.push_back(base->path);
+        return FamilyText{std::move(base->text), std::move(base->path)};
+    };
+    Result<Family> family = read_family(source->text, source->path, find_base);
     if (!family) return tl::unexpected(family.error());
-    LoadedFamily loaded{std::move(*family), {}, {}};
+    loaded.family = std::move(*family);
     for (const std::string& folder : options.include_folders) {
         std::string trimmed = folder;
         while (trimmed.size() > 1 && trimmed.ends_with('/')) trimmed.pop_back();
