@@ -59,6 +59,11 @@ TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {
     EXPECT_EQ(compile_and_run("old_caller"), "");
 }
 
+TEST_P(GeneratedHeader, BuildsAProgramThroughAnyLoader) {
+    write_header(sample::lit(), "lit");
+    EXPECT_EQ(compile_and_run("gl_caller"), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Compilers, GeneratedHeader,
                          testing::Values(Compiler{"gcc17", "g++ -std=c++17"},
                                          Compiler{"gcc20", "g++ -std=c++20"},

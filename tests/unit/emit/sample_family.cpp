@@ -1,5 +1,7 @@
 #include "sample_family.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 namespace gobo::sample {
@@ -156,30 +158,107 @@ Built bare() {
     return built;
 }
 
-Built large(int permutations) {
-    Built built = lit();
-    Family& family = built.family;
-    family.features = {count("a", 15), count("b", 15), count("c", 15), count("d", 15),
-                       choice("e", {"x", "y"})};
-    family.rules = {defaults(family, "a == 0", {"e"}), defaults(family, "b + c == 0", {"d"})};
+namespace {
+
+Family large_family() {
+    Family family;
+    family.name = "large";
+    family.features = {
+        choice("depth", {"default", "early", "any", "greater", "less", "unchanged"}),
+        choice("diffuse", {"lambert", "toon"}),
+        count("directional", 8),
+        choice("fog", {"none", "linear", "exponential", "exponential_squared"}),
+        choice("fog_distance", {"radial", "planar"}),
+        count("point", 8),
+        choice("shading", {"fragment", "vertex", "hybrid"}),
+        choice("specular", {"none", "phong", "blinn"}),
+        count("spot", 8),
+    };
+    family.rules = {
+        defaults(family, "fog == none", {"fog_distance"}),
+        defaults(family, "directional + point + spot == 0", {"specular", "shading", "diffuse"}),
+        defaults(family, "diffuse == toon", {"specular"}),
+        forbid(family, "shading == hybrid && directional + point + spot > 12", "too many varying components"),
+        forbid(family, "directional + point + spot > 20", "too many uniforms"),
+    };
+    return family;
+}
+
+/// Different canonical keys, spread over the whole family: the values of multiples of a prime in mixed radix.
+std::vector<Key> spread_keys(const Family& family, std::size_t count) {
+    std::set<Key> keys;
+    for (std::size_t number = 0; keys.size() < count; number += 7919) {
+        Key key;
+        std::size_t rest = number;
+        for (const Feature& feature : family.features) {
+            key.push_back(static_cast<int>(rest % feature.values.size()));
+            rest /= feature.values.size();
+        }
+        keys.insert(canonical(family, key, "450"));
+    }
+    return {keys.begin(), keys.end()};
+}
+
+}  // namespace
+
+Built large(std::size_t permutations) {
+    Built built;
+    built.family = large_family();
+    built.interface = lit_interface();
     Composition& composition = built.composition;
-    composition = {};
-    for (int piece = 0; piece < 200; ++piece) {
+    constexpr int piece_count = 200;
+    for (int piece = 0; piece < piece_count; ++piece) {
         std::string text;
-        for (int line = 0; line < 40; ++line)
+        for (int line = 0; line < 40; ++line) {
             text += fmt::format("float f{}_{}() {{ return 1.0; }}\n", piece, line);
+        }
         add_piece(composition, fmt::format("shader_lib/piece_{}.glsl", piece), text);
     }
     composition.stages.push_back({StageKind::vertex, {0, 1, 2}});
-    for (int number = 0; number < permutations; ++number) {
+    for (const Key& key : spread_keys(built.family, permutations)) {
+        const auto number = static_cast<int>(composition.stages.size());
         Stage stage{StageKind::fragment, {}};
-        for (int piece = 0; piece < 13; ++piece)
-            stage.pieces.push_back((number * 7 + piece * (number + 1)) % 200);
+        for (int piece = 0; piece < 13; ++piece) {
+            stage.pieces.push_back((number * 7 + piece * (number + 1)) % piece_count);
+        }
         composition.stages.push_back(stage);
-        // a and b + c are never 0, so every key is canonical.
-        const Key key = {1 + number % 15, 1 + number / 15 % 15, number / 225 % 16, number / 3600 % 16, 0};
-        composition.permutations.push_back({key, 0, number + 1});
+        composition.permutations.push_back({key, 0, number});
     }
+    return built;
+}
+
+Built drawn() {
+    Built built;
+    Family& family = built.family;
+    family.name = "drawn";
+    family.features = {choice("tint", {"none", "texture", "broken"})};
+    Composition& composition = built.composition;
+    composition.dialect = Dialect::glsl330;
+    const int version = add_piece(composition, "version.glsl", "#version 330 core\n");
+    const int vertex = add_piece(composition, "drawn.vert",
+                                 "in vec4 corner;\nin vec4 position;\n"
+                                 "void main() { gl_Position = position + corner; }\n");
+    const int block = add_piece(composition, "colors.glsl",
+                                "layout(std140) uniform Colors { vec4 color; };\n"
+                                "layout(std140) uniform Bases { vec4 base; };\nout vec4 result;\n");
+    composition.stages.push_back({StageKind::vertex, {version, vertex}});
+    const std::vector<std::string> tints = {
+        "void main() { result = color * base; }\n",
+        "uniform sampler2D maps[2];\nuniform sampler2D image;\n"
+        "void main() { result = color * base * texture(maps[1], color.xy) * texture(image, color.xy); }\n",
+        "void main() {\n    result = colour;\n}\n",
+    };
+    for (std::size_t value = 0; value < tints.size(); ++value) {
+        const int tint =
+            add_piece(composition, "tint/" + family.features[0].values[value] + ".glsl", tints[value]);
+        composition.stages.push_back({StageKind::fragment, {version, block, tint}});
+        composition.permutations.push_back({{static_cast<int>(value)}, 0, static_cast<int>(value) + 1});
+    }
+    built.interface.blocks = {sample::block("Bases", 5, 16, {member("base", "vec4", 0)}),
+                              sample::block("Colors", 2, 16, {member("color", "vec4", 0)})};
+    built.interface.inputs = {{"corner", "vec4", 4, {}}, {"position", "vec4", -1, {}}};
+    built.interface.outputs = {{"result", "vec4", -1, {}}};
+    built.interface.samplers = {{"image", "sampler2D", -1, {}, {}}, {"maps", "sampler2D", 3, {2}, {}}};
     return built;
 }
 

@@ -122,7 +122,11 @@ Built nasty();
 /// A family without features, with one permutation and an empty interface.
 Built bare();
 
-/// `count` permutations of thirteen pieces each, as a large application would build.
-Built large(int count);
+/// Permutations of a family like lit in full, of thirteen pieces each: as many as a large application would
+/// build.
+Built large(std::size_t permutations);
+
+/// GLSL 330 that a driver can draw with, and a permutation that does not compile.
+Built drawn();
 
 }  // namespace gobo::sample

@@ -1,0 +1,202 @@
+// From a permutation to an OpenGL program, through whatever loader the application uses.
+//
+//     #include <glad/gl.h>          // or GL/glew.h, epoxy/gl.h, GLES3/gl3.h: any that declares gl*
+//     #include <gobo/gl.hpp>
+//     gobo::gl::Program program = gobo::gl::build_program(*lit::find(key));
+//     if (!program) std::puts(program.error.c_str());
+//
+// Where OpenGL's functions stand in a struct (glad's GladGLContext, or one of the application's own with
+// members CreateShader, ShaderSource and so on), pass it: build_program(permutation, context). An application
+// that has no gl* functions at all defines GOBO_GL_NO_LOADER before it includes this.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gobo/driver_log.hpp>
+#include <gobo/permutation.hpp>
+
+#if !defined(GOBO_GL_NO_LOADER) && !defined(GL_VERSION_2_0) && !defined(GL_ES_VERSION_3_0)
+#error \
+    "include the header of your OpenGL loader before <gobo/gl.hpp>, or define GOBO_GL_NO_LOADER and pass a table"
+#endif
+
+namespace gobo::gl {
+
+/// A program that links, or the reason why there is none. The caller deletes it (glDeleteProgram).
+struct Program {
+    unsigned id = 0;    ///< 0 where there is none
+    std::string error;  ///< the driver's log, its places translated to the files that the shaders come from
+
+    explicit operator bool() const { return id != 0; }
+};
+
+/// OpenGL's constants, which a table of functions does not bring along.
+namespace constant {
+inline constexpr unsigned fragment_shader = 0x8B30;
+inline constexpr unsigned vertex_shader = 0x8B31;
+inline constexpr unsigned compile_status = 0x8B81;
+inline constexpr unsigned link_status = 0x8B82;
+inline constexpr unsigned info_log_length = 0x8B84;
+inline constexpr unsigned current_program = 0x8B8D;
+inline constexpr unsigned invalid_index = 0xFFFFFFFF;
+}  // namespace constant
+
+#ifndef GOBO_GL_NO_LOADER
+/// The functions of the loader that was included: functions, function pointers or macros.
+struct LoadedFunctions {
+    [[nodiscard]] unsigned CreateShader(unsigned kind) const { return glCreateShader(kind); }
+    void ShaderSource(unsigned shader, int count, const char* const* texts, const int* lengths) const {
+        // Old headers take texts whose pointers are not constant; the texts are in either case.
+        glShaderSource(shader, count, const_cast<const char**>(texts), lengths);
+    }
+    void CompileShader(unsigned shader) const { glCompileShader(shader); }
+    void GetShaderiv(unsigned shader, unsigned name, int* value) const { glGetShaderiv(shader, name, value); }
+    void GetShaderInfoLog(unsigned shader, int size, int* length, char* log) const {
+        glGetShaderInfoLog(shader, size, length, log);
+    }
+    void DeleteShader(unsigned shader) const { glDeleteShader(shader); }
+    [[nodiscard]] unsigned CreateProgram() const { return glCreateProgram(); }
+    void AttachShader(unsigned program, unsigned shader) const { glAttachShader(program, shader); }
+    void BindAttribLocation(unsigned program, unsigned location, const char* name) const {
+        glBindAttribLocation(program, location, name);
+    }
+    void LinkProgram(unsigned program) const { glLinkProgram(program); }
+    void GetProgramiv(unsigned program, unsigned name, int* value) const {
+        glGetProgramiv(program, name, value);
+    }
+    void GetProgramInfoLog(unsigned program, int size, int* length, char* log) const {
+        glGetProgramInfoLog(program, size, length, log);
+    }
+    void DeleteProgram(unsigned program) const { glDeleteProgram(program); }
+    void UseProgram(unsigned program) const { glUseProgram(program); }
+    void GetIntegerv(unsigned name, int* value) const { glGetIntegerv(name, value); }
+    [[nodiscard]] int GetUniformLocation(unsigned program, const char* name) const {
+        return glGetUniformLocation(program, name);
+    }
+    void Uniform1iv(int location, int count, const int* values) const {
+        glUniform1iv(location, count, values);
+    }
+    [[nodiscard]] unsigned GetUniformBlockIndex(unsigned program, const char* name) const {
+        return glGetUniformBlockIndex(program, name);
+    }
+    void UniformBlockBinding(unsigned program, unsigned block, unsigned binding) const {
+        glUniformBlockBinding(program, block, binding);
+    }
+};
+#endif
+
+namespace detail {
+
+/// The log of a shader or program. `get_length(int*)`, `get_log(size, int*, char*)`.
+template <class GetLength, class GetLog>
+[[nodiscard]] std::string read_log(GetLength get_length, GetLog get_log) {
+    int size = 0;
+    get_length(&size);
+    std::string log(static_cast<std::size_t>(size > 0 ? size : 0), '\0');
+    if (log.empty()) return log;
+    int length = 0;
+    get_log(size, &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    return log;
+}
+
+/// A compiled shader, or 0 with `error` set.
+template <class Tables, class Functions>
+[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, unsigned kind, const Functions& gl,
+                               std::string& error) {
+    std::vector<const char*> texts;
+    std::vector<int> lengths;
+    stage.for_each_piece([&texts, &lengths](std::string_view text) {
+        texts.push_back(text.data());
+        lengths.push_back(static_cast<int>(text.size()));
+    });
+    const unsigned shader = gl.CreateShader(kind);
+    gl.ShaderSource(shader, stage.piece_count(), texts.data(), lengths.data());
+    gl.CompileShader(shader);
+    int compiled = 0;
+    gl.GetShaderiv(shader, constant::compile_status, &compiled);
+    if (compiled != 0) return shader;
+    const std::string log =
+        read_log([&](int* size) { gl.GetShaderiv(shader, constant::info_log_length, size); },
+                 [&](int size, int* length, char* text) { gl.GetShaderInfoLog(shader, size, length, text); });
+    error = std::string(kind == constant::vertex_shader ? "vertex" : "fragment") +
+            " stage does not compile\n" + runtime::translated_log(stage, log);
+    gl.DeleteShader(shader);
+    return 0;
+}
+
+}  // namespace detail
+
+/// Gives blocks their bindings and samplers their units, by name: needed where the dialect (330, ES 300)
+/// cannot state them in the shader. The current program stays current.
+template <class Tables, class Functions>
+void set_bindings(unsigned program, const Functions& gl) {
+    for (const runtime::BlockBinding& block : Tables::blocks) {
+        const unsigned index = gl.GetUniformBlockIndex(program, std::string(block.name).c_str());
+        if (index == constant::invalid_index) continue;
+        gl.UniformBlockBinding(program, index, static_cast<unsigned>(block.binding));
+    }
+    int previous = 0;
+    gl.GetIntegerv(constant::current_program, &previous);
+    gl.UseProgram(program);
+    for (const runtime::SamplerBinding& sampler : Tables::samplers) {
+        const int location = gl.GetUniformLocation(program, std::string(sampler.name).c_str());
+        if (location < 0) continue;
+        std::vector<int> units;
+        for (int unit = 0; unit < sampler.count; ++unit) units.push_back(sampler.binding + unit);
+        gl.Uniform1iv(location, sampler.count, units.data());
+    }
+    gl.UseProgram(static_cast<unsigned>(previous));
+}
+
+/// Compiles and links a permutation of a generated header, and binds its attributes, blocks and samplers as
+/// the header says. Needs a current context of OpenGL 3.3 or OpenGL ES 3.0 at least.
+template <class Permutation, class Functions>
+[[nodiscard]] Program build_program(const Permutation& permutation, const Functions& gl) {
+    Program program;
+    const unsigned vertex = detail::compile(permutation.vertex, constant::vertex_shader, gl, program.error);
+    if (vertex == 0) return program;
+    const unsigned fragment =
+        detail::compile(permutation.fragment, constant::fragment_shader, gl, program.error);
+    if (fragment == 0) {
+        gl.DeleteShader(vertex);
+        return program;
+    }
+    const unsigned id = gl.CreateProgram();
+    gl.AttachShader(id, vertex);
+    gl.AttachShader(id, fragment);
+    for (const runtime::VariableLocation& attribute : Permutation::Tables::attributes) {
+        gl.BindAttribLocation(id, static_cast<unsigned>(attribute.location),
+                              std::string(attribute.name).c_str());
+    }
+    gl.LinkProgram(id);
+    // Both live on within the program until it is deleted.
+    gl.DeleteShader(vertex);
+    gl.DeleteShader(fragment);
+    int linked = 0;
+    gl.GetProgramiv(id, constant::link_status, &linked);
+    if (linked == 0) {
+        const std::string log = detail::read_log(
+            [&](int* size) { gl.GetProgramiv(id, constant::info_log_length, size); },
+            [&](int size, int* length, char* text) { gl.GetProgramInfoLog(id, size, length, text); });
+        program.error = "the stages do not link\n" + log;
+        gl.DeleteProgram(id);
+        return program;
+    }
+    set_bindings<typename Permutation::Tables>(id, gl);
+    program.id = id;
+    return program;
+}
+
+#ifndef GOBO_GL_NO_LOADER
+/// The same through the functions of the loader that was included.
+template <class Permutation>
+[[nodiscard]] Program build_program(const Permutation& permutation) {
+    return build_program(permutation, LoadedFunctions{});
+}
+#endif
+
+}  // namespace gobo::gl
