@@ -22,6 +22,7 @@ struct BuildOptions {
     std::string dialect;
     std::string folder;
     std::string cpp_namespace;
+    std::string depfile_target;
 };
 
 /// The interface of the whole family: what any permutation of the composition declares.
@@ -73,11 +74,11 @@ Result<std::vector<std::pair<std::string, std::string>>> emit_all(const BuildOpt
     Result<std::string> header = emit_header(input, *templates);
     if (!header) return tl::unexpected(header.error());
     const std::string stem = options.folder + "/" + family.family.name;
+    const std::string target = options.depfile_target.empty() ? stem + ".hpp" : options.depfile_target;
     const std::vector<std::string> read = files_read(family, composition, options.common, *templates);
-    return std::vector<std::pair<std::string, std::string>>{
-        {stem + ".hpp", std::move(*header)},
-        {stem + ".json", emit_manifest(input)},
-        {stem + ".d", emit_depfile({stem + ".hpp"}, read)}};
+    return std::vector<std::pair<std::string, std::string>>{{stem + ".hpp", std::move(*header)},
+                                                            {stem + ".json", emit_manifest(input)},
+                                                            {stem + ".d", emit_depfile({target}, read)}};
 }
 
 Outcome run(const BuildOptions& options, const World& world) {
@@ -113,6 +114,10 @@ Command build_command(CLI::App& gobo) {
     app->add_option("--namespace", options->cpp_namespace,
                     "C++ namespace of the header; by default the family's name")
         ->type_name("NAME");
+    app->add_option("--depfile-target", options->depfile_target,
+                    "What the depfile says is made, by default the header: a stamp, for build tools that "
+                    "compare times")
+        ->type_name("FILE");
     add_selection_options(*app, options->selection);
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
