@@ -1,0 +1,75 @@
+#include "oracle/lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace gobo::oracle {
+namespace {
+
+Arrival arrival_of(const PointLight& light, const glm::dvec3& position) {
+    const glm::dvec3 ray = light.position - position;
+    Arrival arrival;
+    arrival.to_light = direction_of(ray);
+    arrival.distance = glm::length(ray);
+    arrival.unshaped = light.color * attenuation(light.attenuation, arrival.distance);
+    arrival.radiance = arrival.unshaped;
+    return arrival;
+}
+
+Arrival arrival_of(const SpotLight& light, const glm::dvec3& position, Decisions& decisions) {
+    Arrival arrival = arrival_of(static_cast<const PointLight&>(light), position);
+    arrival.spot = &light;
+    arrival.cone_angle = angle_between(light.axis, -arrival.to_light);
+    arrival.radiance *= cone_share(light, arrival.cone_angle, decisions);
+    return arrival;
+}
+
+}  // namespace
+
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    // atan2(|a x b|, a.b): relative accuracy at every angle, where acos has none near 0 and pi.
+    const double sine = glm::length(glm::cross(a, b));
+    const double cosine = glm::dot(a, b);
+    return sine == 0 && cosine == 0 ? std::acos(0.0) : std::atan2(sine, cosine);
+}
+
+glm::dvec3 direction_of(const glm::dvec3& vector) {
+    const double length = glm::length(vector);
+    return length > 0 ? vector / length : glm::dvec3(0);
+}
+
+double attenuation(const glm::dvec3& coefficients, double distance) {
+    const double denominator =
+        coefficients[0] + coefficients[1] * distance + coefficients[2] * distance * distance;
+    return 1 / std::max(denominator, 1e-18);
+}
+
+double cone_share(const SpotLight& light, double angle, Decisions& decisions) {
+    const double half_sine = std::sin(angle / 2);
+    const double versine = 2 * half_sine * half_sine;
+    const double fade_width = light.outer_versine - light.inner_versine;
+    double edge = 0;
+    if (light.outer_versine >= 2) {  // all directions, the one straight back too
+        edge = fade_width > 0 ? std::clamp((2 - versine) / fade_width, 0.0, 1.0) : 1;
+    } else if (fade_width > 0) {
+        edge = std::clamp((light.outer_versine - versine) / fade_width, 0.0, 1.0);
+    } else {
+        edge = decisions.above(light.outer_versine, versine) ? 1 : 0;
+    }
+    const double falloff = std::pow(std::max(std::cos(angle), 0.0), light.exponent);  // 0^0 is 1
+    return edge * edge * falloff;
+}
+
+std::vector<Arrival> arrivals(const Scene& scene, const glm::dvec3& position, Decisions& decisions) {
+    std::vector<Arrival> result;
+    result.reserve(scene.directional.size() + scene.point.size() + scene.spot.size());
+    for (const DirectionalLight& light : scene.directional)
+        result.push_back({light.direction, light.color, light.color, 0, 0, nullptr});
+    for (const PointLight& light : scene.point) result.push_back(arrival_of(light, position));
+    for (const SpotLight& light : scene.spot) result.push_back(arrival_of(light, position, decisions));
+    return result;
+}
+
+}  // namespace gobo::oracle

@@ -1,0 +1,38 @@
+// What arrives of each light at a surface point.
+#pragma once
+
+#include <vector>
+
+#include "oracle/decisions.hpp"
+#include "oracle/scene.hpp"
+
+namespace gobo::oracle {
+
+/// The angle between two directions of any length, 0 to pi; a right angle where either is zero.
+[[nodiscard]] double angle_between(const glm::dvec3& a, const glm::dvec3& b);
+
+/// The vector's direction; zero where it is zero.
+[[nodiscard]] glm::dvec3 direction_of(const glm::dvec3& vector);
+
+/// 1 / (k_c + k_l d + k_q d^2), the denominator at least 1e-18, as the domain says.
+[[nodiscard]] double attenuation(const glm::dvec3& coefficients, double distance);
+
+/// The share of a spot light on a ray at `angle` from its axis: e cos(angle)^exponent, with e falling from 1
+/// at the inner angle to 0 at the outer one as the square of what is left of the way in versines.
+[[nodiscard]] double cone_share(const SpotLight& light, double angle, Decisions& decisions);
+
+/// One light at one point.
+struct Arrival {
+    glm::dvec3 to_light{0};  ///< unit; zero where the light gives nothing
+    glm::dvec3 radiance{0};  ///< after attenuation and cone
+    glm::dvec3 unshaped{0};  ///< after attenuation alone: an upper bound, by which errors are measured
+    double distance = 0;     ///< 0 for a directional light
+    double cone_angle = 0;   ///< between the ray and a spot light's axis
+    const SpotLight* spot = nullptr;
+};
+
+/// All lights at a point: directional, point, spot, each in the scene's order.
+[[nodiscard]] std::vector<Arrival> arrivals(const Scene& scene, const glm::dvec3& position,
+                                            Decisions& decisions);
+
+}  // namespace gobo::oracle

@@ -1,0 +1,76 @@
+#include "oracle/model.hpp"
+
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace gobo::oracle {
+namespace {
+
+/// Sets what a feature's value means; false where the value is unknown.
+using Setter = std::function<bool(Model&, const std::string& value)>;
+
+template <class Enum>
+Setter choice(Enum Model::*member, std::map<std::string, Enum> values) {
+    return [member, values = std::move(values)](Model& model, const std::string& value) {
+        const auto found = values.find(value);
+        if (found == values.end()) return false;
+        model.*member = found->second;
+        return true;
+    };
+}
+
+Setter count(int Model::*member) {
+    return [member](Model& model, const std::string& value) {
+        model.*member = std::stoi(value);
+        return true;
+    };
+}
+
+const std::map<std::string, Setter>& setters() {
+    static const std::map<std::string, Setter> table = {
+        {"directional", count(&Model::directional)},
+        {"point", count(&Model::point)},
+        {"spot", count(&Model::spot)},
+        {"diffuse",
+         choice<Diffuse>(&Model::diffuse, {{"lambert", Diffuse::lambert}, {"toon", Diffuse::toon}})},
+        {"specular", choice<Specular>(
+                         &Model::specular,
+                         {{"none", Specular::none}, {"phong", Specular::phong}, {"blinn", Specular::blinn}})},
+        {"fog", choice<Fog>(&Model::fog, {{"none", Fog::none},
+                                          {"linear", Fog::linear},
+                                          {"exponential", Fog::exponential},
+                                          {"exponential_squared", Fog::exponential_squared}})},
+        {"fog_distance", choice<FogDistance>(&Model::fog_distance, {{"radial", FogDistance::radial},
+                                                                    {"planar", FogDistance::planar}})},
+        {"shading",
+         choice<Shading>(&Model::shading, {{"fragment", Shading::fragment}, {"vertex", Shading::vertex}})},
+        {"depth", choice<Depth>(&Model::depth, {{"default", Depth::untouched},
+                                                {"early", Depth::untouched},
+                                                {"any", Depth::any},
+                                                {"greater", Depth::greater},
+                                                {"less", Depth::less},
+                                                {"unchanged", Depth::unchanged}})}};
+    return table;
+}
+
+}  // namespace
+
+tl::expected<Model, std::string> model_of(const Family& family, const Key& key) {
+    if (family.name != "lit")
+        return tl::unexpected(fmt::format("the oracle does not know the family '{}'", family.name));
+    Model model;
+    for (std::size_t i = 0; i < key.size(); ++i) {
+        const Feature& feature = family.features[i];
+        const std::string& value = feature.values[static_cast<std::size_t>(key[i])];
+        const auto setter = setters().find(feature.name);
+        const bool is_known = setter == setters().end() ? key[i] == 0 : setter->second(model, value);
+        if (!is_known) {
+            return tl::unexpected(fmt::format("the oracle has no equation for {}={}", feature.name, value));
+        }
+    }
+    return model;
+}
+
+}  // namespace gobo::oracle

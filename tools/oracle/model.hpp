@@ -1,0 +1,38 @@
+// Which of the lighting models a key of the family `lit` stands for.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "family/family.hpp"
+
+namespace gobo::oracle {
+
+enum class Diffuse { lambert, toon };
+enum class Specular { none, phong, blinn };
+enum class Fog { none, linear, exponential, exponential_squared };
+enum class FogDistance { radial, planar };
+enum class Shading { fragment, vertex };
+enum class Depth { untouched, any, greater, less, unchanged };
+
+/// One model: everything about a key that the radiance and the depth depend on.
+struct Model {
+    int directional = 0;
+    int point = 0;
+    int spot = 0;
+    Diffuse diffuse = Diffuse::lambert;
+    Specular specular = Specular::none;
+    Fog fog = Fog::none;
+    FogDistance fog_distance = FogDistance::radial;
+    Shading shading = Shading::fragment;
+    Depth depth = Depth::untouched;
+
+    [[nodiscard]] int lights() const { return directional + point + spot; }
+};
+
+/// The model of a key; otherwise the reason why the oracle has none: another family, or a feature or value
+/// that stands at anything but its default and that the oracle's equations do not cover.
+[[nodiscard]] tl::expected<Model, std::string> model_of(const Family& family, const Key& key);
+
+}  // namespace gobo::oracle

@@ -1,0 +1,68 @@
+// What the lighting models of the family `lit` are asked about: one surface point and all that lights it, by
+// meaning. Points and directions are in eye space, where the viewer stands at the origin and looks along -z.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace gobo::oracle {
+
+/// A point of a surface.
+struct SurfacePoint {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0};  ///< of any length; zero where there is none
+};
+
+/// Reflectivities per colour channel, 0 to 1; emission in radiance.
+struct Material {
+    glm::dvec3 emission{0};
+    glm::dvec3 ambient{0};
+    glm::dvec3 diffuse{0};
+    glm::dvec3 specular{0};
+    double shininess = 0;
+    double strength = 1;  ///< scales the highlight
+};
+
+/// A light so far away that it shines from the same side everywhere.
+struct DirectionalLight {
+    glm::dvec3 direction{0};  ///< unit, from the surface to the light; zero: no light
+    glm::dvec3 color{0};      ///< radiance
+};
+
+/// A light that shines from its position to all sides.
+struct PointLight {
+    glm::dvec3 position{0};
+    glm::dvec3 color{0};        ///< radiance where the attenuation is 1
+    glm::dvec3 attenuation{0};  ///< k_c, k_l, k_q of 1 / (k_c + k_l d + k_q d^2)
+};
+
+/// A point light with a cone. A versine is 1 - cos of an angle, here the half angle of the cone.
+struct SpotLight : PointLight {
+    glm::dvec3 axis{0};  ///< unit, along which the light shines
+    double exponent = 0;
+    double inner_versine = 0;  ///< full light up to here
+    double outer_versine = 2;  ///< none from here on; 2 is all directions
+};
+
+/// Distances along the view. Each kind of fog reads what it needs.
+struct FogParameters {
+    glm::dvec3 color{0};
+    double density = 0;
+    double near = 0;
+    double far = 0;
+};
+
+/// All that is the same for every point of a draw.
+struct Scene {
+    Material material;
+    glm::dvec3 ambient{0};
+    std::vector<DirectionalLight> directional;
+    std::vector<PointLight> point;
+    std::vector<SpotLight> spot;
+    int toon_levels = 1;
+    FogParameters fog;
+    double depth_offset = 0;  ///< in window depth
+};
+
+}  // namespace gobo::oracle
