@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/text.hpp"
 #include "compose/dialect.hpp"
 #include "emit/interface_section.hpp"
 #include "emit/key_section.hpp"
@@ -74,13 +75,29 @@ std::vector<Rule> rules_of(const Family& family, Dialect dialect) {
 
 }  // namespace
 
+std::string version_of(const Composition& composition) {
+    if (composition.dialect != Dialect::own || composition.pieces.empty()) {
+        return std::string(name_of(composition.dialect));
+    }
+    constexpr std::string_view directive = "#version ";
+    for (const Piece& piece : composition.pieces) {
+        const auto found = piece.text.find(directive);
+        if (found == std::string::npos) continue;
+        const auto begin = found + directive.size();
+        const std::string version(
+            trim(std::string_view(piece.text).substr(begin, piece.text.find('\n', begin) - begin)));
+        return version == "300 es" ? "es300" : version.substr(0, version.find(" core"));
+    }
+    return std::string(name_of(composition.dialect));
+}
+
 Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
     const Result<std::string> cpp_namespace = namespace_of(input);
     if (!cpp_namespace) return cpp_namespace;
     TemplateValues values;
     values["family"] = input.family.name;
     values["namespace"] = *cpp_namespace;
-    values["dialect"] = name_of(input.composition.dialect);
+    values["dialect"] = version_of(input.composition);
 
     CppScope scope = header_scope();
     const CppKey key = name_key(input.family, scope);

@@ -22,4 +22,8 @@ struct EmitInput {
 /// is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
 [[nodiscard]] Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates);
 
+/// The GLSL version of the stages: "450", "330", "es300", or what the #version of a family with its own
+/// dialect states.
+[[nodiscard]] std::string version_of(const Composition& composition);
+
 }  // namespace gobo

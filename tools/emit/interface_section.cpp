@@ -79,6 +79,37 @@ void add_table(TemplateValues& values, const std::string& name, const std::vecto
     values[name + "s"] = cpp_list(rows);
 }
 
+/// A uniform outside any block, or a part of one.
+struct UniformPart {
+    std::string name;
+    std::string type;
+    std::vector<int> array;
+    std::vector<Member> members;
+};
+
+/// A row for each name that OpenGL knows: members of structs, and elements of arrays of structs or arrays,
+/// are uniforms of their own, at locations that follow one another where the first is stated.
+void add_uniform_rows(const UniformPart& part, int& location, std::vector<std::string>& rows) {
+    const bool is_plain_array = part.members.empty() && part.array.size() == 1;
+    if (!part.array.empty() && !is_plain_array) {
+        const std::vector<int> inner(part.array.begin() + 1, part.array.end());
+        for (int index = 0; index < part.array.front(); ++index) {
+            add_uniform_rows({fmt::format("{}[{}]", part.name, index), part.type, inner, part.members},
+                             location, rows);
+        }
+        return;
+    }
+    for (const Member& member : part.members) {
+        add_uniform_rows({part.name + "." + member.name, member.type, member.array, member.members}, location,
+                         rows);
+    }
+    if (!part.members.empty()) return;
+    const int count = elements_of(part.array);
+    rows.push_back(
+        fmt::format("{{{}, {}, {}, {}}}", cpp_literal(part.name), cpp_literal(part.type), location, count));
+    if (location >= 0) location += count;
+}
+
 void add_variables(TemplateValues& values, const std::string& name, const std::vector<Variable>& variables) {
     std::vector<std::string> rows;
     for (const Variable& variable : variables) {
@@ -123,9 +154,8 @@ void describe_interface(const Interface& interface, const std::vector<Domain>& d
     }
     std::vector<std::string> uniforms;
     for (const Uniform& uniform : interface.uniforms) {
-        uniforms.push_back(fmt::format("{{{}, {}, {}, {}}}", cpp_literal(uniform.name),
-                                       cpp_literal(uniform.type), uniform.location,
-                                       elements_of(uniform.array)));
+        int location = uniform.location;
+        add_uniform_rows({uniform.name, uniform.type, uniform.array, uniform.members}, location, uniforms);
     }
     add_table(values, "block", blocks);
     add_table(values, "sampler", samplers);

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "compose/dialect.hpp"
 #include "emit/interface_section.hpp"
 #include "family/key.hpp"
 #include "reflect/interface_format.hpp"
@@ -110,7 +109,7 @@ std::string emit_manifest(const EmitInput& input) {
     return fmt::format(
         "{{\n  \"family\": {},\n  \"dialect\": {},\n  \"features\": {},\n  \"interface\": {},\n"
         "  \"stages\": {},\n  \"permutations\": {}\n}}\n",
-        text_of(input.family.name), text_of(name_of(input.composition.dialect)),
+        text_of(input.family.name), text_of(version_of(input.composition)),
         array_text(feature_rows(input.family)), indented(text_of(interface, indent)),
         array_text(stage_rows(input.composition)),
         array_text(permutation_rows(input.family, input.composition)));

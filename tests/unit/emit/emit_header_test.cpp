@@ -148,6 +148,31 @@ TEST(EmitHeader, RulesOfOtherDialectsDoNotHold) {
     EXPECT_NE(header_of(built).find("varying components"), std::string::npos);
 }
 
+struct VersionRow {
+    const char* name;
+    Dialect dialect;
+    const char* prologue;
+    const char* version;
+};
+
+class Versions : public testing::TestWithParam<VersionRow> {};
+
+TEST_P(Versions, AreThoseOfTheStages) {
+    Composition composition;
+    composition.dialect = GetParam().dialect;
+    composition.pieces.push_back({"prologue", "lit.vert", GetParam().prologue, false});
+    EXPECT_EQ(version_of(composition), GetParam().version);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Dialects, Versions,
+    testing::Values(VersionRow{"asked_for", Dialect::glsl330, "#version 330 core\n", "330"},
+                    VersionRow{"own_core", Dialect::own, "// a game\n#version 410 core\n", "410"},
+                    VersionRow{"own_without_profile", Dialect::own, "#version 120\n", "120"},
+                    VersionRow{"own_es", Dialect::own, "#version 300 es\n", "es300"},
+                    VersionRow{"own_without_version", Dialect::own, "void main() {}\n", "450"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
 TEST(EmitHeader, RefusesWhatIsNoNamespace) {
     const Built built = sample::lit();
     for (const char* name : {"a b", "a::", "::a", "a::class", "1a"}) {

@@ -213,6 +213,18 @@ void test_nasty_blocks() {
            "an array of samplers takes its units");
 }
 
+void test_uniform_names() {
+    const char* const names[] = {"lamp.tint", "lamps[0].tint", "lamps[1].tint", "table[0]", "table[1]"};
+    const int locations[] = {-1, 3, 5, -1, -1};
+    expect(nasty::uniforms.size() == 5, "five uniforms");
+    for (std::size_t index = 0; index < nasty::uniforms.size(); ++index) {
+        expect_text(std::string(nasty::uniforms[index].name), names[index]);
+        expect(nasty::uniforms[index].location == locations[index], "its location");
+    }
+    expect(nasty::uniforms[1].count == 2 && nasty::uniforms[4].count == 3,
+           "arrays of plain values are one uniform");
+}
+
 void test_bare() {
     expect(bare::find(bare::Key{}) == bare::permutations.data(), "a family without features has one key");
     expect_text(bare::key_text(bare::Key{}), "default");
@@ -229,6 +241,7 @@ int main() {
     test_nasty_names();
     test_nasty_texts();
     test_nasty_blocks();
+    test_uniform_names();
     test_bare();
     return failures == 0 ? 0 : 1;
 }

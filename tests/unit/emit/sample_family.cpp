@@ -52,6 +52,11 @@ Interface nasty_interface() {
     interface.samplers = {{"int_", "sampler2D", -1, {4}, {"fragment"}},
                           {"register", "samplerCube", -1, {}, {}}};
     interface.outputs = {{"a", "vec4", 0, {}}, {"b", "vec4", 1, {}}};
+    interface.uniforms = {
+        {"lamp", "Lamp", -1, {}, {member("tint", "vec3", 0)}, {}},
+        {"lamps", "Lamps", 3, {2}, {array(member("tint", "vec3", 0), {2}, 0)}, {}},
+        {"table", "float", -1, {2, 3}, {}, {}},
+    };
     return interface;
 }
 
