@@ -68,8 +68,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
     app.add_option("-I", options.include_folders,
                    "Folder searched for pieces before the family's own (repeatable)")
         ->type_name("FOLDER")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
     app.add_option("-j,--jobs", options.jobs, "Threads")
         ->check(CLI::Range(1, 1024))
         ->type_name("N")
@@ -86,13 +85,11 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 void add_selection_options(CLI::App& app, SelectionOptions& options) {
     app.add_option("--key", options.keys, "A key, such as 'fog=linear point=3' (repeatable)")
         ->type_name("TEXT")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
     app.add_option("--keys-from", options.key_files,
                    "A file of keys, one a line; - is standard input (repeatable)")
         ->type_name("FILE")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
     app.add_flag("--all", options.all, "Every valid key");
     app.add_option("--cover", options.cover, "Keys that contain every combination of T feature values")
         ->type_name("T")
@@ -100,7 +97,8 @@ void add_selection_options(CLI::App& app, SelectionOptions& options) {
     app.add_option("--over", options.over,
                    "Features that --all and --cover range over; the others stand at their defaults")
         ->type_name("A,B,...")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_option("--where", options.where, "Condition on the keys, such as 'point <= 2 && fog != none'")
         ->type_name("EXPR");
     app.add_flag("--retired", options.retired, "Let --all and --cover take retired values too");
