@@ -1,0 +1,52 @@
+// The pages of the documentation, followed literally: files are written, commands run, outputs compared.
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "page.hpp"
+#include "reader.hpp"
+
+namespace gobo {
+namespace {
+
+std::string page_text(const std::string& name) {
+    std::ifstream file(fmt::format("{}/docs/{}", GOBO_SOURCE_DIR, name));
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+class Page : public testing::TestWithParam<std::string> {};
+
+TEST_P(Page, DoesWhatItSays) {
+    const std::vector<PageBlock> blocks = blocks_of(page_text(GetParam()));
+    Reader reader(GOBO_COMMAND);
+    int commands_run = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const PageBlock& block = blocks[i];
+        SCOPED_TRACE(fmt::format("docs/{}:{}", GetParam(), block.line));
+        if (block.language == "diff") {
+            ASSERT_EQ(reader.edit(block), "");
+        } else if (!block.file.empty()) {
+            reader.write(block);
+        } else if (block.language == "sh") {
+            const CommandResult result = reader.run(block.text);
+            ++commands_run;
+            ASSERT_EQ(result.status, stated_status(block)) << block.text << result.printed;
+            const bool shows_output = i + 1 < blocks.size() && blocks[i + 1].language == "text";
+            const std::string shown = shows_output ? blocks[i + 1].text : "";
+            ASSERT_TRUE(is_as_shown(shown, result.printed)) << block.text << "-- the page shows:\n"
+                                                            << shown << "-- but this was printed:\n"
+                                                            << result.printed;
+        }
+    }
+    EXPECT_GT(commands_run, 0) << "a page without commands proves nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Docs, Page, testing::Values("adding_an_effect.md"),
+                         [](const auto& page) { return page.param.substr(0, page.param.find('.')); });
+
+}  // namespace
+}  // namespace gobo
