@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# rebuild_test.sh GENERATOR SOURCE_FOLDER PACKAGE_FOLDER: what gobo_add_permutations() rebuilds, and what it leaves alone.
+# Every step names what gobo must make again and what the compiler must; anything else is a failure.
+set -euo pipefail
+generator=$1
+source=$2
+package=$3
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+work="$scratch/with spaces"
+mkdir "$work"
+cp -r "$source/tests/rebuild/application/." "$work"
+mkdir "$work/library"
+cp -r "$source/shader_lib" "$source/templates" "$work/library"
+failures=0
+
+fail() {
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# expect STEP WHAT: builds, and compares what was made. Make tells modification times apart, so each build gets its own.
+expect() {
+  local log made
+  sleep 0.02
+  log=$(cmake --build "$work/build" 2>&1) || { fail "$1: the build fails"; echo "$log"; return; }
+  made=$(sed -nE 's/.*Building the permutations .* of ([a-z]+).*/gobo:\1/p; s/.*Building CXX object .*\/([a-z]+)\.cpp.*/compiler:\1/p' \
+    <<<"$log" | sort | xargs)
+  [ "$made" = "$2" ] || fail "$1: made '$made', expected '$2'"
+  echo "$1: ${made:-nothing}"
+}
+
+cmake -S "$work" -B "$work/build" -G "$generator" -D gobo_DIR="$package" >"$scratch/configure.log" 2>&1 ||
+  { cat "$scratch/configure.log"; exit 1; }
+expect "first build" "compiler:clear compiler:foggy gobo:clear gobo:foggy"
+expect "second build" ""
+"$work/build/foggy" || fail "foggy does not find its keys"
+"$work/build/clear" || fail "clear does not find its keys"
+
+touch "$work/library/shader_lib/fog/linear.glsl"
+expect "a touched piece of foggy alone: gobo looks, the header stays" "gobo:foggy"
+expect "again" ""
+echo "// changed" >>"$work/library/shader_lib/fog/linear.glsl"
+expect "a changed piece of foggy alone" "compiler:foggy gobo:foggy"
+expect "again" ""
+echo "// changed" >>"$work/library/shader_lib/lighting/response.glsl"
+expect "a changed piece of both" "compiler:clear compiler:foggy gobo:clear gobo:foggy"
+echo "// changed" >>"$work/library/shader_lib/fog/exponential.glsl"
+expect "a changed piece of neither" ""
+sed -i 's/"directional=1"/"directional=2"/' "$work/CMakeLists.txt"
+expect "a changed key" "compiler:foggy gobo:foggy"
+sed -i 's/spot < 2"/spot < 2 \&\& point >= 0"/' "$work/CMakeLists.txt"
+expect "a condition in other words" "gobo:clear"
+expect "again" ""
+
+# Keys and conditions reach gobo as they are written, whatever a shell, a makefile or CMake's lists would make of their
+# characters: gobo refuses these, and quotes them.
+odd_key="li'near=\"x\" \$HOME \$(shell) %d \\ ; & | < > *"
+odd_condition="fog != \"\$HOME; %d\" && 'y' > 0"
+cat >>"$work/CMakeLists.txt" <<CMAKE
+add_executable(odd_key foggy.cpp)
+gobo_add_permutations(odd_key FAMILY lit KEYS [==[$odd_key]==])
+add_executable(odd_condition foggy.cpp)
+gobo_add_permutations(odd_condition FAMILY lit ALL WHERE [==[$odd_condition]==])
+CMAKE
+cmake "$work/build" >"$scratch/configure.log" 2>&1
+# expect_quoted TARGET TEXT: the target is refused by gobo with a message that quotes the text.
+expect_quoted() {
+  cmake --build "$work/build" --target "$1" >"$scratch/odd.log" 2>&1 && fail "$1 builds"
+  grep -E "error:|^    " "$scratch/odd.log" | grep -v '^cd ' | grep -qF -- "$2" || fail "$1 is not quoted: $(cat "$scratch/odd.log")"
+}
+expect_quoted odd_key "$odd_key"
+expect_quoted odd_condition "$odd_condition"
+exit "$((failures > 0))"
