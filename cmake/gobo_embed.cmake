@@ -1,6 +1,6 @@
-# cmake -D OUTPUT=... -D ROOT=... -P gobo_embed.cmake: writes a C++ file that holds the text of every file below ROOT/shader_lib and
-# ROOT/templates. Untouched where nothing changed, so that a touched file alone rebuilds nothing.
-file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/shader_lib/*" "${ROOT}/templates/*")
+# cmake -D OUTPUT=... -D ROOT=... -P gobo_embed.cmake: writes a C++ file that holds the text of every file below ROOT/shader_lib,
+# ROOT/templates and ROOT/data/meshes. Untouched where nothing changed, so that a touched file alone rebuilds nothing.
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/shader_lib/*" "${ROOT}/templates/*" "${ROOT}/data/meshes/*")
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)

@@ -7,7 +7,7 @@
 
 namespace gobo {
 
-/// Text by path: "shader_lib/fog/linear.glsl", "templates/lit.toml".
+/// Text by path: "shader_lib/fog/linear.glsl", "templates/lit.toml", "data/meshes/teapot.obj".
 [[nodiscard]] std::map<std::string, std::string, std::less<>> shipped_files();
 
 }  // namespace gobo

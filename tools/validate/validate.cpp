@@ -8,12 +8,9 @@
 #include <set>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "family/key.hpp"
+#include "family/diagnostic_groups.hpp"
 #include "reflect/merge.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/limits.hpp"
@@ -163,44 +160,6 @@ class Validator {
     Validated result_;
 };
 
-/// Messages grouped over permutations: one per place and text, with the first key and how many there are.
-class Grouping {
-  public:
-    explicit Grouping(const Family& family) : family_(family) {}
-
-    void add(const Diagnostic& diagnostic, const Key& key) {
-        const auto identity = std::tuple(diagnostic.place.file, diagnostic.place.line, diagnostic.message);
-        const auto [at, is_new] = groups_.try_emplace(identity, found_.size());
-        if (is_new) found_.push_back({diagnostic, key, 0});
-        Group& group = found_[at->second];
-        if (group.keys > 0 && group.last == &key) return;  // both stages of a permutation may say the same
-        ++group.keys;
-        group.last = &key;
-    }
-
-    [[nodiscard]] Diagnostics result() && {
-        Diagnostics diagnostics;
-        for (Group& group : found_) {
-            group.diagnostic.subject = key_text(family_, group.first);
-            if (group.keys > 1) group.diagnostic.subject += fmt::format(", and {} more keys", group.keys - 1);
-            if (group.keys == 2) group.diagnostic.subject.pop_back();
-            diagnostics.push_back(std::move(group.diagnostic));
-        }
-        return diagnostics;
-    }
-
-  private:
-    struct Group {
-        Diagnostic diagnostic;
-        Key first;
-        int keys = 0;
-        const Key* last = nullptr;
-    };
-    const Family& family_;
-    std::map<std::tuple<std::string, int, std::string>, std::size_t> groups_;
-    std::vector<Group> found_;
-};
-
 Interface stage_interface(const Validated& validated, int stage) {
     return stage < 0 ? Interface{} : validated.stages[static_cast<std::size_t>(stage)].interface;
 }
@@ -235,15 +194,15 @@ Validated validate(const Family& family, const Composition& composition, const V
     for (std::size_t i = 0; i < validator.pairs().size(); ++i) pair_numbers[validator.pairs()[i]] = i;
     Validated result = validator.take_result();
 
-    Grouping grouping(family);
+    DiagnosticGroups groups(family);
     for (const Permutation& permutation : composition.permutations) {
         const std::size_t pair = pair_numbers[{permutation.vertex, permutation.fragment}];
         for (const Diagnostic& diagnostic :
              diagnostics_of(validator, composition, result, permutation, pair)) {
-            grouping.add(diagnostic, permutation.key);
+            groups.add(diagnostic, permutation.key);
         }
     }
-    result.diagnostics = std::move(grouping).result();
+    result.diagnostics = groups.result();
     return result;
 }
 

@@ -1,0 +1,132 @@
+// gobo render: a picture of every permutation of a selection, without a screen.
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "gobo/commands.hpp"
+#include "render/render_selection.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+struct RenderOptions {
+    CommonOptions common;
+    SelectionOptions selection;
+    std::string family;
+    std::string dialect;
+    std::string folder;
+    std::string size = "640x480";
+    std::string backend = "osmesa";
+    std::string format = "png";
+    std::string mesh = "teapot";
+};
+
+/// "640x480"
+Result<std::pair<int, int>> read_size(const std::string& text) {
+    std::pair<int, int> size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.first);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.second);
+        if (height.ec == std::errc() && height.ptr == end && size.first > 0 && size.second > 0) return size;
+    }
+    return fail(Fault::usage, fmt::format("'{}' is no size", text), "write width x height, such as 640x480");
+}
+
+Result<Mesh> read_mesh(const World& world, const std::string& name) {
+    if (name == "teapot") return read_obj(world.shipped, "data/meshes/teapot.obj");
+    if (name == "sphere") return make_sphere(64, 32);
+    if (name == "torus") return make_torus(1, 0.4, 96, 48);
+    if (name == "plane") return make_plane(3, 32);
+    if (name.ends_with(".obj")) return read_obj(world.disk, name);
+    return fail(Fault::usage, fmt::format("there is no mesh '{}'", name),
+                suggestion(name, {"plane", "sphere", "teapot", "torus"}) + "; or name an .obj file");
+}
+
+Result<PictureOptions> read_options(const RenderOptions& options) {
+    const auto size = read_size(options.size);
+    if (!size) return tl::unexpected(size.error());
+    const auto format = image_format_of(options.format);
+    if (!format) return tl::unexpected(format.error());
+    PictureOptions pictures;
+    pictures.view.camera = demo_camera();
+    pictures.view.width = size->first;
+    pictures.view.height = size->second;
+    pictures.view.background = {0.05F, 0.06F, 0.08F, 1};
+    pictures.format = *format;
+    pictures.folder = options.folder;
+    return pictures;
+}
+
+/// The interfaces of all permutations, or why there are none.
+Result<std::vector<Interface>> interfaces_of(const Family& family, const Composition& composition, int jobs) {
+    ValidateOptions options;
+    options.jobs = jobs;
+    const Validated validated = validate(family, composition, options);
+    if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);
+    std::vector<Interface> interfaces;
+    for (const Permutation& permutation : composition.permutations)
+        interfaces.push_back(interface_of(validated, permutation));
+    return interfaces;
+}
+
+Outcome run(const RenderOptions& options, const World& world) {
+    const auto pictures = read_options(options);
+    if (!pictures) return failed(pictures.error());
+    const auto backend = backend_of(options.backend);
+    if (!backend) return failed(backend.error());
+    const Result<Dialect> dialect = read_dialect(options.dialect);
+    if (!dialect) return failed(dialect.error());
+    const auto mesh = read_mesh(world, options.mesh);
+    if (!mesh) return failed(mesh.error());
+    Result<LoadedFamily> family = load_family(world, options.family, options.common);
+    if (!family) return failed(family.error());
+    const auto composition = load_composition(world, *family, options.selection, *dialect);
+    if (!composition) return failed(composition.error());
+    const auto interfaces = interfaces_of(family->family, *composition, options.common.jobs);
+    if (!interfaces) return failed(interfaces.error());
+    const auto context = open_context(*backend);
+    if (!context) return failed(context.error());
+    const RenderedSelection rendered = render_selection(*context, family->family, *composition, *interfaces,
+                                                        demo_objects(*mesh), *pictures, world.disk);
+    const std::string files = rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n";
+    return {files, rendered.diagnostics,
+            fmt::format("{} pictures of {} x {} by {}", rendered.files.size(), pictures->view.width,
+                        pictures->view.height, context->renderer())};
+}
+
+}  // namespace
+
+Command render_command(CLI::App& gobo) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* app = gobo.add_subcommand("render", "A picture of every key of a selection");
+    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
+    add_selection_options(*app, options->selection);
+    app->add_option("-o,--output", options->folder, "Folder for the pictures, which are named after the keys")
+        ->type_name("DIR")
+        ->required();
+    app->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
+    app->add_option("--backend", options->backend, "What draws")
+        ->type_name("osmesa|egl")
+        ->capture_default_str();
+    app->add_option("--format", options->format, "png is sRGB for the eye; exr and pfm hold linear floats")
+        ->type_name("png|exr|pfm")
+        ->capture_default_str();
+    app->add_option("--mesh", options->mesh, "What stands on the plane")
+        ->type_name("teapot|sphere|torus|plane|FILE.obj")
+        ->capture_default_str();
+    add_dialect_option(*app, options->dialect);
+    add_common_options(*app, options->common);
+    app->footer(
+        "Prints the paths of the pictures. The family's [render] table says what its uniforms hold.\n\n"
+        "Examples:\n"
+        "  gobo render lit --key 'directional=1 specular=blinn' -o pictures\n"
+        "  gobo render lit --cover 2 --where 'point <= 2' -o pictures --size 320x240 --backend egl\n"
+        "  gobo render lit --key 'spot=1' -o pictures --format exr --mesh torus --dialect 330\n"
+        "  gobo render game.toml --all -o pictures");
+    return {app, [options](const World& world) { return run(*options, world); }};
+}
+
+}  // namespace gobo
