@@ -45,7 +45,7 @@ TEST_P(Page, DoesWhatItSays) {
     EXPECT_GT(commands_run, 0) << "a page without commands proves nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Docs, Page, testing::Values("adding_an_effect.md"),
+INSTANTIATE_TEST_SUITE_P(Docs, Page, testing::Values("adding_an_effect.md", "family_file.md"),
                          [](const auto& page) { return page.param.substr(0, page.param.find('.')); });
 
 }  // namespace

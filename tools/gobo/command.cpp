@@ -18,6 +18,13 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
+/// The path of a family file that `path` names relative to itself; the name of a shipped family as it is.
+std::string beside(const std::string& path, const std::string& name) {
+    const std::string folder = folder_of(path);
+    const bool is_as_it_is = !name.ends_with(".toml") || name.starts_with('/') || folder.empty();
+    return is_as_it_is ? name : folder + "/" + name;
+}
+
 std::vector<std::string> shipped_families(const FileSystem& shipped) {
     std::vector<std::string> names;
     for (const std::string& file : shipped.files_below("templates")) {
@@ -124,10 +131,13 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
     Result<FamilySource> source = find_family(world, name, options);
     if (!source) return tl::unexpected(source.error());
     LoadedFamily loaded;
+    std::string base_folder = folder_of(source->path);
     const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
-        Result<FamilySource> base = find_family(world, base_name, options);
+        const std::string base_path = beside(source->path, base_name);
+        Result<FamilySource> base = find_family(world, base_path, options);
         if (!base) return tl::unexpected(base.error());
         if (base->on_disk) loaded.files.push_back(base->path);
+        if (base_name.ends_with(".toml")) base_folder = folder_of(base->path);
         return FamilyText{std::move(base->text), std::move(base->path)};
     };
     Result<Family> family = read_family(source->text, source->path, find_base);
@@ -141,6 +151,7 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
     const bool is_shipped =
         source->path == fmt::format("templates/{}.toml", name) || !options.library.empty();
     if (!is_shipped || source->on_disk) loaded.search.add(world.disk, folder_of(source->path), "", true);
+    if (base_folder != folder_of(source->path)) loaded.search.add(world.disk, base_folder, "", true);
     add_library(world, options, loaded.search);
     if (source->on_disk) loaded.files.push_back(source->path);
     return loaded;
