@@ -1,0 +1,148 @@
+// GLSL.std.450: functions of vectors. The formulas are those of the GLSL specification, 8.5.
+#include <array>
+#include <cmath>
+
+#include <spirv/unified1/GLSL.std.450.h>
+
+#include "evaluate/loops.hpp"
+
+namespace gobo::evaluate {
+namespace {
+
+/// One number of each lane.
+template <class T>
+using Lanes = std::array<T, kLanes>;
+
+template <class T>
+Lanes<T> dot(Machine<T>& machine, std::uint32_t a, std::uint32_t b, std::uint32_t count) {
+    Lanes<T> sum{};
+    for (std::uint32_t component = 0; component < count; ++component) {
+        const T* row_a = machine.reals(a + component);
+        const T* row_b = machine.reals(b + component);
+        // The first product alone: 0 + x would lose the sign of a negative 0.
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            sum[lane] = component == 0 ? row_a[lane] * row_b[lane] : sum[lane] + row_a[lane] * row_b[lane];
+    }
+    return sum;
+}
+
+template <class T>
+void length(const Operation& operation, Machine<T>& machine) {
+    const Lanes<T> squares = dot(machine, operation.operands[0], operation.operands[0], operation.count);
+    T* result = machine.reals(operation.result);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) result[lane] = std::sqrt(squares[lane]);
+}
+
+template <class T>
+void distance(const Operation& operation, Machine<T>& machine) {
+    Lanes<T> squares{};
+    for (std::uint32_t component = 0; component < operation.count; ++component) {
+        const T* a = machine.reals(operation.operands[0] + component);
+        const T* b = machine.reals(operation.operands[1] + component);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const T difference = a[lane] - b[lane];
+            squares[lane] = squares[lane] + difference * difference;
+        }
+    }
+    T* result = machine.reals(operation.result);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) result[lane] = std::sqrt(squares[lane]);
+}
+
+template <class T>
+void normalize(const Operation& operation, Machine<T>& machine) {
+    Lanes<T> lengths = dot(machine, operation.operands[0], operation.operands[0], operation.count);
+    for (T& one : lengths) one = std::sqrt(one);
+    for (std::uint32_t component = 0; component < operation.count; ++component) {
+        T* __restrict result = machine.reals(operation.result + component);
+        const T* a = machine.reals(operation.operands[0] + component);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) result[lane] = a[lane] / lengths[lane];
+    }
+}
+
+template <class T>
+void cross(const Operation& operation, Machine<T>& machine) {
+    for (std::uint32_t component = 0; component < 3; ++component) {
+        const std::uint32_t next = (component + 1) % 3;
+        const std::uint32_t last = (component + 2) % 3;
+        T* __restrict result = machine.reals(operation.result + component);
+        const T* a_next = machine.reals(operation.operands[0] + next);
+        const T* a_last = machine.reals(operation.operands[0] + last);
+        const T* b_next = machine.reals(operation.operands[1] + next);
+        const T* b_last = machine.reals(operation.operands[1] + last);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            result[lane] = a_next[lane] * b_last[lane] - b_next[lane] * a_last[lane];
+    }
+}
+
+/// N where dot(Nref, I) < 0, otherwise -N. Operands: N, I, Nref.
+template <class T>
+void face_forward(const Operation& operation, Machine<T>& machine) {
+    const Lanes<T> facing = dot(machine, operation.operands[2], operation.operands[1], operation.count);
+    for (std::uint32_t component = 0; component < operation.count; ++component) {
+        T* __restrict result = machine.reals(operation.result + component);
+        const T* normal = machine.reals(operation.operands[0] + component);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            result[lane] = facing[lane] < 0 ? normal[lane] : -normal[lane];
+    }
+}
+
+/// I - 2 dot(N, I) N. Operands: I, N.
+template <class T>
+void reflect(const Operation& operation, Machine<T>& machine) {
+    const Lanes<T> along = dot(machine, operation.operands[1], operation.operands[0], operation.count);
+    for (std::uint32_t component = 0; component < operation.count; ++component) {
+        T* __restrict result = machine.reals(operation.result + component);
+        const T* incident = machine.reals(operation.operands[0] + component);
+        const T* normal = machine.reals(operation.operands[1] + component);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            result[lane] = incident[lane] - T(2) * along[lane] * normal[lane];
+    }
+}
+
+/// k = 1 - eta^2 (1 - dot(N, I)^2); 0 where k < 0, otherwise eta I - (eta dot(N, I) + sqrt(k)) N.
+template <class T>
+void refract(const Operation& operation, Machine<T>& machine) {
+    const Lanes<T> along = dot(machine, operation.operands[1], operation.operands[0], operation.count);
+    const T* eta = machine.reals(operation.operands[2]);
+    for (std::uint32_t component = 0; component < operation.count; ++component) {
+        T* __restrict result = machine.reals(operation.result + component);
+        const T* incident = machine.reals(operation.operands[0] + component);
+        const T* normal = machine.reals(operation.operands[1] + component);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const T k = T(1) - eta[lane] * eta[lane] * (T(1) - along[lane] * along[lane]);
+            const T bent =
+                eta[lane] * incident[lane] - (eta[lane] * along[lane] + std::sqrt(k)) * normal[lane];
+            result[lane] = k < 0 ? T(0) : bent;
+        }
+    }
+}
+
+constexpr Row kRows[] = {
+    {kExtended + GLSLstd450Length, "Length", Kind::geometric, "F:f", {&length<float>, &length<double>}},
+    {kExtended + GLSLstd450Distance,
+     "Distance",
+     Kind::geometric,
+     "F:ff",
+     {&distance<float>, &distance<double>}},
+    {kExtended + GLSLstd450Cross, "Cross", Kind::geometric, "f:ff3", {&cross<float>, &cross<double>}},
+    {kExtended + GLSLstd450Normalize,
+     "Normalize",
+     Kind::geometric,
+     "f:f",
+     {&normalize<float>, &normalize<double>}},
+    {kExtended + GLSLstd450FaceForward,
+     "FaceForward",
+     Kind::geometric,
+     "f:fff",
+     {&face_forward<float>, &face_forward<double>}},
+    {kExtended + GLSLstd450Reflect, "Reflect", Kind::geometric, "f:ff", {&reflect<float>, &reflect<double>}},
+    {kExtended + GLSLstd450Refract, "Refract", Kind::geometric, "f:ffF", {&refract<float>, &refract<double>}},
+};
+
+}  // namespace
+
+std::span<const Row> geometric_rows() {
+    return kRows;
+}
+
+}  // namespace gobo::evaluate
