@@ -45,7 +45,9 @@ TEST_P(Page, DoesWhatItSays) {
     EXPECT_GT(commands_run, 0) << "a page without commands proves nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Docs, Page, testing::Values("adding_an_effect.md", "family_file.md"),
+INSTANTIATE_TEST_SUITE_P(Docs, Page,
+                         testing::Values("adding_an_effect.md", "command_line.md", "family_file.md",
+                                         "formats.md"),
                          [](const auto& page) { return page.param.substr(0, page.param.find('.')); });
 
 }  // namespace

@@ -24,8 +24,13 @@ std::string file_named_by(const std::string& line) {
 }
 
 bool is_line_as_shown(std::string_view shown, std::string_view actual) {
-    if (!shown.ends_with(anything)) return shown == actual;
-    return actual.starts_with(shown.substr(0, shown.size() - anything.size()));
+    const auto gap = shown.find(anything);
+    if (gap == std::string_view::npos) return shown == actual;
+    if (!actual.starts_with(shown.substr(0, gap))) return false;
+    const std::string_view rest = shown.substr(gap + anything.size());
+    for (std::size_t at = gap; at <= actual.size(); ++at)
+        if (is_line_as_shown(rest, actual.substr(at))) return true;
+    return false;
 }
 
 using Lines = std::vector<std::string>;

@@ -24,8 +24,8 @@ struct PageBlock {
 /// The exit status that a block of commands states in a comment, `# exit status 1`; otherwise 0.
 [[nodiscard]] int stated_status(const PageBlock& commands);
 
-/// Whether `actual` is what the page shows. A line `...` stands for any lines, `...` at the end of a line for
-/// the rest of it.
+/// Whether `actual` is what the page shows. A line `...` stands for any lines, `...` within a line for
+/// any text.
 [[nodiscard]] bool is_as_shown(std::string_view shown, std::string_view actual);
 
 }  // namespace gobo

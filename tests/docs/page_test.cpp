@@ -30,6 +30,8 @@ INSTANTIATE_TEST_SUITE_P(
                     ShownCase{"no_lines_between", "a\n...\nd\n", "a\nd\n", true},
                     ShownCase{"any_lines_then_another", "a\n...\nd\n", "a\nb\nc\n", false},
                     ShownCase{"rest_of_a_line", "a ...\nb\n", "a 12\nb\n", true},
+                    ShownCase{"part_of_a_line", "a ... c\n", "a 12 c\n", true},
+                    ShownCase{"part_of_another_line", "a ... c\n", "a 12 d\n", false},
                     ShownCase{"rest_of_another_line", "a ...\nb\n", "b 12\nb\n", false}),
     [](const auto& row) { return row.param.name; });
 
