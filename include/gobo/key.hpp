@@ -30,7 +30,8 @@ template <class Tables>
 [[nodiscard]] std::string value_text(const Feature& feature, int value) {
     const bool named = feature.kind != FeatureKind::count && value >= 0 && value < feature.value_count;
     if (!named) return std::to_string(value);
-    return std::string(Tables::value_names[static_cast<std::size_t>(feature.first_name + value)]);
+    return std::string(
+        Tables::value_names[static_cast<std::size_t>(feature.first_name) + static_cast<std::size_t>(value)]);
 }
 
 /// "fog=linear point=3": sorted by feature, defaults left out; "default" where all are.
