@@ -15,6 +15,15 @@ struct CheckOptions {
     bool spirv_val = false;
 };
 
+/// Silence would be taken for success.
+Diagnostic nothing_to_check() {
+    Diagnostic diagnostic;
+    diagnostic.severity = Severity::warning;
+    diagnostic.message = "the selection holds no keys, so nothing was checked";
+    diagnostic.remedy = "see what a selection holds with 'gobo list'";
+    return diagnostic;
+}
+
 Outcome run(const CheckOptions& options, const World& world) {
     const Result<Dialect> dialect = read_dialect(options.dialect);
     if (!dialect) return failed(dialect.error());
@@ -22,6 +31,7 @@ Outcome run(const CheckOptions& options, const World& world) {
     if (!family) return failed(family.error());
     const Result<Composition> composition = load_composition(world, *family, options.selection, *dialect);
     if (!composition) return failed(composition.error());
+    if (composition->permutations.empty()) return failed({nothing_to_check()});
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.spirv_val = options.spirv_val;

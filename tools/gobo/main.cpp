@@ -1,6 +1,8 @@
 // gobo: reads the command line, runs one command, prints its outcome.
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <optional>
 #include <string>
@@ -41,7 +43,7 @@ void print(const Diagnostics& diagnostics, bool color) {
 Diagnostics write_output(const std::string& text) {
     const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (is_written && std::fflush(stdout) == 0) return {};
-    return fail(Fault::file, "standard output cannot be written", "is the disk full, or the pipe closed?")
+    return fail(Fault::file, fmt::format("standard output cannot be written: {}", std::strerror(errno)))
         .value();
 }
 
@@ -58,10 +60,44 @@ std::optional<Diagnostics> unknown_command(const CLI::App& app, const std::vecto
         .value();
 }
 
-int refuse(const CLI::App& app, const CLI::ParseError& error, bool color) {
-    std::string command = "gobo";
-    for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
-    print(fail(Fault::usage, error.what(), fmt::format("see '{} --help'", command)).value(), color);
+/// The first option that the command does not have; nothing where all are known.
+std::optional<std::string> unknown_option(const CLI::App& command,
+                                          const std::vector<std::string>& arguments) {
+    for (const std::string& argument : arguments) {
+        const std::string name = argument.substr(0, argument.find('='));
+        if (name == "--") return std::nullopt;
+        if (name.size() > 1 && name.starts_with('-') && command.get_option_no_throw(name) == nullptr)
+            return name;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> long_options(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+/// CLI11 lists unexpected arguments in any order and suggests nothing, so unknown options are named here.
+int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments,
+           bool color) {
+    const auto chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    const std::string name = chosen.empty() ? "gobo" : "gobo " + command.get_name();
+    const auto unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr
+                             ? unknown_option(command, arguments)
+                             : std::nullopt;
+    if (unknown) {
+        const auto near = nearest(*unknown, long_options(command));
+        print(fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, *unknown),
+                   near ? fmt::format("did you mean '{}'?", *near) : fmt::format("see '{} --help'", name))
+                  .value(),
+              color);
+    } else {
+        print(fail(Fault::usage, error.what(), fmt::format("see '{} --help'", name)).value(), color);
+    }
     return usage_status;
 }
 
@@ -81,7 +117,7 @@ int run_chosen(const std::vector<Command>& commands, bool color) {
     return usage_status;
 }
 
-int run(std::vector<std::string> arguments) {
+int run(const std::vector<std::string>& arguments) {
     const bool color = wants_color(arguments);
     CLI::App app(
         "gobo composes lighting shaders from pieces, validates every permutation and emits a C++ header.",
@@ -101,12 +137,12 @@ int run(std::vector<std::string> arguments) {
         return usage_status;
     }
     try {
-        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
-        app.parse(arguments);
+        app.parse(
+            std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // reversed, as CLI11 has it
     } catch (const CLI::Success& asked) {
         return app.exit(asked);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        return refuse(app, error, color);
+        return refuse(app, error, arguments, color);
     }
     return run_chosen(commands, color);
 }

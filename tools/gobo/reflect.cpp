@@ -28,9 +28,9 @@ struct Subject {
 
 Result<Subject> subject_of_files(const ReflectOptions& options, const World& world) {
     SearchPath search;
+    for (const std::string& folder : options.common.include_folders) search.add(world.disk, folder, "", true);
     Result<Family> family = family_of_files(options.names, world.disk, search);
     if (!family) return tl::unexpected(family.error());
-    for (const std::string& folder : options.common.include_folders) search.add(world.disk, folder, "", true);
     const Result<Dialect> dialect = read_dialect(options.dialect);
     if (!dialect) return tl::unexpected(dialect.error());
     Result<Composition> composition = compose(*family, {Key{}}, search, *dialect);
