@@ -99,7 +99,7 @@ class Composer {
 
     Diagnostics follow(Placement& placement, const Include& include) {
         if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings")) {
-            return follow_varyings(placement, include);
+            return follow_varyings(placement);
         }
         if (!include.of_feature) {
             const Result<int> piece = library_.fixed(include.target, placement.stage, &include);
@@ -112,13 +112,13 @@ class Composer {
 
     /// `#include <varyings>` in the vertex stage: the pieces that the written varyings need, then their
     /// declarations.
-    Diagnostics follow_varyings(Placement& placement, const Include& include) {
+    Diagnostics follow_varyings(Placement& placement) {
         if (placement.varyings == nullptr) return {};  // the fragment stage's stand behind its prologue
         placement.wants_varyings = true;
         for (const int index : *placement.varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             if (varying.piece.empty()) continue;
-            const Include needed{false, varying.piece, varying.place, include.line};
+            const Include needed{false, varying.piece, varying.place, ""};  // the family file asks for it
             const Result<int> piece = library_.fixed(varying.piece, placement.stage, &needed);
             Diagnostics errors = piece ? place(placement, *piece, &needed) : piece.error();
             if (!errors.empty()) return errors;
@@ -170,17 +170,21 @@ class Composer {
     }
 
     /// The declarations of varyings, each on the line of the family file where it stands, so that a
-    /// diagnostic and the module's debug lines name that place; in the vertex stage also the function that
-    /// writes them.
+    /// diagnostic and the module's debug lines name that place; in the vertex stage also the functions that
+    /// write them.
     [[nodiscard]] Piece varyings_piece(const std::vector<int>& varyings, StageKind stage) const {
         std::map<int, std::string> lines;
-        std::string writes;
+        std::string calls;
         for (const int index : varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             const std::string qualifier = varying.interpolation.empty() ? "" : varying.interpolation + " ";
-            lines[varying.place.line] +=
+            std::string& line = lines[varying.place.line];
+            line +=
                 fmt::format("{}VARYING({}) {} {};", qualifier, varying.location, varying.type, varying.name);
-            writes += fmt::format("    {} = {};\n", varying.name, varying.value);
+            if (stage == StageKind::fragment) continue;
+            const std::string writer = writer_of(varying);
+            line += fmt::format(" void {}() {{ {} = {}; }}", writer, varying.name, varying.value);
+            calls += fmt::format("    {}();\n", writer);
         }
         std::string text;
         int at = 1;
@@ -189,11 +193,19 @@ class Composer {
             text += declaration + "\n";
             at = line + 1;
         }
-        if (stage == StageKind::vertex) text += fmt::format("void writeVaryings() {{\n{}}}\n", writes);
+        if (stage == StageKind::vertex) text += fmt::format("void writeVaryings() {{\n{}}}\n", calls);
         const std::string& path =
             varyings.empty() ? family_.path
                              : family_.varyings[static_cast<std::size_t>(varyings.front())].place.file;
         return {fmt::format("{}[varyings]", family_.name), path, std::move(text), false};
+    }
+
+    /// eyePosition -> writeVaryingEyePosition
+    static std::string writer_of(const Varying& varying) {
+        std::string name = varying.name;
+        if (name.front() >= 'a' && name.front() <= 'z')
+            name.front() = static_cast<char>(name.front() - 'a' + 'A');
+        return "writeVarying" + name;
     }
 
     [[nodiscard]] Piece prologue(const Placement& placement, bool has_varyings) const {

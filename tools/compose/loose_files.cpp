@@ -41,6 +41,7 @@ Result<Family> family_of_files(const std::vector<std::string>& paths, const File
         slot = path.substr(slash == std::string::npos ? 0 : slash + 1);
         const std::string folder =
             slash == std::string::npos ? "" : path.substr(0, std::max<std::size_t>(slash, 1));
+        search.add_file(files, path);
         search.add(files, folder, "", true);
         if (family.path.empty()) family.path = path;
     }

@@ -22,17 +22,27 @@ bool stays_inside(std::string_view include_path) {
 }
 
 void SearchPath::add(const FileSystem& files, std::string folder, std::string name_prefix, bool on_disk) {
-    roots_.push_back({&files, std::move(folder), std::move(name_prefix), on_disk});
+    roots_.push_back({&files, std::move(folder), std::move(name_prefix), on_disk, {}});
+}
+
+void SearchPath::add_file(const FileSystem& files, const std::string& path) {
+    const auto slash = path.rfind('/');
+    const bool here = slash == std::string::npos;
+    const std::string folder = here ? "" : path.substr(0, std::max<std::size_t>(slash, 1));
+    roots_.insert(roots_.begin() + static_cast<std::ptrdiff_t>(named_files_++),
+                  {&files, folder, "", true, here ? path : path.substr(slash + 1)});
 }
 
 Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) const {
     for (const Root& root : roots_) {
+        if (!root.only.empty() && root.only != include_path) continue;
         const bool here = root.folder.empty() || root.folder == ".";
         const std::string path = here ? include_path : root.folder + "/" + include_path;
         if (!root.files->is_file(path)) continue;
         const std::string real_root = root.files->real_path(here ? "." : root.folder);
         const std::string real = root.files->real_path(path);
-        if (root.on_disk && !real.starts_with(real_root == "/" ? real_root : real_root + "/")) {
+        if (root.on_disk && root.only.empty() &&
+            !real.starts_with(real_root == "/" ? real_root : real_root + "/")) {
             Diagnostic diagnostic;
             diagnostic.place.file = path;
             diagnostic.message = fmt::format("is a link that leads out of '{}'", root.folder);
@@ -48,14 +58,18 @@ Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) c
 
 std::vector<std::string> SearchPath::folders() const {
     std::vector<std::string> folders;
-    for (const Root& root : roots_) folders.push_back(root.folder.empty() ? "." : root.folder);
+    for (const Root& root : roots_) {
+        if (root.only.empty()) folders.push_back(root.folder.empty() ? "." : root.folder);
+    }
     return folders;
 }
 
 std::vector<std::string> SearchPath::all_include_paths() const {
     std::vector<std::string> paths;
     for (const Root& root : roots_) {
-        const std::vector<std::string> below = root.files->files_below(root.folder);
+        if (!root.only.empty()) continue;
+        const std::string folder = root.on_disk && root.folder.empty() ? "." : root.folder;
+        const std::vector<std::string> below = root.files->files_below(folder);
         paths.insert(paths.end(), below.begin(), below.end());
     }
     std::sort(paths.begin(), paths.end());

@@ -18,6 +18,10 @@ class SearchPath {
     /// found there; `on_disk` says whether a depfile must name it. `files` must outlive the search path.
     void add(const FileSystem& files, std::string folder, std::string name_prefix, bool on_disk);
 
+    /// One file, found by its name alone and before any folder; a link is followed wherever it leads, since
+    /// the user named it.
+    void add_file(const FileSystem& files, const std::string& path);
+
     /// The first piece of that include path ("fog/linear.glsl"), its text as it stands in the file; nothing
     /// where no folder has it. Fault::file where it cannot be read; Fault::input where a link leads out of
     /// its folder.
@@ -34,8 +38,10 @@ class SearchPath {
         std::string folder;
         std::string name_prefix;
         bool on_disk;
+        std::string only;  ///< the one file of the folder that counts; empty: all
     };
     std::vector<Root> roots_;
+    std::size_t named_files_ = 0;  ///< they stand first
 };
 
 /// Whether a path is relative and stays within its folder once `.` and `..` are followed.
