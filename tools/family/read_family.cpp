@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/text.hpp"
+#include "family/key.hpp"
 #include "family/read_features.hpp"
 #include "family/toml_reader.hpp"
 
@@ -102,7 +103,26 @@ std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root
     return values;
 }
 
-std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root) {
+/// Errors in the keys, features and condition of a default set are the family's, not those of who uses it.
+void check_default_set(TomlReader& reader, const toml::table& table, const DefaultSelection& selection,
+                       const Family& family) {
+    if (reader.failed()) return;
+    for (const std::string& text : selection.keys) {
+        const Place place = reader.place_of(*table.get("keys"));
+        if (const Result<Key> key = parse_key(family, text, place); !key) reader.take(key.error());
+    }
+    std::vector<std::string> names;
+    for (const Feature& feature : family.features) names.push_back(feature.name);
+    for (const std::string& name : selection.over) {
+        if (family.index_of(name)) continue;
+        reader.error(*table.get("over"), fmt::format("[default_set] names an unknown feature '{}'", name),
+                     suggestion(name, names));
+    }
+    if (!selection.where.empty()) (void)read_condition(reader, table, "where", family.features);
+}
+
+std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root,
+                                                 const Family& family) {
     const toml::table* table = reader.table(root, "default_set");
     if (table == nullptr) return std::nullopt;
     reader.only(*table, "[default_set]", {"keys", "all", "cover", "over", "where"});
@@ -115,6 +135,7 @@ std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml:
     if (selection.keys.empty() && !selection.all && selection.cover < 1) {
         reader.error(*table, "[default_set] selects nothing", "add keys = [...], all = true or cover = 2");
     }
+    check_default_set(reader, *table, selection, family);
     return selection;
 }
 
@@ -163,7 +184,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.varyings = read_varyings(reader, root);
     family.domains = read_domains(reader, root);
     family.render = read_render(reader, root);
-    family.default_selection = read_default_set(reader, root);
+    family.default_selection = read_default_set(reader, root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return family;
 }

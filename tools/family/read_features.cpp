@@ -131,17 +131,6 @@ int feature_index(TomlReader& reader, const toml::node& node, const std::string&
     return 0;
 }
 
-Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
-                          const std::vector<Feature>& features) {
-    const std::string text = reader.string(table, name).value_or("");
-    Place place = reader.place_of(*table.get(name));
-    if (place.column > 0) ++place.column;  // behind the quotation mark
-    Result<Expression> condition = parse_expression(text, features, place, Fault::input);
-    if (condition) return std::move(*condition);
-    reader.take(condition.error());
-    return {};
-}
-
 Rule read_rule(TomlReader& reader, const toml::table& table, const std::vector<Feature>& features) {
     Rule rule;
     rule.place = reader.place_of(table);
@@ -170,6 +159,17 @@ Rule read_rule(TomlReader& reader, const toml::table& table, const std::vector<F
 }
 
 }  // namespace
+
+Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
+                          const std::vector<Feature>& features) {
+    const std::string text = reader.string(table, name).value_or("");
+    Place place = reader.place_of(*table.get(name));
+    if (place.column > 0) ++place.column;  // behind the quotation mark
+    Result<Expression> condition = parse_expression(text, features, place, Fault::input);
+    if (condition) return std::move(*condition);
+    reader.take(condition.error());
+    return {};
+}
 
 std::vector<Feature> read_features(TomlReader& reader, const toml::table& root) {
     std::vector<Feature> features;  // TOML tables come sorted by name

@@ -15,4 +15,8 @@ namespace gobo {
 [[nodiscard]] std::vector<Rule> read_rules(TomlReader& reader, const toml::table& root,
                                            const std::vector<Feature>& features);
 
+/// The condition that `table` holds under `name`, which must be there. Errors go to the reader.
+[[nodiscard]] Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
+                                        const std::vector<Feature>& features);
+
 }  // namespace gobo

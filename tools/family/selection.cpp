@@ -81,6 +81,28 @@ Selection resolved(const Family& family, const Selection& selection, std::string
     return meant;
 }
 
+/// A bound on the keys that a cover needs at least: the product of the most values that `strength` features
+/// take somewhere in the space. Rules may make it fewer.
+std::uint64_t largest_product(const KeySpace& space, int strength) {
+    std::vector<std::uint64_t> counts;
+    for (std::size_t feature = 0; feature < space.feature_count(); ++feature) {
+        PartialKey key(space.feature_count(), -1);
+        std::uint64_t count = 0;
+        for (int value = 0; value < space.value_count(feature); ++value) {
+            key[feature] = value;
+            count += space.contains(key) ? 1 : 0;
+        }
+        counts.push_back(count);
+    }
+    std::sort(counts.rbegin(), counts.rend());
+    std::uint64_t product = 1;
+    for (std::size_t i = 0; i < counts.size() && i < static_cast<std::size_t>(strength); ++i) {
+        product *= counts[i];
+        if (product > most_keys) break;  // before it could overflow
+    }
+    return product;
+}
+
 Result<std::vector<Key>> keys_of_space(const KeySpace& space, const Selection& selection) {
     std::vector<Key> keys;
     if (selection.all && space.count() > most_keys) {
@@ -88,6 +110,12 @@ Result<std::vector<Key>> keys_of_space(const KeySpace& space, const Selection& s
                     "name the features to vary with --over, or a condition with --where");
     }
     if (selection.all) return space.keys();
+    if (selection.cover > 0 && space.count() > most_keys &&
+        largest_product(space, selection.cover) > most_keys) {
+        return fail(Fault::usage,
+                    fmt::format("--cover {} takes more than {} keys", selection.cover, most_keys),
+                    "lower the strength, name the features to vary with --over, or a condition with --where");
+    }
     if (selection.cover > 0) return cover(space, selection.cover);
     return keys;
 }
