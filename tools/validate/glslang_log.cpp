@@ -33,9 +33,11 @@ std::optional<Head> head_of(std::string_view message, const std::vector<const Pi
     return std::nullopt;
 }
 
-/// glslang closes a log with counts and with what it will not do; these say nothing of their own.
+/// glslang closes a log with counts, with what it will not do and that it stops; these say nothing of their
+/// own.
 bool says_nothing(std::string_view message) {
     return message.ends_with("No code generated.") ||
+           message.find("'' : compilation terminated") != std::string_view::npos ||
            message.find(" compilation errors.") != std::string_view::npos;
 }
 

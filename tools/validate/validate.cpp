@@ -93,6 +93,11 @@ class Validator {
         if (has_vertex && has_fragment) {
             const std::scoped_lock lock(job(vertex).mutex, job(fragment).mutex);
             pair_diagnostics_[index] = link(*job(vertex).glslang, *job(fragment).glslang);
+            if (exit_status(pair_diagnostics_[index]) != 0) {
+                // glslang keeps a failed link's errors in the stages, which other pairs may share.
+                job(vertex).glslang->parse();
+                job(fragment).glslang->parse();
+            }
         }
         if (vertex >= 0) release(vertex);
         if (fragment >= 0) release(fragment);
