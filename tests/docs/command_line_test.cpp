@@ -1,9 +1,7 @@
 // The options that docs/command_line.md lists are those that the commands have.
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -17,10 +15,9 @@ using Options = std::set<std::string>;
 
 /// Lines of the page by the heading of second degree that they stand under.
 std::map<std::string, std::vector<std::string>> sections_of_page() {
-    std::ifstream file(GOBO_SOURCE_DIR "/docs/command_line.md");
     std::map<std::string, std::vector<std::string>> sections;
     std::string heading;
-    for (std::string line; std::getline(file, line);) {
+    for (const std::string& line : lines_of(text_of_file(GOBO_SOURCE_DIR "/docs/command_line.md"))) {
         if (line.starts_with("## ")) heading = line.substr(3);
         sections[heading].push_back(line);
     }

@@ -1,7 +1,4 @@
 // The pages of the documentation, followed literally: files are written, commands run, outputs compared.
-#include <fstream>
-#include <sstream>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,17 +8,11 @@
 namespace gobo {
 namespace {
 
-std::string page_text(const std::string& name) {
-    std::ifstream file(fmt::format("{}/docs/{}", GOBO_SOURCE_DIR, name));
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
 class Page : public testing::TestWithParam<std::string> {};
 
 TEST_P(Page, DoesWhatItSays) {
-    const std::vector<PageBlock> blocks = blocks_of(page_text(GetParam()));
+    const std::vector<PageBlock> blocks =
+        blocks_of(text_of_file(fmt::format("{}/docs/{}", GOBO_SOURCE_DIR, GetParam())));
     Reader reader(GOBO_COMMAND);
     int commands_run = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "page.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <regex>
 
 #include "common/text.hpp"
@@ -49,6 +50,11 @@ bool matches(Lines::const_iterator shown, Lines::const_iterator shown_end, Lines
 }
 
 }  // namespace
+
+std::string text_of_file(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
 
 std::vector<std::string> lines_of(std::string_view text) {
     std::vector<std::string> lines;

@@ -1,6 +1,7 @@
 // A page of the documentation as the steps that a reader would take.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,9 @@ struct PageBlock {
     std::string text;      ///< without the fence's own indentation
     int line = 0;          ///< of the opening fence, from 1
 };
+
+/// The whole text of a file; empty where there is none.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
 
 /// The lines of a text, without their ends; blank ones too.
 [[nodiscard]] std::vector<std::string> lines_of(std::string_view text);

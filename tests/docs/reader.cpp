@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -17,13 +16,6 @@ namespace fs = std::filesystem;
 
 /// No command of the documentation takes longer on a slow machine, with sanitizers.
 constexpr int longest_seconds = 240;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 fs::path new_folder() {
     std::string pattern = (fs::temp_directory_path() / "gobo_docs_XXXXXX").string();
@@ -60,7 +52,7 @@ void Reader::write(const PageBlock& block) {
 
 std::string Reader::edit(const PageBlock& block) {
     const fs::path path = current_ / block.file;
-    std::string text = text_of(path);
+    std::string text = text_of_file(path);
     const std::string before = side_of(block.text, '-');
     const auto at = text.find(before);
     if (before.empty() || at == std::string::npos)
@@ -82,8 +74,8 @@ CommandResult Reader::run(const std::string& commands) {
         fmt::format("PATH='{}':\"$PATH\" timeout {} bash -eu -o pipefail '{}' > '{}' 2>&1 < /dev/null",
                     gobo_folder_, longest_seconds, script.string(), printed.string());
     const int status = std::system(line.c_str());
-    current_ = std::string(trim(text_of(folder)));
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(printed)};
+    current_ = std::string(trim(text_of_file(folder)));
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(printed)};
 }
 
 }  // namespace gobo
