@@ -1,6 +1,7 @@
 // gobo check: composes and validates a selection; says nothing when all is well.
 #include <fmt/format.h>
 
+#include "compose/same_stages.hpp"
 #include "gobo/commands.hpp"
 #include "validate/validate.hpp"
 
@@ -35,7 +36,10 @@ Outcome run(const CheckOptions& options, const World& world) {
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.spirv_val = options.spirv_val;
-    return {{}, validate(family->family, *composition, validate_options).diagnostics, {}};
+    Diagnostics found = same_stages(family->family, *composition);
+    const Diagnostics more = validate(family->family, *composition, validate_options).diagnostics;
+    found.insert(found.end(), more.begin(), more.end());
+    return {{}, std::move(found), {}};
 }
 
 }  // namespace

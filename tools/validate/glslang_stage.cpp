@@ -177,7 +177,8 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
     Result<Interface> interface = reflect_stage(stage.spirv);
     if (!interface) return tl::unexpected(interface.error());
     if (bindings_mapped_ || may_hold_bools(*interface)) {
-        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSeparateBuffers);
+        program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |
+                                EShReflectionSeparateBuffers);
         *interface = restore_bools(std::move(*interface), gl_types(program));
     }
     if (bindings_mapped_) {
