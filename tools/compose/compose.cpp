@@ -62,6 +62,7 @@ class Composer {
         composition.permutations = std::move(permutations_);
         composition.files = library_.files();
         composition.stated_bindings = library_.stated_bindings();
+        composition.warnings = library_.warnings();
         composition.dialect = dialect_;
         return composition;
     }

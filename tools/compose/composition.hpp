@@ -57,6 +57,7 @@ struct Composition {
     /// Bindings that pieces state by BLOCK(binding, name) and SAMPLER(binding, type) name, by name: some
     /// dialects' text cannot carry them.
     std::map<std::string, int> stated_bindings;
+    Diagnostics warnings;  ///< of the pieces, by path and line
     Dialect dialect = Dialect::own;
 };
 

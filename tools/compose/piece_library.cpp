@@ -42,6 +42,7 @@ Result<std::optional<int>> PieceLibrary::load(const std::string& path) {
     }
     entries_.push_back(std::move(entry));
     stated_bindings_.merge(scanned->bindings);
+    warnings_.insert(warnings_.end(), scanned->warnings.begin(), scanned->warnings.end());
     return by_path_[path] = static_cast<int>(entries_.size()) - 1;
 }
 

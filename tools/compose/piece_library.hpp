@@ -39,6 +39,7 @@ class PieceLibrary {
     [[nodiscard]] std::vector<Piece> pieces() const;
     [[nodiscard]] std::vector<std::string> files() const;
     [[nodiscard]] const std::map<std::string, int>& stated_bindings() const { return stated_bindings_; }
+    [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
     [[nodiscard]] const std::vector<std::string>& interest() const { return interest_; }
 
   private:
@@ -53,6 +54,7 @@ class PieceLibrary {
     std::vector<std::string> interest_;
     std::vector<Entry> entries_;
     std::map<std::string, int> stated_bindings_;
+    Diagnostics warnings_;
     std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
     std::map<std::string, int, std::less<>> by_generated_text_;
     std::map<std::tuple<int, int, StageKind>, std::optional<int>> by_choice_;  ///< feature, value, stage

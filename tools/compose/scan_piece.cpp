@@ -75,6 +75,28 @@ std::map<std::string, int> bindings_of(const std::string& bare) {
     return bindings;
 }
 
+/// A warning for each uniform block that states no layout: drivers then choose one, and no offset known
+/// before holds.
+Diagnostics unstated_layouts(const std::string& bare, std::string_view text, const std::string& path) {
+    static const std::regex by_default(R"(layout\s*\([^)]*\bstd140\b[^)]*\)\s*uniform\s*;)");
+    static const std::regex block(R"((layout\s*\(([^)]*)\)\s*)?\buniform\s+(\w+)\s*\{)");
+    Diagnostics warnings;
+    if (std::regex_search(bare, by_default)) return warnings;
+    for (std::sregex_iterator at(bare.begin(), bare.end(), block), end; at != end; ++at) {
+        if ((*at)[2].str().find("std140") != std::string::npos) continue;
+        Diagnostic diagnostic;
+        diagnostic.severity = Severity::warning;
+        diagnostic.place = {
+            path, 1 + static_cast<int>(std::count(bare.begin(), bare.begin() + at->position(3), '\n')), 0};
+        diagnostic.quoted_line = line_of(text, diagnostic.place.line);
+        diagnostic.message = fmt::format(
+            "the uniform block '{}' does not state std140: drivers lay it out as they like", (*at)[3].str());
+        diagnostic.remedy = "write layout(std140) before uniform, or ask the driver for every offset";
+        warnings.push_back(std::move(diagnostic));
+    }
+    return warnings;
+}
+
 /// The word after `#`, and what follows it, where the line is a directive.
 struct Directive {
     std::string_view name;
@@ -109,6 +131,7 @@ class Scanner {
         if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos) {
             result_.bindings = bindings_of(bare_);
         }
+        result_.warnings = unstated_layouts(bare_, result_.text, path_);
         return std::move(result_);
     }
 

@@ -26,6 +26,7 @@ struct ScannedPiece {
     std::string version;  ///< "330 core" of its #version line, or empty
     std::vector<Include> includes;
     std::set<std::string, std::less<>> identifiers;  ///< outside comments
+    Diagnostics warnings;                            ///< uniform blocks whose layout is left to the driver
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 
