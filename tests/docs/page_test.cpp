@@ -1,6 +1,8 @@
 // How the test of the documentation reads a page: a page that is wrong must be found wrong.
 #include "page.hpp"
 
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 namespace gobo {
@@ -11,6 +13,8 @@ struct ShownCase {
     std::string shown;
     std::string actual;
     bool is_as_shown;
+
+    friend void PrintTo(const ShownCase& row, std::ostream* out) { *out << row.name; }
 };
 
 class Shown : public testing::TestWithParam<ShownCase> {};
