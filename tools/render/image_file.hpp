@@ -21,7 +21,8 @@ enum class ImageFormat { png, exr, pfm };
 [[nodiscard]] double srgb_of_linear(double linear);
 [[nodiscard]] double linear_of_srgb(double signal);
 
-/// The picture as the bytes of a file. The same picture gives the same bytes on every machine.
+/// The picture as the bytes of a file. No date, owner or host is written: equal pictures give equal bytes (an
+/// EXR under one version of zlib).
 ///
 /// PNG: 8 bits a channel. Colour is clamped to [0, 1] (NaN becomes 0) and sRGB-encoded, alpha clamped and
 /// stored as it is; one channel (depth) is clamped and stored as grey without the sRGB curve.
