@@ -1,0 +1,60 @@
+// write_stages KEYS_FILE FOLDER: every distinct stage of those keys of lit as a file, as other compilers take
+// it.
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "common/file_system.hpp"
+#include "compose/compose.hpp"
+#include "family/read_family.hpp"
+#include "family/selection.hpp"
+#include "library/shipped_files.hpp"
+
+namespace gobo {
+namespace {
+
+Result<Composition> compose_keys(const FileSystem& disk, const FileSystem& shipped,
+                                 const std::string& keys_file) {
+    const Result<std::string> family_text = shipped.read("templates/lit.toml");
+    if (!family_text) return tl::unexpected(family_text.error());
+    const Result<Family> family = read_family(*family_text, "templates/lit.toml");
+    if (!family) return tl::unexpected(family.error());
+    const Result<std::string> text = disk.read(keys_file);
+    if (!text) return tl::unexpected(text.error());
+    Selection selection;
+    selection.keys = keys_of_text(*text, keys_file);
+    const Result<std::vector<Key>> keys = select(*family, selection, "450");
+    if (!keys) return tl::unexpected(keys.error());
+    SearchPath search;
+    search.add(shipped, "shader_lib", "shader_lib/", false);
+    search.add(shipped, "templates", "templates/", false);
+    return compose(*family, *keys, search, Dialect::glsl450);
+}
+
+Result<bool> write_stages(const std::string& keys_file, const std::string& folder) {
+    DiskFileSystem disk;
+    const MemoryFileSystem shipped(shipped_files());
+    const Result<Composition> composition = compose_keys(disk, shipped, keys_file);
+    if (!composition) return tl::unexpected(composition.error());
+    int number = 0;
+    for (const Stage& stage : composition->stages) {
+        const char* extension = stage.kind == StageKind::vertex ? "vert" : "frag";
+        const std::string path = fmt::format("{}/{:04}.{}", folder, number++, extension);
+        const Result<bool> written = disk.write(path, source_of(*composition, stage));
+        if (!written) return written;
+    }
+    return true;
+}
+
+}  // namespace
+}  // namespace gobo
+
+int main(int argc, char** argv) {
+    if (argc != 3) return 2;
+    const auto written = gobo::write_stages(argv[1], argv[2]);
+    if (written) return 0;
+    for (const gobo::Diagnostic& diagnostic : written.error())
+        std::fputs(gobo::to_text(diagnostic, false).c_str(), stderr);
+    return 1;
+}
