@@ -30,6 +30,9 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" 
 export(TARGETS gobo gobo_headers NAMESPACE gobo:: FILE "${PROJECT_BINARY_DIR}/cmake/goboTargets.cmake")
 
 # Installed.
+if(NOT GOBO_INSTALL)
+  return()
+endif()
 set(GOBO_LIBRARY_FOLDER "${CMAKE_INSTALL_DATADIR}/gobo")
 set(gobo_module "${gobo_package_folder}/gobo_add_permutations.cmake")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" "${PROJECT_BINARY_DIR}/installed/goboConfig.cmake"
