@@ -229,7 +229,8 @@ Operation& Decoder::emit_row(std::uint32_t row, const Instruction& instruction, 
         info.result = slice({instruction.type, result, -1, -1, intern(module_.name_of(instruction.result))});
     for (const Value& operand : operands) info.operands.push_back(slice(operand));
 
-    if (!instruction_table()[row].name.empty()) charge(instruction_table()[row].kind, count);
+    const Row& known = instruction_table()[row];
+    if (!known.name.empty()) charge(known.kind, known.kind == Kind::image ? 1 : count);
     program_.operations.push_back(operation);
     program_.infos.push_back(std::move(info));
     is_quick_.push_back(true);

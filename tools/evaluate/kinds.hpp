@@ -37,7 +37,7 @@ enum class Kind : std::uint8_t {
     branch,        ///< conditional branches and switches
     call,          ///< function calls
     derivative,    ///< dFdx(), dFdy(), fwidth(), interpolateAt...()
-    image,         ///< texture functions
+    image,         ///< texture functions, one each
 };
 
 inline constexpr std::size_t kKinds = 28;

@@ -45,8 +45,14 @@ template class Trace<float>;
 template class Trace<double>;
 
 std::string to_text(const std::vector<double>& components) {
-    if (components.size() == 1) return fmt::format("{}", components.front());
-    return fmt::format("({})", fmt::join(components, ", "));
+    std::vector<std::string> numbers;
+    for (const double component : components) {
+        const auto rounded = static_cast<float>(component);
+        const bool is_float = static_cast<double>(rounded) == component;
+        numbers.push_back(is_float ? fmt::format("{}", rounded) : fmt::format("{}", component));
+    }
+    if (numbers.size() == 1) return numbers.front();
+    return fmt::format("({})", fmt::join(numbers, ", "));
 }
 
 namespace {

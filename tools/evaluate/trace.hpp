@@ -45,7 +45,8 @@ extern template class Trace<double>;
 /// One line for each step, under a line for each place.
 [[nodiscard]] std::string to_text(const std::vector<TraceStep>& steps);
 
-/// A number in its shortest decimal; several as "(1, 0.5, 0.25)".
+/// A number in the shortest decimal that stands for it (in fp32 where it is an fp32 number: 0.1); several as
+/// "(1, 0.5, 0.25)".
 [[nodiscard]] std::string to_text(const std::vector<double>& components);
 
 }  // namespace gobo::evaluate
