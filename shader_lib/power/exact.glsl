@@ -1,6 +1,6 @@
 // The power of a cosine: the lobe of a highlight and of a spot light.
 //
-// Model:  max(c, 0)^m with c = 1 - versine (S2, S3, L5), as exp(m log(1 - versine)). Below a versine of 1/4
+// Model:  max(c, 0)^m with c = 1 - versine (S2, S3, L5), as exp(m log(1 - versine)). Below a versine of 3/16
 //         log(1 - u) = -2 artanh(z), z = u / (2 - u), by its series to z^7: 2e-7 relative to u, where the
 //         rounding of c alone costs a plain pow(c, m) up to m 2^-24.
 // Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.1.27.
@@ -11,7 +11,7 @@
 
 /// log(1 - versine) for a versine in [0, 1).
 float logarithmOfCosine(float versine) {
-    if (versine > 0.25) return log(1.0 - versine);
+    if (versine > 0.1875) return log(1.0 - versine);
     float z = versine / (2.0 - versine);
     float square = z * z;
     return -2.0 * z * (1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0))));  // H-S3

@@ -56,7 +56,9 @@ double cone_share(const SpotLight& light, double angle, Decisions& decisions) {
     } else if (fade_width > 0) {
         edge = std::clamp((light.outer_versine - versine) / fade_width, 0.0, 1.0);
     } else {
-        edge = decisions.above(light.outer_versine, versine) ? 1 : 0;
+        // Angles decide, since a versine of 5e-5 is a cone of 0.01 radians.
+        const double outer_angle = 2 * std::asin(std::sqrt(light.outer_versine / 2));
+        edge = decisions.above(outer_angle, angle) ? 1 : 0;
     }
     const double falloff = std::pow(std::max(std::cos(angle), 0.0), light.exponent);  // 0^0 is 1
     return edge * edge * falloff;
