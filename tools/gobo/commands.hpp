@@ -7,6 +7,7 @@ namespace gobo {
 
 [[nodiscard]] Command list_command(CLI::App& gobo);
 [[nodiscard]] Command show_command(CLI::App& gobo);
+[[nodiscard]] Command test_command(CLI::App& gobo);
 [[nodiscard]] Command check_command(CLI::App& gobo);
 [[nodiscard]] Command reflect_command(CLI::App& gobo);
 [[nodiscard]] Command build_command(CLI::App& gobo);

@@ -1,0 +1,136 @@
+// That verification passes what is right, finds what is wrong, and says so in a way one can work with.
+#include <gtest/gtest.h>
+
+#include "lit_library.hpp"
+#include "verify/random.hpp"
+#include "verify/sample.hpp"
+
+namespace gobo {
+namespace {
+
+using verify::VerifyReport;
+
+TEST(Verify, PassesTheLibraryAndKnowsAnOracleForIt) {
+    const Family family = lit_family();
+    const Result<VerifyReport> report = verify_lit(
+        family,
+        keys_of(family, {"default", "directional=2 specular=blinn spot=1", "point=1 shading=vertex"}));
+    ASSERT_TRUE(report) << to_text(report.error().front());
+    EXPECT_EQ(failed_points(*report), 0U);
+    EXPECT_EQ(report->without_oracle, 0U);
+    EXPECT_EQ(report->figures.points, 3U * (128 + 384));
+    EXPECT_GT(report->figures.largest_fp32_ratio, 0.1) << "a bound ten times too wide proves little";
+    EXPECT_LT(report->figures.largest_fp32_ratio, 1);
+}
+
+/// Replaces the only occurrence of `from`.
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    EXPECT_EQ(text.find(from, place + 1), std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+}
+
+struct Slip {
+    std::string name;
+    std::string piece;
+    std::string from, to;
+    std::string key;
+};
+
+TEST(Verify, FindsTheTextsSlips) {
+    const std::vector<Slip> slips = {
+        {"a highlight on the dark side", "lighting/response.glsl", "if (cosine > 0.0)", "if (cosine > -0.5)",
+         "directional=1 specular=blinn"},
+        {"an interpolated normal used as it is", "surface/normal.frag.glsl", "unitVector(eyeNormal)",
+         "eyeNormal", "directional=1"},
+        {"a band too few", "diffuse/toon.glsl", "float(toon.levels)", "float(toon.levels - 1)",
+         "diffuse=toon directional=1"},
+        {"the model-view matrix instead of its inverse transpose", "surface/normal.vert.glsl",
+         "transform.normalMatrix * normal", "mat3(transform.modelView) * normal",
+         "directional=1 shading=vertex"},
+        {"a light's position not made relative to the surface", "point/point.glsl",
+         "light.position.xyz - surfacePosition()", "light.position.xyz", "point=1"},
+        {"the vector to the light where the cone wants the ray", "spot/spot.glsl", "light.axis, -ray.xyz",
+         "light.axis, ray.xyz", "spot=1"},
+        {"attenuation without its square", "lighting/attenuation.glsl", "reach * coefficients.z",
+         "coefficients.z", "point=1"},
+        {"fog by the wrong distance", "fog_distance/planar.glsl", "surfacePosition().z",
+         "surfacePosition().y", "fog=linear fog_distance=planar"},
+        {"a power good to floats only at small exponents", "power/exact.glsl", "versine > 0.1875",
+         "versine >= 0.0", "directional=1 specular=blinn"},
+    };
+    const Family family = lit_family();
+    for (const Slip& slip : slips) {
+        const Overlay overlay = {{slip.piece, changed(piece_text(slip.piece), slip.from, slip.to)}};
+        const Result<VerifyReport> report = verify_lit(family, keys_of(family, {slip.key}), overlay);
+        ASSERT_TRUE(report) << slip.name << ": " << to_text(report.error().front());
+        EXPECT_GT(failed_points(*report), 0U) << slip.name;
+    }
+}
+
+TEST(Verify, GivesTheSameFiguresWithAnyNumberOfThreadsAndInAnySelection) {
+    const Family family = lit_family();
+    const auto keys = keys_of(family, {"diffuse=toon point=2", "fog=linear spot=3", "point=1", "spot=8"});
+    verify::VerifyOptions four_threads;
+    four_threads.jobs = 4;
+    const VerifyReport one = verify_lit(family, keys).value();
+    const VerifyReport four = verify_lit(family, keys, {}, four_threads).value();
+    const VerifyReport alone = verify_lit(family, {keys[1]}).value();
+    EXPECT_EQ(one.figures.largest_fp32_ratio, four.figures.largest_fp32_ratio);
+    EXPECT_EQ(one.figures.largest_fp64_error, four.figures.largest_fp64_error);
+    EXPECT_EQ(one.figures.edges, four.figures.edges);
+    EXPECT_EQ(one.permutations[1].figures.largest_fp32_ratio, alone.figures.largest_fp32_ratio);
+}
+
+TEST(Verify, WritesAFailingPointAsAnInputOfEval) {
+    verify::Failure failure{StageKind::fragment,
+                            verify::Precision::fp32,
+                            "fragmentColor",
+                            1,
+                            0.5,
+                            0.25,
+                            1e-6,
+                            9,
+                            {{{"eyeNormal", {0, 0, 0.1}}}, {{"Fog.near", {2}}}}};
+    EXPECT_EQ(verify::eval_input(failure, "fog=linear"),
+              "# fog=linear: fp32 fragmentColor[1] is 0.25, should be 0.5 within 1e-06\n"
+              "stage = \"fragment\"\n"
+              "\n[inputs]\n\"eyeNormal\" = [0, 0, 0.1]\n"
+              "\n[uniforms]\n\"Fog.near\" = 2\n");
+}
+
+TEST(Verify, KeepsTheWorstPoints) {
+    verify::StageReport report;
+    for (const double ratio : {2.0, 5.0, 3.0, 9.0, 4.0}) {
+        verify::Failure failure;
+        failure.ratio = ratio;
+        verify::add_failure(report, failure);
+    }
+    std::vector<double> kept;
+    for (const verify::Failure& failure : report.worst) kept.push_back(failure.ratio);
+    EXPECT_EQ(kept, (std::vector<double>{9, 5, 4}));
+}
+
+TEST(Verify, DrawsTheSameNumbersOnEveryMachine) {
+    verify::Random random(1);
+    EXPECT_EQ(random.bits(), 0x910A2DEC89025CC1U) << "the published sequence of SplitMix64 from seed 1";
+    EXPECT_EQ(random.bits(), 0xBEEB8DA1658EEC67U);
+}
+
+TEST(Verify, RoundsEveryNumberOfASampleToAFloat) {
+    oracle::Model model;
+    model.directional = model.point = model.spot = 2;
+    for (const verify::Sample& sample : verify::make_samples(model, StageKind::fragment, 16, 7)) {
+        const verify::Sample rounded = verify::rounded_to_float(sample);
+        const oracle::SpotLight& light = rounded.scene.spot[1];
+        for (const glm::dvec3& vector : {rounded.surface.position, rounded.surface.normal, light.position,
+                                         light.color, rounded.scene.directional[0].color})
+            for (int i = 0; i < 3; ++i)
+                EXPECT_EQ(vector[i], static_cast<double>(static_cast<float>(vector[i])));
+        EXPECT_NE(rounded.surface.position, sample.surface.position);
+    }
+}
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,140 @@
+// gobo test: evaluates every permutation of a selection and holds it against the oracle.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "family/key.hpp"
+#include "gobo/commands.hpp"
+#include "validate/validate.hpp"
+#include "verify/verify.hpp"
+
+namespace gobo {
+namespace {
+
+struct TestOptions {
+    CommonOptions common;
+    SelectionOptions selection;
+    std::string family;
+    std::string folder = "failed_points";
+};
+
+/// A file name of letters, digits and '_' for a key.
+std::string file_name(const std::string& key, const verify::Failure& failure, std::size_t number) {
+    std::string name;
+    for (const char character : key)
+        name += std::isalnum(static_cast<unsigned char>(character)) ? character : '_';
+    return fmt::format("{}.{}.{}.toml", name, name_of(failure.stage), number);
+}
+
+/// One error for the key, and its worst points as files.
+Diagnostics report_failure(const World& world, const std::string& folder, const std::string& key,
+                           const verify::PermutationReport& report) {
+    Diagnostic error;
+    error.subject = key;
+    error.message =
+        fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points);
+    Diagnostics diagnostics;
+    for (std::size_t i = 0; i < report.worst.size(); ++i) {
+        const verify::Failure& failure = report.worst[i];
+        const std::string path = fmt::format("{}/{}", folder, file_name(key, failure, i + 1));
+        const Result<bool> written = world.disk.write(path, verify::eval_input(failure, key));
+        if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
+        error.message += fmt::format("\n  {}: {} stage: {}", path, name_of(failure.stage), to_text(failure));
+    }
+    error.remedy = "follow a point through the shader: gobo eval FAMILY KEY --inputs FILE --trace";
+    diagnostics.insert(diagnostics.begin(), std::move(error));
+    return diagnostics;
+}
+
+Diagnostics report_failures(const World& world, const TestOptions& options, const Family& family,
+                            const verify::VerifyReport& report) {
+    Diagnostics diagnostics;
+    const auto add = [&](const Diagnostics& more) {
+        diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+    };
+    for (const verify::PermutationReport& permutation : report.permutations) {
+        add(permutation.diagnostics);
+        if (permutation.failed_points > 0)
+            add(report_failure(world, options.folder, key_text(family, permutation.key), permutation));
+    }
+    const verify::Figures& figures = report.figures;
+    if (static_cast<double>(figures.edges) >
+        verify::kLargestEdgeShare * static_cast<double>(figures.points)) {
+        add(fail(Fault::input, fmt::format("{} of {} points lie at a discontinuity: more than 1 %",
+                                           figures.edges, figures.points))
+                .value());
+    }
+    return diagnostics;
+}
+
+/// "12 permutations of 8640 valid ones".
+Result<std::string> size_text(const Family& family, std::size_t tested, Dialect dialect) {
+    Selection everything;
+    everything.all = true;
+    const Result<std::uint64_t> valid = count_selected(family, everything, name_of(dialect));
+    if (!valid) return tl::unexpected(valid.error());
+    return fmt::format("{} permutations of {} valid ones", tested, *valid);
+}
+
+std::string figures_text(const verify::VerifyReport& report) {
+    const verify::Figures& figures = report.figures;
+    const double edge_share =
+        figures.points > 0 ? 100.0 * static_cast<double>(figures.edges) / static_cast<double>(figures.points)
+                           : 0;
+    std::string text;
+    if (report.without_oracle < report.permutations.size())
+        text += fmt::format("fp64: at most {:.1e} of the largest term away from the oracle\n",
+                            figures.largest_fp64_error);
+    text += fmt::format("fp32: at most {:.2f} of the error bound\n", figures.largest_fp32_ratio);
+    text += fmt::format(
+        "{} permutations, {} points, {} ({:.3f} %) at a discontinuity, {} permutations without an "
+        "oracle\n",
+        report.permutations.size(), figures.points, figures.edges, edge_share, report.without_oracle);
+    return text;
+}
+
+Outcome run(const TestOptions& options, const World& world) {
+    Result<LoadedFamily> family = load_family(world, options.family, options.common);
+    if (!family) return failed(family.error());
+    const Result<Composition> composition = load_composition(world, *family, options.selection, Dialect::own);
+    if (!composition) return failed(composition.error());
+    ValidateOptions validate_options;
+    validate_options.jobs = options.common.jobs;
+    validate_options.keep_spirv = true;
+    Validated validated = validate(family->family, *composition, validate_options);
+    if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
+    verify::VerifyOptions verify_options;
+    verify_options.jobs = options.common.jobs;
+    const verify::VerifyReport report =
+        verify::verify(family->family, *composition, validated, verify_options);
+    const Result<std::string> size = size_text(family->family, report.permutations.size(), Dialect::own);
+    if (!size) return failed(size.error());
+    return {*size + "\n" + figures_text(report), report_failures(world, options, family->family, report), {}};
+}
+
+}  // namespace
+
+Command test_command(CLI::App& gobo) {
+    auto options = std::make_shared<TestOptions>();
+    CLI::App* app = gobo.add_subcommand("test", "Evaluate every permutation and hold it against the oracle");
+    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
+    add_selection_options(*app, options->selection);
+    app->add_option("-o,--output", options->folder,
+                    "Folder for the worst points of failing keys, as input files of gobo eval")
+        ->type_name("FOLDER")
+        ->capture_default_str();
+    add_common_options(*app, options->common);
+    app->footer(
+        "The stages are evaluated in fp32 and fp64 over points made to exercise each model. Families of your "
+        "own\n"
+        "have no oracle: there fp32 is held against fp64.\n\n"
+        "Examples:\n"
+        "  gobo test lit                               the family's default set\n"
+        "  gobo test lit --cover 3\n"
+        "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
+        "  gobo test game.toml -o build/failed_points");
+    return {app, [options](const World& world) { return run(*options, world); }};
+}
+
+}  // namespace gobo

@@ -1,0 +1,130 @@
+#include "verify/expectation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "verify/rounding.hpp"
+
+namespace gobo::verify {
+namespace {
+
+Expected expected(std::string_view output, const glm::dvec3& value, const glm::dvec3& largest,
+                  const glm::dvec3& float_error) {
+    Expected result{output, 3, {}, {}, {}};
+    for (int i = 0; i < 3; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        result.value[index] = value[i];
+        result.largest[index] = largest[i];
+        result.float_error[index] = float_error[i];
+    }
+    return result;
+}
+
+glm::dmat3 absolute(const glm::dmat3& matrix) {
+    return {glm::abs(matrix[0]), glm::abs(matrix[1]), glm::abs(matrix[2])};
+}
+
+/// A point transformed: products and sums of four terms, so at most four roundings of the terms' sum.
+struct Placed {
+    glm::dvec3 value{0};
+    glm::dvec3 largest{0};
+};
+
+Placed place(const Sample& sample) {
+    const glm::dmat3 turn(sample.model_view);
+    const glm::dvec3 move(sample.model_view[3]);
+    return {turn * sample.object_position + move,
+            absolute(turn) * glm::abs(sample.object_position) + glm::abs(move)};
+}
+
+Expected expect_clip_position(const Sample& sample, const Placed& placed) {
+    Expected result{"gl_Position", 4, {}, {}, {}};
+    for (int row = 0; row < 4; ++row) {
+        const auto index = static_cast<std::size_t>(row);
+        const double last = sample.projection[3][row];
+        result.value[index] = last;
+        result.largest[index] = std::abs(last);
+        for (int column = 0; column < 3; ++column) {
+            const double factor = sample.projection[column][row];
+            result.value[index] += factor * placed.value[column];
+            result.largest[index] += std::abs(factor) * placed.largest[column];
+        }
+        result.float_error[index] = 8 * kUnitRoundoff * result.largest[index];  // two transformations
+    }
+    return result;
+}
+
+/// The unit normal in eye space, and its relative error: three roundings of the terms' sum before it is made
+/// unit. A sum of three components' errors is at most sqrt(3) times the largest.
+struct EyeNormal {
+    glm::dvec3 value{0};
+    double error = 0;
+};
+
+EyeNormal eye_normal(const Sample& sample) {
+    const glm::dvec3 normal = sample.normal_matrix * sample.object_normal;
+    const glm::dvec3 largest = absolute(sample.normal_matrix) * glm::abs(sample.object_normal);
+    const double length = glm::length(normal);
+    return {oracle::direction_of(normal), length > 0 ? 3 * kUnitRoundoff * glm::length(largest) / length : 0};
+}
+
+std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sample,
+                                    oracle::Decisions& decisions) {
+    const Placed placed = place(sample);
+    const glm::dvec3 position_error = 4 * kUnitRoundoff * placed.largest;
+    const EyeNormal normal = eye_normal(sample);
+    std::vector<Expected> outputs = {
+        expect_clip_position(sample, placed),
+        expected("eyePosition", placed.value, placed.largest, position_error),
+        expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
+    if (model.shading != oracle::Shading::vertex) return outputs;
+    const oracle::SurfacePoint point{placed.value, normal.value};
+    const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
+    const PointErrors errors{glm::length(position_error), normal.error};
+    outputs.push_back(expected("litRadiance", radiance.value, radiance.largest,
+                               radiance_error(model, sample.scene, point, radiance, errors)));
+    return outputs;
+}
+
+Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::Decisions& decisions) {
+    glm::dvec3 value = glm::max(sample.lit_radiance, glm::dvec3(0));
+    glm::dvec3 largest = value;
+    glm::dvec3 error{0};
+    if (model.shading == oracle::Shading::fragment) {
+        const oracle::Radiance radiance =
+            oracle::lit_radiance(model, sample.scene, sample.surface, decisions);
+        value = radiance.value;
+        largest = radiance.largest;
+        error = radiance_error(model, sample.scene, sample.surface, radiance, {});
+    }
+    const oracle::Seen seen =
+        oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);
+    Expected color = expected("fragmentColor", seen.value, seen.largest,
+                              fog_error(model, sample.scene, seen, value, error, 0));
+    color.components = 4;
+    color.value[3] = 1;
+    return color;
+}
+
+std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,
+                                      oracle::Decisions& decisions) {
+    std::vector<Expected> outputs = {expect_color(model, sample, decisions)};
+    if (const auto depth = oracle::written_depth(model, sample.scene, sample.depth)) {
+        // One sum of two numbers of at most 1 each.
+        outputs.push_back({"gl_FragDepth", 1, {*depth}, {2}, {2 * kUnitRoundoff}});
+    }
+    return outputs;
+}
+
+}  // namespace
+
+std::vector<Expected> expect(const oracle::Model& model, StageKind stage, const Sample& sample,
+                             oracle::Decisions& decisions) {
+    return stage == StageKind::vertex ? expect_vertex(model, sample, decisions)
+                                      : expect_fragment(model, sample, decisions);
+}
+
+}  // namespace gobo::verify

@@ -1,0 +1,156 @@
+#include "verify/rounding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gobo::verify {
+namespace {
+
+constexpr double kU = kUnitRoundoff;
+
+/// A versine, known to within `error`.
+struct Versine {
+    double value = 0;
+    double error = 0;
+};
+
+/// 1 - a.b of two directions whose errors add up to `directions`. Near 0 it is |a - b|^2 / 2, whose
+/// derivative is |a - b| = sqrt(2 u), and five roundings; from 1/2 on 1 - a.b, with four roundings of at most
+/// 1, which are eight of u.
+Versine versine(double angle, double directions) {
+    const double half_sine = std::sin(angle / 2);
+    const double value = 2 * half_sine * half_sine;
+    const double slope = std::sqrt(2 * value);
+    return {value, (slope + directions / 2) * directions + 8 * kU * value};
+}
+
+double power(double versine, double exponent) {
+    return std::pow(std::clamp(1 - versine, 0.0, 1.0), exponent);
+}
+
+/// The spread of (1 - u)^m over the error of u, and the roundings of exp(m log(1 - u)): six of the logarithm
+/// and the product, which the exponential multiplies by m log(1 - u), and two of its own. Computing 1 - u
+/// costs one more of u's.
+double power_error(const Versine& u, double exponent) {
+    const double spread = u.error + (u.value < 0.1 ? 0 : kU);
+    const double least = power(u.value + spread, exponent);
+    const double most = power(std::max(u.value - spread, 0.0), exponent);
+    const double value = power(u.value, exponent);
+    const double logarithm = value > 0 ? std::abs(std::log(value)) : 0;
+    return most - least + value * (6 * logarithm + 2) * kU;
+}
+
+double edge(const oracle::SpotLight& light, double versine) {
+    const double width = light.outer_versine - light.inner_versine;
+    if (width <= 0) return versine < light.outer_versine || light.outer_versine >= 2 ? 1 : 0;
+    const double fade = std::clamp((light.outer_versine - versine) / width, 0.0, 1.0);
+    return fade * fade;
+}
+
+/// Error of a spot light's share. A hard edge is decided, not rounded: it adds nothing here.
+double cone_error(const oracle::Arrival& arrival, double to_light_error) {
+    const oracle::SpotLight& light = *arrival.spot;
+    const Versine u =
+        versine(arrival.cone_angle, to_light_error + 2 * kU);  // the axis is unit to two roundings
+    const bool is_hard = light.inner_versine >= light.outer_versine;
+    const double most = edge(light, std::max(u.value - u.error, 0.0));
+    const double edge_error = is_hard ? 0 : most - edge(light, u.value + u.error) + 6 * kU * most;
+    return edge_error + power_error(u, light.exponent) + kU;
+}
+
+/// What the light's arrival is known to.
+struct ArrivalErrors {
+    double direction = 0;
+    glm::dvec3 radiance{0};
+};
+
+/// Directional lights are inputs, unit to two roundings. Of local ones the ray is a difference (one rounding,
+/// and the position's own error), the distance is good to as much, and 1 / (k_c + d (k_l + d k_q)) changes by
+/// at most twice as much, with seven roundings of positive terms.
+ArrivalErrors arrival_errors(const oracle::Arrival& arrival, double position_error) {
+    if (arrival.distance == 0) return {2 * kU, glm::dvec3(0)};
+    const double ray = kU + position_error / arrival.distance;
+    const double direction = ray + kDirectionError;
+    const double fading = 2 * direction + 7 * kU;
+    const double cone = arrival.spot != nullptr ? cone_error(arrival, direction) : 0;
+    return {direction, arrival.radiance * fading + arrival.unshaped * cone};
+}
+
+/// The sum of the errors of the two directions between which the highlight's angle lies.
+double highlight_directions(const oracle::Model& model, const oracle::LightTerm& term, double normal,
+                            double to_light, double to_viewer) {
+    if (model.specular == oracle::Specular::phong)  // r = 2 (n.s) n - s: at most four times n's error
+        return to_light + 4 * normal + 8 * kU + to_viewer;
+    const double sum = to_light + to_viewer + 2 * kU;
+    return sum / std::max(term.half_length, 1e-30) + kDirectionError + normal;
+}
+
+/// A light's parts of the error, without the material.
+struct TermErrors {
+    glm::dvec3 scattered{0};
+    glm::dvec3 reflected{0};
+};
+
+TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term,
+                       const PointErrors& errors, double normal, double to_viewer) {
+    const ArrivalErrors arrival = arrival_errors(term.arrival, errors.position);
+    const glm::dvec3& light = term.arrival.radiance;
+    TermErrors result;
+    // The gate is decided; where it is open, the cosine is off by both directions and a dot product.
+    const double cosine = normal + arrival.direction + 3 * kU;
+    const bool may_be_lit = term.is_lit || std::abs(term.cosine) <= cosine;
+    if (!may_be_lit) return result;
+    const double diffuse = model.diffuse == oracle::Diffuse::toon ? 2 * kU : cosine;
+    result.scattered = light * (diffuse + kU) + arrival.radiance * term.diffuse;
+    if (model.specular == oracle::Specular::none) return result;
+    const double directions = highlight_directions(model, term, normal, arrival.direction, to_viewer);
+    const double share = power_error(versine(term.highlight_angle, directions), scene.material.shininess);
+    result.reflected = light * (share + kU) + arrival.radiance * term.specular;
+    return result;
+}
+
+}  // namespace
+
+glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene,
+                          const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
+                          const PointErrors& errors) {
+    const double normal = errors.normal + kDirectionError;
+    const double distance = glm::length(point.position);
+    const double to_viewer = distance > 0 ? errors.position / distance + kDirectionError : 0;
+    const oracle::Material& material = scene.material;
+    glm::dvec3 error{0};
+    for (const oracle::LightTerm& term : radiance.terms) {
+        const TermErrors one = term_errors(model, scene, term, errors, normal, to_viewer);
+        error += material.diffuse * one.scattered + material.strength * material.specular * one.reflected;
+    }
+    // Sums of n terms that are not negative, three products with the material, three sums of the parts.
+    const double roundings = static_cast<double>(radiance.terms.size()) + 6;
+    return error + radiance.value * (roundings * kU);
+}
+
+glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene, const oracle::Seen& seen,
+                     const glm::dvec3& radiance, const glm::dvec3& radiance_error, double position_error) {
+    if (model.fog == oracle::Fog::none) return radiance_error;
+    const oracle::FogParameters& fog = scene.fog;
+    const double distance = kDirectionError * seen.distance + position_error;
+    double clearness = 0;
+    if (model.fog == oracle::Fog::linear && fog.near != fog.far) {
+        const double ahead = distance + kU * std::abs(fog.far - seen.distance);
+        clearness = ahead / std::abs(fog.far - fog.near) + 2 * kU * seen.clearness;
+    } else if (model.fog != oracle::Fog::linear) {
+        // exp(-t) or exp(-t^2): the thickness t is a product, the square doubles its relative error.
+        const double thickness = fog.density * seen.distance;
+        const double relative = seen.distance > 0 ? distance / seen.distance + kU : 0;
+        const double exponent = model.fog == oracle::Fog::exponential
+                                    ? thickness * relative
+                                    : thickness * thickness * (2 * relative + kU);
+        clearness = seen.clearness * (exponent + 2 * kU);
+    }
+    const glm::dvec3 blend = glm::abs(radiance) * seen.clearness + fog.color * (1 - seen.clearness);
+    return seen.clearness * radiance_error + (glm::abs(radiance) + fog.color) * clearness + 3 * kU * blend;
+}
+
+}  // namespace gobo::verify

@@ -1,0 +1,32 @@
+// How far a float evaluation of the models may be from the exact answer: a bound derived from the inputs'
+// condition and the number of operations. docs/verification.md has the derivation in full.
+#pragma once
+
+#include "oracle/oracle.hpp"
+
+namespace gobo::verify {
+
+/// The unit roundoff of a float: each operation is off by at most this, relative to its result.
+inline constexpr double kUnitRoundoff = 0x1p-24;
+
+/// Errors that the surface point already has, in a vertex stage from its transformation.
+struct PointErrors {
+    double position = 0;  ///< length of the error vector
+    double normal = 0;    ///< relative
+};
+
+/// Direction of a vector by scaling, a dot product, a reciprocal square root and two products: at most 6
+/// roundings of each component (1 + 1.5 + 2 + 1, rounded up).
+inline constexpr double kDirectionError = 6 * kUnitRoundoff;
+
+/// Bound of each channel's error of lit_radiance() evaluated in floats.
+[[nodiscard]] glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene,
+                                        const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
+                                        const PointErrors& errors);
+
+/// Bound of each channel's error of seen_through_fog(), given that of the radiance it blends.
+[[nodiscard]] glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene,
+                                   const oracle::Seen& seen, const glm::dvec3& radiance,
+                                   const glm::dvec3& radiance_error, double position_error);
+
+}  // namespace gobo::verify

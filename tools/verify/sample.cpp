@@ -1,0 +1,214 @@
+#include "verify/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include "verify/random.hpp"
+
+namespace gobo::verify {
+namespace {
+
+/// Makes the samples of one stage, one after the other.
+class SampleMaker {
+  public:
+    SampleMaker(const oracle::Model& model, StageKind stage, std::uint64_t seed)
+        : model_(model), is_vertex_(stage == StageKind::vertex), random_(seed) {}
+
+    Sample make() {
+        Sample sample;
+        if (is_vertex_)
+            place_vertex(sample);
+        else
+            place_fragment(sample);
+        normal_ = glm::normalize(sample.surface.normal);
+        const glm::dvec3 to_viewer = -glm::normalize(sample.surface.position);
+        mirrored_ = 2 * glm::dot(normal_, to_viewer) * normal_ - to_viewer;
+        fill_material(sample.scene.material);
+        sample.scene.ambient = random_.components(0, 1);
+        add_lights(sample);
+        sample.scene.toon_levels = random_.whole(1, 8);
+        fill_fog(sample.scene.fog, glm::length(sample.surface.position));
+        sample.scene.depth_offset = random_.between(-0.6, 0.6);
+        return sample;
+    }
+
+  private:
+    void place_fragment(Sample& sample) {
+        const double size = random_.across(0.1, 1e3);
+        sample.surface.position = random_.direction() * size;
+        if (!random_.one_in(8)) sample.surface.position.z = -std::abs(sample.surface.position.z);
+        sample.surface.normal = facing(sample.surface.position) * random_.between(0.3, 1);
+        nearest_light_ = 1e-2;
+        farthest_light_ = 1e3;
+        sample.lit_radiance = random_.components(-0.1, 4);  // interpolation may leave the range a little
+        sample.depth = random_.unit();
+    }
+
+    void place_vertex(Sample& sample) {
+        const double size = random_.across(0.1, 1e3);
+        glm::dmat4 matrix = glm::translate(glm::dmat4(1), random_.direction() * size);
+        matrix = glm::rotate(matrix, random_.between(0, 6.28), random_.direction());
+        matrix = glm::scale(matrix, random_.components(0.5, 2));
+        sample.model_view = matrix;
+        sample.object_position = random_.components(-size, size);
+        sample.normal_matrix = glm::transpose(glm::inverse(glm::dmat3(matrix)));
+        sample.surface.position = glm::dvec3(matrix * glm::dvec4(sample.object_position, 1));
+        const glm::dvec3 eye_normal = facing(sample.surface.position) * random_.across(0.1, 10);
+        sample.object_normal = glm::transpose(glm::dmat3(matrix)) * eye_normal;
+        sample.surface.normal = sample.normal_matrix * sample.object_normal;
+        for (int column = 0; column < 4; ++column)
+            sample.projection[column] = {random_.components(-2, 2), random_.between(-2, 2)};
+        nearest_light_ = std::max(0.3 * size, 1e-2);
+        farthest_light_ = 10 * size;
+    }
+
+    /// A normal, three times out of four on the viewer's side.
+    glm::dvec3 facing(const glm::dvec3& position) {
+        const glm::dvec3 normal = random_.direction();
+        return random_.one_in(4) || glm::dot(normal, position) < 0 ? normal : -normal;
+    }
+
+    void fill_material(oracle::Material& material) {
+        material.emission = random_.one_in(2) ? glm::dvec3(0) : random_.components(0, 1);
+        material.ambient = random_.components(0, 1);
+        material.diffuse = random_.components(0, 1);
+        material.specular = random_.components(0, 1);
+        material.strength = random_.across(0.1, 4);
+        material.shininess = random_.one_in(16) ? 0 : random_.across(0.1, 1e3);
+        lobe_width_ = 1 / std::sqrt(std::max(material.shininess, 1.0));
+    }
+
+    /// The direction of a light: anywhere, in front of the surface, behind it, or where the highlight is.
+    glm::dvec3 to_light() {
+        const glm::dvec3 anywhere = random_.direction();
+        switch (random_.whole(0, 3)) {
+            case 0:
+                return anywhere;
+            case 1:
+                return glm::dot(anywhere, normal_) > 0 ? anywhere : -anywhere;
+            default:
+                return glm::normalize(mirrored_ + random_.across(0.1, 4) * lobe_width_ * anywhere);
+        }
+    }
+
+    /// Coefficients of which some are 0, and a colour that brings some radiance to the point.
+    void shine(oracle::PointLight& light, double distance) {
+        for (int i = 0; i < 3; ++i) light.attenuation[i] = random_.one_in(4) ? 0 : random_.across(1e-3, 1);
+        if (light.attenuation == glm::dvec3(0)) light.attenuation.x = 1;
+        const glm::dvec3& k = light.attenuation;
+        const double brightness = std::min(k.x + distance * (k.y + distance * k.z), 1e5);
+        light.color = random_.components(0, 2) * brightness;
+    }
+
+    /// Places the light and returns the unit vector to it.
+    glm::dvec3 place(oracle::PointLight& light, const glm::dvec3& surface) {
+        const glm::dvec3 direction = to_light();
+        const double distance = random_.across(nearest_light_, farthest_light_);
+        light.position = surface + direction * distance;
+        shine(light, distance);
+        return direction;
+    }
+
+    void aim(oracle::SpotLight& light, const glm::dvec3& direction) {
+        const double outer = random_.one_in(8) ? 1.5707963267948966 : random_.across(0.01, 1.5);
+        light.outer_versine = random_.one_in(16) ? 2 : 1 - std::cos(outer);
+        light.inner_versine = light.outer_versine * (random_.one_in(4) ? 1 : random_.between(0, 0.9));
+        light.exponent = random_.one_in(4) ? 0 : random_.across(0.1, 1e3);
+        // Seen from the light, the point lies somewhere from the axis to a little outside the cone.
+        const glm::dvec3 aside = glm::normalize(glm::cross(direction, random_.direction()));
+        const double angle = outer * random_.between(0, 1.2);
+        light.axis = -std::cos(angle) * direction + std::sin(angle) * aside;
+    }
+
+    void add_lights(Sample& sample) {
+        for (int i = 0; i < model_.directional; ++i)
+            sample.scene.directional.push_back({to_light(), random_.components(0, 2)});
+        for (int i = 0; i < model_.point; ++i)
+            (void)place(sample.scene.point.emplace_back(), sample.surface.position);
+        for (int i = 0; i < model_.spot; ++i) {
+            oracle::SpotLight& light = sample.scene.spot.emplace_back();
+            aim(light, place(light, sample.surface.position));
+        }
+    }
+
+    /// Fog that is thin, thick or in between at the point's distance.
+    void fill_fog(oracle::FogParameters& fog, double distance) {
+        fog.color = random_.components(0, 1);
+        fog.density = std::min(random_.between(0, 3) / distance, 1e3);
+        fog.near = distance * random_.between(0, 1.5);
+        fog.far = random_.one_in(8) ? fog.near : fog.near + distance * random_.between(0.1, 2);
+    }
+
+    const oracle::Model& model_;
+    bool is_vertex_;
+    Random random_;
+    glm::dvec3 normal_{0};
+    glm::dvec3 mirrored_{0};
+    double lobe_width_ = 1;
+    double nearest_light_ = 0;
+    double farthest_light_ = 0;
+};
+
+void to_float(double& number) {
+    number = static_cast<float>(number);
+}
+void to_float(glm::dvec3& vector) {
+    for (int i = 0; i < 3; ++i) to_float(vector[i]);
+}
+void to_float(oracle::PointLight& light) {
+    to_float(light.position);
+    to_float(light.color);
+    to_float(light.attenuation);
+}
+
+void to_float(oracle::Scene& scene) {
+    oracle::Material& material = scene.material;
+    for (glm::dvec3* color : {&material.emission, &material.ambient, &material.diffuse, &material.specular,
+                              &scene.ambient, &scene.fog.color})
+        to_float(*color);
+    for (double* number : {&material.shininess, &material.strength, &scene.fog.density, &scene.fog.near,
+                           &scene.fog.far, &scene.depth_offset})
+        to_float(*number);
+    for (oracle::DirectionalLight& light : scene.directional) {
+        to_float(light.direction);
+        to_float(light.color);
+    }
+    for (oracle::PointLight& light : scene.point) to_float(light);
+    for (oracle::SpotLight& light : scene.spot) {
+        to_float(static_cast<oracle::PointLight&>(light));
+        to_float(light.axis);
+        for (double* number : {&light.exponent, &light.inner_versine, &light.outer_versine})
+            to_float(*number);
+    }
+}
+
+}  // namespace
+
+std::vector<Sample> make_samples(const oracle::Model& model, StageKind stage, int count, std::uint64_t seed) {
+    SampleMaker maker(model, stage, seed);
+    std::vector<Sample> samples;
+    samples.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) samples.push_back(maker.make());
+    return samples;
+}
+
+Sample rounded_to_float(Sample sample) {
+    to_float(sample.scene);
+    for (glm::dvec3* vector : {&sample.object_position, &sample.object_normal, &sample.surface.position,
+                               &sample.surface.normal, &sample.lit_radiance})
+        to_float(*vector);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) {
+            to_float(sample.model_view[column][row]);
+            to_float(sample.projection[column][row]);
+            if (column < 3 && row < 3) to_float(sample.normal_matrix[column][row]);
+        }
+    to_float(sample.depth);
+    return sample;
+}
+
+}  // namespace gobo::verify

@@ -1,0 +1,112 @@
+#include "verify/verify.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "family/key.hpp"
+#include "oracle/model.hpp"
+#include "verify/against_oracle.hpp"
+#include "verify/alone.hpp"
+
+namespace gobo::verify {
+namespace {
+
+/// Calls `work(i)` for each index, by several threads.
+void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& work) {
+    std::atomic<std::size_t> next = 0;
+    const auto run = [&] {
+        for (std::size_t i = next++; i < count; i = next++) work(i);
+    };
+    std::vector<std::jthread> threads;
+    for (int i = 1; i < jobs; ++i) threads.emplace_back(run);
+    run();
+}
+
+using Programs = std::vector<Result<evaluate::Program>>;
+
+Programs decode_all(const Validated& validated, int jobs) {
+    Programs programs(validated.stages.size());
+    for_each_index(programs.size(), jobs,
+                   [&](std::size_t i) { programs[i] = evaluate::decode(validated.stages[i].spirv); });
+    return programs;
+}
+
+/// Verifies one permutation after the other, keeping what all share.
+class Verifier {
+  public:
+    Verifier(const Family& family, const Composition& composition, const Programs& programs,
+             const VerifyOptions& options)
+        : family_(family), composition_(composition), programs_(programs), options_(options) {}
+
+    [[nodiscard]] PermutationReport verify(const Permutation& permutation) const {
+        PermutationReport report;
+        report.key = permutation.key;
+        const auto model = oracle::model_of(family_, permutation.key);
+        report.has_oracle = model.has_value();
+        for (const int stage : {permutation.vertex, permutation.fragment}) {
+            if (stage < 0) continue;  // loose files may leave one out
+            Result<StageReport> found = check(static_cast<std::size_t>(stage), permutation.key, model);
+            if (found)
+                add(report, std::move(*found));
+            else
+                add(report, std::move(found.error()));
+        }
+        return report;
+    }
+
+  private:
+    [[nodiscard]] Result<StageReport> check(std::size_t stage, const Key& key,
+                                            const tl::expected<oracle::Model, std::string>& model) const {
+        const Result<evaluate::Program>& program = programs_[stage];
+        if (!program) return tl::unexpected(program.error());
+        const StageKind kind = composition_.stages[stage].kind;
+        const std::string text = key_text(family_, key);
+        const std::uint64_t seed = XXH3_64bits(text.data(), text.size());
+        const int count = kind == StageKind::vertex ? options_.vertices : options_.fragments;
+        return model ? check_against_oracle(*program, kind, *model, count, seed)
+                     : check_alone(*program, kind, family_.domains, count, seed);
+    }
+
+    void add(PermutationReport& report, StageReport found) const {
+        report.figures += found.figures;
+        report.failed_points += found.failed_points;
+        for (Failure& failure : found.worst) report.worst.push_back(std::move(failure));
+    }
+
+    void add(PermutationReport& report, Diagnostics errors) const {
+        for (Diagnostic& error : errors) {
+            error.subject = key_text(family_, report.key);
+            report.diagnostics.push_back(std::move(error));
+        }
+    }
+
+    const Family& family_;
+    const Composition& composition_;
+    const Programs& programs_;
+    const VerifyOptions& options_;
+};
+
+}  // namespace
+
+VerifyReport verify(const Family& family, const Composition& composition, const Validated& validated,
+                    const VerifyOptions& options) {
+    const Programs programs = decode_all(validated, options.jobs);
+    const Verifier verifier(family, composition, programs, options);
+    VerifyReport report;
+    report.permutations.resize(composition.permutations.size());
+    for_each_index(report.permutations.size(), options.jobs, [&](std::size_t i) {
+        report.permutations[i] = verifier.verify(composition.permutations[i]);
+    });
+    for (const PermutationReport& permutation : report.permutations) {
+        report.figures += permutation.figures;
+        if (!permutation.has_oracle) ++report.without_oracle;
+    }
+    return report;
+}
+
+}  // namespace gobo::verify
