@@ -36,9 +36,11 @@ Outcome run(const CheckOptions& options, const World& world) {
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.spirv_val = options.spirv_val;
-    Diagnostics found = same_stages(family->family, *composition);
-    const Diagnostics more = validate(family->family, *composition, validate_options).diagnostics;
-    found.insert(found.end(), more.begin(), more.end());
+    Diagnostics found = validate(family->family, *composition, validate_options).diagnostics;
+    if (exit_status(found) == 0) {  // beside errors it would only distract
+        const Diagnostics alike = same_stages(family->family, *composition);
+        found.insert(found.end(), alike.begin(), alike.end());
+    }
     return {{}, std::move(found), {}};
 }
 
