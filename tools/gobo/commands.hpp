@@ -12,6 +12,7 @@ namespace gobo {
 [[nodiscard]] Command reflect_command(CLI::App& gobo);
 [[nodiscard]] Command build_command(CLI::App& gobo);
 [[nodiscard]] Command render_command(CLI::App& gobo);
+[[nodiscard]] Command sanitize_command(CLI::App& gobo);
 [[nodiscard]] Command library_command(CLI::App& gobo);
 
 }  // namespace gobo

@@ -1,0 +1,9 @@
+#version 450
+// H-G1: normals of a singular model matrix.
+layout(location = 0) in vec3 normal;
+uniform mat3 model;
+
+void main() {
+    vec3 eyeNormal = transpose(inverse(model)) * normal;  // trap: inverse() of a singular matrix
+    gl_Position = vec4(eyeNormal, 1.0);
+}

@@ -1,0 +1,11 @@
+#version 450
+// H-F1: fog whose near is its far.
+layout(location = 0) in vec3 position;
+uniform float near;
+uniform float far;
+layout(location = 0) out vec4 color;
+
+void main() {
+    float clearness = (far - abs(position.z)) / (far - near);  // trap: division by zero
+    color = vec4(clamp(clearness, 0.0, 1.0));  // trap: clamp() fed a NaN
+}

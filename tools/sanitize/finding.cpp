@@ -1,0 +1,63 @@
+#include "sanitize/finding.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gobo::sanitize {
+namespace {
+
+std::map<std::string, std::vector<double>> values_of(const std::vector<evaluate::Port>& ports,
+                                                     const evaluate::Invocations& invocations,
+                                                     std::size_t index) {
+    std::map<std::string, std::vector<double>> result;
+    for (const evaluate::Port& port : ports) {
+        const auto found = invocations.values.find(port.name);
+        if (found == invocations.values.end()) continue;
+        const bool is_common = found->second.size() == port.components;
+        for (std::size_t component = 0; component < port.components; ++component)
+            result[port.name].push_back(
+                found->second[is_common ? component : component * invocations.count + index]);
+    }
+    return result;
+}
+
+std::string toml_table(std::string_view name, const std::map<std::string, std::vector<double>>& values) {
+    std::string text = fmt::format("\n[{}]\n", name);
+    for (const auto& [key, numbers] : values) {
+        if (numbers.size() == 1)
+            text += fmt::format("\"{}\" = {}\n", key, numbers.front());
+        else
+            text += fmt::format("\"{}\" = [{}]\n", key, fmt::join(numbers, ", "));
+    }
+    return text;
+}
+
+}  // namespace
+
+Point point_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
+               std::size_t index) {
+    return {values_of(program.inputs, invocations, index), values_of(program.uniforms, invocations, index)};
+}
+
+evaluate::Invocations invocations_of(const Point& point) {
+    evaluate::Invocations invocations;
+    for (const auto* values : {&point.inputs, &point.uniforms})
+        for (const auto& [name, numbers] : *values) invocations.values[name] = numbers;
+    return invocations;
+}
+
+std::string to_text(const Finding& finding) {
+    std::string text = finding.message;
+    if (!finding.operation.empty()) text += ": " + finding.operation;
+    if (finding.is_flushed) text += ", denormals flushed";
+    return text;
+}
+
+std::string eval_input(const Finding& finding, const std::string& heading) {
+    return fmt::format("# {}\n# {}:{}: {}\nstage = \"{}\"\n{}{}", heading, finding.place.file,
+                       finding.place.line, to_text(finding), name_of(finding.stage),
+                       toml_table("inputs", finding.point.inputs),
+                       toml_table("uniforms", finding.point.uniforms));
+}
+
+}  // namespace gobo::sanitize

@@ -1,0 +1,34 @@
+// What an input or uniform may hold, and hard values within it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluate/program.hpp"
+#include "family/family.hpp"
+#include "sanitize/random.hpp"
+
+namespace gobo::sanitize {
+
+/// Numbers nearer to 0 than this are drawn only where a domain's own bounds are: coordinates and lengths
+/// below it occur as exactly 0.
+inline constexpr double kSmallest = 1e-6;
+
+/// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
+/// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
+[[nodiscard]] Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains);
+
+/// Whether a component may hold the number. Not for domains of a length.
+[[nodiscard]] bool holds(const Domain& domain, double number);
+
+/// The numbers where shaders fail: 0, the bounds, the smallest, 1 and its neighbours, halves, band edges.
+/// Of a component, or of a length where the domain is of one.
+[[nodiscard]] std::vector<double> hard_numbers(const Domain& domain);
+
+/// A number of the domain: evenly spread, or every power of ten as likely as any other.
+[[nodiscard]] double ordinary_number(const Domain& domain, Random& random);
+
+/// A direction of `components` components: along an axis, a diagonal, nearly along an axis, or any.
+[[nodiscard]] std::vector<double> hard_direction(std::size_t components, Random& random);
+
+}  // namespace gobo::sanitize
