@@ -41,7 +41,9 @@ class SampleMaker {
         const double size = random_.across(0.1, 1e3);
         sample.surface.position = random_.direction() * size;
         if (!random_.one_in(8)) sample.surface.position.z = -std::abs(sample.surface.position.z);
-        sample.surface.normal = facing(sample.surface.position) * random_.between(0.3, 1);
+        is_along_axis_ = random_.one_in(16);
+        const glm::dvec3 normal = is_along_axis_ ? glm::dvec3(0, 0, 1) : facing(sample.surface.position);
+        sample.surface.normal = normal * random_.between(0.3, 1);
         nearest_light_ = 1e-2;
         farthest_light_ = 1e3;
         sample.lit_radiance = random_.components(-0.1, 4);  // interpolation may leave the range a little
@@ -122,11 +124,19 @@ class SampleMaker {
         const glm::dvec3 aside = glm::normalize(glm::cross(direction, random_.direction()));
         const double angle = outer * random_.between(0, 1.2);
         light.axis = -std::cos(angle) * direction + std::sin(angle) * aside;
+        if (light.outer_versine == 2 && random_.one_in(2)) {  // it holds even the ray straight back
+            light.axis = direction;
+            light.inner_versine = 2;
+            light.exponent = 0;
+        }
     }
 
     void add_lights(Sample& sample) {
-        for (int i = 0; i < model_.directional; ++i)
-            sample.scene.directional.push_back({to_light(), random_.components(0, 2)});
+        for (int i = 0; i < model_.directional; ++i) {
+            const bool is_straight = is_along_axis_ && random_.one_in(2);  // a cosine of exactly 1
+            sample.scene.directional.push_back(
+                {is_straight ? normal_ : to_light(), random_.components(0, 2)});
+        }
         for (int i = 0; i < model_.point; ++i)
             (void)place(sample.scene.point.emplace_back(), sample.surface.position);
         for (int i = 0; i < model_.spot; ++i) {
@@ -145,6 +155,7 @@ class SampleMaker {
 
     const oracle::Model& model_;
     bool is_vertex_;
+    bool is_along_axis_ = false;
     Random random_;
     glm::dvec3 normal_{0};
     glm::dvec3 mirrored_{0};
