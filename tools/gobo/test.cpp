@@ -1,5 +1,5 @@
 // gobo test: evaluates every permutation of a selection and holds it against the oracle.
-#include <filesystem>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -27,23 +27,27 @@ std::string file_name(const std::string& key, const verify::Failure& failure, st
     return fmt::format("{}.{}.{}.toml", name, name_of(failure.stage), number);
 }
 
-/// One error for the key, and its worst points as files.
-Diagnostics report_failure(const World& world, const std::string& folder, const std::string& key,
+/// One error for the key, and a note for each of its worst points, which is written as a file.
+Diagnostics report_failure(const World& world, const TestOptions& options, const std::string& key,
                            const verify::PermutationReport& report) {
     Diagnostic error;
     error.subject = key;
     error.message =
         fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points);
-    Diagnostics diagnostics;
+    error.remedy =
+        fmt::format("follow one of these through the shader: gobo eval {} '{}' --inputs FILE --trace",
+                    options.family, key);
+    Diagnostics diagnostics = {std::move(error)};
     for (std::size_t i = 0; i < report.worst.size(); ++i) {
         const verify::Failure& failure = report.worst[i];
-        const std::string path = fmt::format("{}/{}", folder, file_name(key, failure, i + 1));
-        const Result<bool> written = world.disk.write(path, verify::eval_input(failure, key));
+        Diagnostic note;
+        note.severity = Severity::note;
+        note.place.file = fmt::format("{}/{}", options.folder, file_name(key, failure, i + 1));
+        note.message = fmt::format("{} stage: {}", name_of(failure.stage), to_text(failure));
+        const Result<bool> written = world.disk.write(note.place.file, verify::eval_input(failure, key));
         if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
-        error.message += fmt::format("\n  {}: {} stage: {}", path, name_of(failure.stage), to_text(failure));
+        diagnostics.push_back(std::move(note));
     }
-    error.remedy = "follow a point through the shader: gobo eval FAMILY KEY --inputs FILE --trace";
-    diagnostics.insert(diagnostics.begin(), std::move(error));
     return diagnostics;
 }
 
@@ -56,7 +60,7 @@ Diagnostics report_failures(const World& world, const TestOptions& options, cons
     for (const verify::PermutationReport& permutation : report.permutations) {
         add(permutation.diagnostics);
         if (permutation.failed_points > 0)
-            add(report_failure(world, options.folder, key_text(family, permutation.key), permutation));
+            add(report_failure(world, options, key_text(family, permutation.key), permutation));
     }
     const verify::Figures& figures = report.figures;
     if (static_cast<double>(figures.edges) >
