@@ -62,7 +62,7 @@ struct Varying {
     std::string name;  ///< the GLSL identifier
     std::string type;  ///< the GLSL type
     int location = 0;
-    std::string interpolation;  ///< "flat", "noperspective", or empty
+    std::string interpolation;  ///< "flat", "noperspective", "smooth", or empty
     std::string piece;          ///< the piece that the vertex stage includes for it
     std::string value;          ///< the GLSL expression that the vertex stage writes
     Place place;

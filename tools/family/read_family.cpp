@@ -1,6 +1,7 @@
 #include "family/read_family.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -19,6 +20,44 @@ std::string folder_of(const std::string& path) {
     return path.substr(0, slash);
 }
 
+/// Beyond any driver's: OpenGL guarantees 15 vectors between the stages.
+constexpr std::int64_t largest_location = 255;
+
+void read_location(TomlReader& reader, const toml::table& row, const std::string& what, Varying& varying) {
+    const std::int64_t location = reader.integer(row, "location").value_or(-1);
+    if (location >= 0 && location <= largest_location) {
+        varying.location = static_cast<int>(location);
+    } else if (row.contains("location")) {
+        reader.error(*row.get("location"), what + " has no valid location",
+                     fmt::format("write location = N with N from 0 to {}", largest_location));
+    } else {
+        reader.error(row, what + " lacks its location", "add location = 0 or more");
+    }
+}
+
+void read_interpolation(TomlReader& reader, const toml::table& row, const std::string& what,
+                        Varying& varying) {
+    const std::vector<std::string> known = {"flat", "noperspective", "smooth"};
+    varying.interpolation = reader.string(row, "interpolation").value_or("");
+    if (varying.interpolation.empty() ||
+        std::find(known.begin(), known.end(), varying.interpolation) != known.end())
+        return;
+    reader.error(*row.get("interpolation"),
+                 fmt::format("{} has no interpolation '{}'", what, varying.interpolation),
+                 suggestion(varying.interpolation, known));
+}
+
+/// `varyings` are sorted by location.
+void refuse_shared_locations(TomlReader& reader, const std::vector<Varying>& varyings) {
+    for (std::size_t i = 1; i < varyings.size(); ++i) {
+        if (varyings[i].location != varyings[i - 1].location) continue;
+        reader.error(varyings[i].place,
+                     fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
+                                 varyings[i].location, varyings[i - 1].name),
+                     "give each varying a location of its own");
+    }
+}
+
 std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) {
     std::vector<Varying> varyings;
     const toml::table* table = reader.table(root, "varyings");
@@ -35,17 +74,16 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) 
             break;
         }
         reader.only(*row, what, {"location", "type", "interpolation", "piece", "value"});
-        varying.location = static_cast<int>(reader.integer(*row, "location").value_or(-1));
-        if (varying.location < 0)
-            reader.error(node, what + " lacks its location", "add location = 0 or more");
+        read_location(reader, *row, what, varying);
         varying.type = reader.required_string(*row, what, "type");
         varying.value = reader.required_string(*row, what, "value");
         varying.piece = reader.string(*row, "piece").value_or("");
-        varying.interpolation = reader.string(*row, "interpolation").value_or("");
+        read_interpolation(reader, *row, what, varying);
         varyings.push_back(std::move(varying));
     }
     std::stable_sort(varyings.begin(), varyings.end(),
                      [](const Varying& a, const Varying& b) { return a.location < b.location; });
+    refuse_shared_locations(reader, varyings);
     return varyings;
 }
 
@@ -129,7 +167,8 @@ std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml:
     DefaultSelection selection;
     selection.keys = reader.strings(*table, "keys");
     selection.all = reader.boolean(*table, "all").value_or(false);
-    selection.cover = static_cast<int>(reader.integer(*table, "cover").value_or(0));
+    selection.cover = static_cast<int>(std::clamp<std::int64_t>(reader.integer(*table, "cover").value_or(0),
+                                                                0, std::numeric_limits<int>::max()));
     selection.over = reader.strings(*table, "over");
     selection.where = reader.string(*table, "where").value_or("");
     if (selection.keys.empty() && !selection.all && selection.cover < 1) {
