@@ -5,6 +5,24 @@
 #include "common/text.hpp"
 
 namespace gobo {
+namespace {
+
+/// The texture functions of before GLSL 1.30, which carried their sampler's type in their name.
+constexpr std::string_view renamed_functions =
+    "#define texture1D texture\n"
+    "#define texture1DProj textureProj\n"
+    "#define texture1DLod textureLod\n"
+    "#define texture2D texture\n"
+    "#define texture2DProj textureProj\n"
+    "#define texture2DLod textureLod\n"
+    "#define texture2DProjLod textureProjLod\n"
+    "#define texture3D texture\n"
+    "#define texture3DProj textureProj\n"
+    "#define texture3DLod textureLod\n"
+    "#define textureCube texture\n"
+    "#define textureCubeLod textureLod\n";
+
+}  // namespace
 
 GlslVersion version_of(std::string_view prologue) {
     GlslVersion version;
@@ -27,7 +45,11 @@ std::string raised_for_spirv(std::string_view prologue) {
     const auto end = prologue.find('\n');
     const std::string_view rest =
         prologue.starts_with("#version") && end != std::string_view::npos ? prologue.substr(end) : "\n";
-    return (version.es ? "#version 310 es" : "#version 330 core") + std::string(rest);
+    // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
+    const bool is_first_es = version.es && version.number == 100;
+    const std::string line = version.es && !is_first_es ? "#version 310 es" : "#version 330 core";
+    if (!is_first_es && (version.es || version.number >= 130)) return line + std::string(rest);
+    return line + "\n" + std::string(renamed_functions) + std::string(rest);
 }
 
 }  // namespace gobo

@@ -33,11 +33,12 @@ std::optional<Head> head_of(std::string_view message, const std::vector<const Pi
     return std::nullopt;
 }
 
+constexpr std::string_view given_up = "'' : compilation terminated";
+
 /// glslang closes a log with counts, with what it will not do and that it stops; these say nothing of their
 /// own.
 bool says_nothing(std::string_view message) {
-    return message.ends_with("No code generated.") ||
-           message.find("'' : compilation terminated") != std::string_view::npos ||
+    return message.ends_with("No code generated.") || message.find(given_up) != std::string_view::npos ||
            message.find(" compilation errors.") != std::string_view::npos;
 }
 
@@ -67,12 +68,15 @@ Diagnostic diagnostic_of(Severity severity, std::string_view message, const std:
 Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
                                const Place& otherwise) {
     Diagnostics diagnostics;
+    // Where glslang gives up, every condition that is open seems to lack its end.
+    const bool gave_up = log.find(given_up) != std::string_view::npos;
     while (!log.empty()) {
         const auto end = std::min(log.find('\n'), log.size());
         std::string_view line = log.substr(0, end);
         log.remove_prefix(std::min(end + 1, log.size()));
         const auto severity = take_severity(line);
         if (trim(line).empty() || says_nothing(line)) continue;
+        if (gave_up && line.find("'' : missing #endif") != std::string_view::npos) continue;
         if (severity) {
             diagnostics.push_back(diagnostic_of(*severity, trim(line), pieces, otherwise));
         } else if (!diagnostics.empty()) {  // a message that goes on

@@ -74,6 +74,19 @@ SpirvModule spirv_of(const glslang::TIntermediate& intermediate, bool debug_info
     return module;
 }
 
+/// The shader is right by its own version's rules, so the errors of the raised one need a word.
+Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
+    std::erase_if(diagnostics, [](const Diagnostic& found) { return found.severity != Severity::error; });
+    for (Diagnostic& diagnostic : diagnostics) {
+        diagnostic.remedy = fmt::format(
+            "glslang makes no SPIR-V of GLSL {}, so gobo reads it as 330 (ES: 310), which lacks this; write "
+            "it "
+            "with what 330 has",
+            version.number);
+    }
+    return diagnostics;
+}
+
 tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
     Diagnostic diagnostic;
     diagnostic.fault = Fault::internal;
@@ -143,8 +156,11 @@ bool GlslangStage::parse() {
     if (!makes_spirv(version)) {
         parse_as(prologue, false, false);
         if (has_errors(diagnostics_)) return false;
+        const Diagnostics own = std::move(diagnostics_);
         shader_ = parse_as(raised_for_spirv(prologue), true, true);
-        return !has_errors(diagnostics_);
+        const bool is_fine = !has_errors(diagnostics_);
+        diagnostics_ = is_fine ? own : explained(std::move(diagnostics_), version);
+        return is_fine;
     }
     const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
     shader_ = parse_as(prologue, true, !can_state_bindings);
