@@ -1,0 +1,251 @@
+// Validating in memory: places, grouping, limits, versions.
+#include "validate/validate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compose/compose.hpp"
+#include "family/selection.hpp"
+#include "small_families.hpp"
+
+namespace gobo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Files = std::map<std::string, std::string, std::less<>>;
+
+const char* const features =
+    "[features]\nfog = { values = [\"none\", \"linear\"] }\npoint = { count = [0, 3], constant = \"POINTS\" "
+    "}\n";
+const char* const plain_vertex = "void main() { gl_Position = vec4(0.0); }\n";
+
+class Validate : public testing::Test {
+  protected:
+    Validated all(Dialect dialect = Dialect::own, int jobs = 1, bool with_spirv_val = true) {
+        const MemoryFileSystem disk(files);
+        SearchPath search;
+        search.add(disk, "", "", false);
+        const Family family = family_of(body);
+        Selection selection;
+        selection.all = true;
+        const Composition composition =
+            compose(family, select(family, selection, "450").value(), search, dialect).value();
+        ValidateOptions options;
+        options.jobs = jobs;
+        options.spirv_val = with_spirv_val;
+        return validate(family, composition, options);
+    }
+
+    std::vector<std::string> messages(Dialect dialect = Dialect::own) {
+        std::vector<std::string> texts;
+        for (const Diagnostic& diagnostic : all(dialect).diagnostics) texts.push_back(to_text(diagnostic));
+        return texts;
+    }
+
+    std::string body;
+    Files files = {{"tiny.vert", plain_vertex}, {"tiny.frag", "void main() {}\n"}};
+};
+
+TEST_F(Validate, MapsMessagesToThePieceAndItsLine) {
+    body = features;
+    files["tiny.frag"] =
+        "#include <fog>\nlayout(location = 0) out vec4 color;\nvoid main() { color = seen(); }\n";
+    files["fog/none.glsl"] = "// clear\n\nvec4 seen() { return vec4(1.0); }\n";
+    files["fog/linear.glsl"] = "// thick\n\n\nvec4 seen() { return density; }\n";
+    EXPECT_THAT(messages(),
+                ElementsAre("fog/linear.glsl:4: error: 'density' : undeclared identifier "
+                            "[fog=linear, and 3 more keys]\n    vec4 seen() { return density; }\n",
+                            "fog/linear.glsl:4: error: 'return' : cannot convert return value to function "
+                            "return type [fog=linear, and 3 more keys]\n"
+                            "    vec4 seen() { return density; }\n"))
+        << "once, for the four keys with linear fog";
+}
+
+TEST_F(Validate, GroupsOverTheKeysThatShareAReason) {
+    body = features;
+    files["tiny.frag"] = "#if POINTS == 2\nvoid two() { missing; }\n#endif\nvoid main() {}\n";
+    EXPECT_THAT(messages(), ElementsAre(HasSubstr("tiny.frag:2: error: 'missing' : undeclared identifier "
+                                                  "[point=2, and 1 more key]\n")));
+}
+
+TEST_F(Validate, SaysTheSameWhateverTheNumberOfThreads) {
+    body = features;
+    files["tiny.frag"] =
+        "#include <fog>\nlayout(location = 0) in vec3 normal;\n"
+        "#if POINTS == 1\nvec2 wrong() { return normal; }\n#endif\nvoid main() { seen(normal); }\n";
+    files["fog/none.glsl"] = "void seen(vec3 v) {}\n";
+    files["fog/linear.glsl"] = "void seen(vec2 v) {}\n";
+    const auto texts = [&](int jobs) {
+        std::string all_texts;
+        for (const Diagnostic& diagnostic : all(Dialect::own, jobs).diagnostics)
+            all_texts += to_text(diagnostic);
+        return all_texts;
+    };
+    const std::string alone = texts(1);
+    EXPECT_THAT(alone, HasSubstr("error"));
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(texts(4), alone);
+}
+
+TEST_F(Validate, RefusesToReadWhatIsNotWritten) {
+    files["tiny.frag"] =
+        "layout(location = 0) in vec3 normal;\nlayout(location = 0) out vec4 color;\n"
+        "void main() { color = vec4(normal, 1.0); }\n";
+    EXPECT_THAT(messages(),
+                ElementsAre("tiny.frag: error: the fragment stage reads 'vec3 normal', which the vertex "
+                            "stage does not write [default]\n"
+                            "  remedy: declare and write it as an output of the vertex stage\n"));
+}
+
+TEST_F(Validate, AFailedLinkLeavesOtherPairsAlone) {
+    body = "[features.fog]\nvalues = [\"none\", \"linear\"]\n";
+    files["tiny.vert"] =
+        "layout(location = 0) out vec2 normal;\nvoid main() { normal = vec2(0.0); gl_Position = vec4(0.0); "
+        "}\n";
+    files["tiny.frag"] =
+        "#include <fog>\nlayout(location = 0) out vec4 color;\nvoid main() { color = seen(); }\n";
+    files["fog/none.glsl"] =
+        "layout(location = 0) in vec3 normal;\nvec4 seen() { return vec4(normal, 1.0); }\n";
+    files["fog/linear.glsl"] = "layout(location = 0) in vec2 normal;\nvec4 seen() { return normal.xxyy; }\n";
+    EXPECT_THAT(
+        messages(),
+        ElementsAre("tiny.frag: error: Linking vertex and fragment stages: Types must match: vertex stage: "
+                    "\" vec2 normal\" fragment stage: \" vec3 normal\" [default]\n"));
+}
+
+struct LimitRow {
+    const char* name;
+    Dialect dialect;
+    const char* vertex;
+    const char* fragment;
+    const char* message;  ///< empty: just within the limit
+};
+
+void PrintTo(const LimitRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class Limit : public Validate, public testing::WithParamInterface<LimitRow> {};
+
+TEST_P(Limit, IsKept) {
+    files = {{"tiny.vert", GetParam().vertex}, {"tiny.frag", GetParam().fragment}};
+    const std::vector<std::string> found = messages(GetParam().dialect);
+    if (*GetParam().message == '\0') {
+        EXPECT_THAT(found, IsEmpty());
+    } else {
+        EXPECT_THAT(found, ElementsAre(HasSubstr(GetParam().message)));
+    }
+}
+
+constexpr const char* reads_block_1024 =
+    "layout(std140, binding = 0) uniform B { vec4 v[1024]; } b;\nlayout(location = 0) out vec4 c;\n"
+    "void main() { c = b.v[3]; }\n";
+constexpr const char* reads_block_1025 =
+    "layout(std140, binding = 0) uniform B { vec4 v[1025]; } b;\nlayout(location = 0) out vec4 c;\n"
+    "void main() { c = b.v[3]; }\n";
+constexpr const char* binds_36 =
+    "BLOCK(36, B) { vec4 v; } b;\n"
+    "layout(location = 0) out vec4 c;\nvoid main() { c = b.v; }\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, Limit,
+    testing::Values(
+        LimitRow{"block_of_16_kib", Dialect::own, plain_vertex, reads_block_1024, ""},
+        LimitRow{
+            "block_beyond_16_kib", Dialect::own, plain_vertex, reads_block_1025,
+            "bytes of the uniform block 'B': 16400, OpenGL guarantees only 16384 (MAX_UNIFORM_BLOCK_SIZE)"},
+        LimitRow{
+            "varyings_of_60", Dialect::own,
+            "layout(location = 0) out vec4 v[15];\nvoid main() { v[0] = vec4(0.0); gl_Position = v[0]; }\n",
+            "layout(location = 0) in vec4 v[15];\nlayout(location = 0) out vec4 c;\nvoid main() { c = v[14]; "
+            "}\n",
+            ""},
+        LimitRow{
+            "varyings_beyond_60", Dialect::own,
+            "layout(location = 0) out vec4 v[16];\nvoid main() { v[0] = vec4(0.0); gl_Position = v[0]; }\n",
+            "layout(location = 0) in vec4 v[16];\nlayout(location = 0) out vec4 c;\nvoid main() { c = v[14]; "
+            "}\n",
+            "varying components: 64, OpenGL guarantees only 60 (MAX_VARYING_COMPONENTS)"},
+        LimitRow{"samplers_beyond_16", Dialect::own, plain_vertex,
+                 "layout(binding = 0) uniform sampler2D t[17];\nlayout(location = 0) out vec4 c;\n"
+                 "void main() { c = texture(t[3], vec2(0.0)); }\n",
+                 "samplers in the fragment stage: 17, OpenGL guarantees only 16 (MAX_TEXTURE_IMAGE_UNITS)"},
+        LimitRow{"binding_36_in_450", Dialect::glsl450, plain_vertex,
+                 "layout(std140, binding = 36) uniform B { vec4 v; } b;\nlayout(location = 0) out vec4 c;\n"
+                 "void main() { c = b.v; }\n",
+                 ""},
+        LimitRow{"binding_36_in_330", Dialect::glsl330, plain_vertex, binds_36,
+                 "uniform buffer bindings up to that of 'B': 37, OpenGL guarantees only 36"}),
+    [](const auto& row) { return row.param.name; });
+
+/// Loose shaders of every version that glslang knows, whether or not SPIR-V does.
+struct VersionRow {
+    const char* name;
+    const char* vertex;
+    const char* fragment;
+};
+
+void PrintTo(const VersionRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class Version : public Validate, public testing::WithParamInterface<VersionRow> {};
+
+TEST_P(Version, IsTakenAndReflected) {
+    files = {{"tiny.vert", GetParam().vertex}, {"tiny.frag", GetParam().fragment}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("");
+    const Composition composition = compose(family, {{}}, search, Dialect::own).value();
+    const Validated validated = validate(family, composition, {});
+    EXPECT_EQ(exit_status(validated.diagnostics), 0) << first_text(validated.diagnostics);
+    const Interface interface = interface_of(validated, composition.permutations.front());
+    ASSERT_EQ(interface.uniforms.size(), 1u);
+    EXPECT_EQ(interface.uniforms[0].name, "tint");
+    EXPECT_EQ(interface.uniforms[0].type, "vec4");
+    ASSERT_EQ(interface.inputs.size(), 1u);
+    EXPECT_EQ(interface.inputs[0].name, "place");
+}
+
+constexpr const char* new_vertex =
+    "in vec4 place;\nout vec4 shade;\nvoid main() { shade = place; gl_Position = place; }\n";
+constexpr const char* new_fragment =
+    "precision highp float;\nuniform vec4 tint;\nin vec4 shade;\nout vec4 color;\nvoid main() { color = tint "
+    "* shade; }\n";
+constexpr const char* old_vertex =
+    "attribute vec4 place;\nvarying vec4 shade;\nvoid main() { shade = place; gl_Position = place; }\n";
+constexpr const char* old_fragment =
+    "precision highp float;\nuniform vec4 tint;\nuniform sampler2D image;\nvarying vec4 shade;\n"
+    "void main() { gl_FragColor = tint * texture2D(image, shade.xy); }\n";
+
+const std::string version_texts[][2] = {
+    {std::string("#version 120\n") + old_vertex, std::string("#version 120\n") + (old_fragment + 23)},
+    {std::string("#version 100\n") + old_vertex, std::string("#version 100\n") + old_fragment},
+    {std::string("#version 130\n") + new_vertex, std::string("#version 130\n") + new_fragment},
+    {std::string("#version 150\n") + new_vertex, std::string("#version 150\n") + new_fragment},
+    {std::string("#version 300 es\n") + new_vertex, std::string("#version 300 es\n") + new_fragment},
+    {std::string("#version 310 es\n") + new_vertex, std::string("#version 310 es\n") + new_fragment},
+    {std::string("#version 330 core\n") + new_vertex, std::string("#version 330 core\n") + new_fragment},
+    {std::string("#version 330 compatibility\n") + new_vertex,
+     std::string("#version 330 compatibility\n") + new_fragment},
+    {std::string("#version 420\n") + new_vertex, std::string("#version 420\n") + new_fragment},
+    {std::string("#version 450\n") + new_vertex, std::string("#version 450\n") + new_fragment},
+    {std::string("#version 460\n") + new_vertex, std::string("#version 460\n") + new_fragment},
+};
+
+std::vector<VersionRow> version_rows() {
+    const char* names[] = {"v120", "v100", "v130", "v150", "v300es", "v310es", "v330", "v330compatibility",
+                           "v420", "v450", "v460"};
+    std::vector<VersionRow> rows;
+    for (std::size_t i = 0; i < std::size(names); ++i)
+        rows.push_back({names[i], version_texts[i][0].c_str(), version_texts[i][1].c_str()});
+    return rows;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Version, testing::ValuesIn(version_rows()),
+                         [](const auto& row) { return row.param.name; });
+
+}  // namespace
+}  // namespace gobo
