@@ -10,6 +10,7 @@ namespace gobo {
 [[nodiscard]] Command test_command(CLI::App& gobo);
 [[nodiscard]] Command check_command(CLI::App& gobo);
 [[nodiscard]] Command reflect_command(CLI::App& gobo);
+[[nodiscard]] Command eval_command(CLI::App& gobo);
 [[nodiscard]] Command build_command(CLI::App& gobo);
 [[nodiscard]] Command render_command(CLI::App& gobo);
 [[nodiscard]] Command sanitize_command(CLI::App& gobo);
