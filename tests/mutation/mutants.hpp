@@ -18,7 +18,7 @@ struct Mutant {
 
 /// Each arithmetic and comparison operator becomes its opposite, each number half as large again (0 becomes
 /// 1), min() becomes max() and back, one at a time. Comments, preprocessor lines, the numbers of bindings and
-/// locations, and #version-like text outside of code are left alone.
+/// locations are left alone.
 [[nodiscard]] std::vector<Mutant> mutants_of(const std::string& piece, std::string_view text);
 
 }  // namespace gobo
