@@ -1,0 +1,251 @@
+#include "lit_cases.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace gobo {
+namespace {
+
+const Inputs kNoLight = {{"DirectionalLights.lights[].color", {0, 0, 0}},
+                         {"PointLights.lights[].color", {0, 0, 0}},
+                         {"SpotLights.lights[].color", {0, 0, 0}}};
+const Inputs kNoHighlight = {{"Material.strength", {0}}};
+/// All around, and as bright everywhere.
+const Inputs kWideCone = {{"SpotLights.lights[].innerVersine", {2}},
+                          {"SpotLights.lights[].outerVersine", {2}},
+                          {"SpotLights.lights[].exponent", {0}}};
+const Inputs kOnlyLights = {{"Material.emission", {0, 0, 0}}, {"Ambient.color", {0, 0, 0}}};
+constexpr std::array<double, 4> kFogColor = {0.5, 0.25, 0.75, 1};
+
+// Directions that are unit to 2e-7 (the shiniest ordinary material here has 8, a cosine's error counts
+// shininess times, and a handful of roundings follows).
+constexpr double kByDirection = 1e-5;
+
+Inputs cone(double versine) {
+    return {{"SpotLights.lights[].innerVersine", {versine}}, {"SpotLights.lights[].outerVersine", {versine}}};
+}
+
+/// A point on the plane z = -5 at an angle (radians) from the axis of the spot light.
+Inputs off_axis(double angle) {
+    return {{"position", {5 * std::tan(angle), 0, -5}}};
+}
+
+Inputs light_at(double x, double y, double z) {
+    return {{"PointLights.lights[].position", {x, y, z, 1}}, {"SpotLights.lights[].position", {x, y, z, 1}}};
+}
+
+Inputs light_from(double x, double y, double z) {
+    return {{"DirectionalLights.lights[].direction", {x, y, z}}};
+}
+
+Inputs fog_from_to(double near, double far) {
+    return {{"Fog.near", {near}}, {"Fog.far", {far}}};
+}
+
+/// Light at a cosine k / 4 to the normal, moved by so many roundings.
+Inputs band_edge(int k, int ulps) {
+    const double cosine = k / 4.0 + ulps * 0x1p-24;
+    return with(kOnlyLights, light_from(std::sqrt(1 - cosine * cosine), 0, cosine));
+}
+
+/// Beside the highlight's peak, by an angle that it still reaches.
+std::vector<Inputs> sharp_highlights() {
+    std::vector<Inputs> points;
+    for (const double shininess : {1e4, 1e5, 1e6})
+        for (const double widths : {0.0, 0.5, 1.0, 2.0}) {
+            const double angle = widths / std::sqrt(shininess);
+            points.push_back(with(with(kOnlyLights, light_from(std::sin(angle), 0, std::cos(angle))),
+                                  {{"Material.shininess", {shininess}}, {"Material.diffuse", {0, 0, 0}}}));
+        }
+    return points;
+}
+
+/// Offsets to either side and far too large, on surfaces at either end of the range and within.
+std::vector<Inputs> depths() {
+    std::vector<Inputs> points;
+    for (const double offset :
+         {-1.5, -0.5, -1e-9, 0.0, 1e-9, 0.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
+        for (const double own : {0.0, 1e-7, 0.5, 0.9999999, 1.0})
+            points.push_back({{"DepthOffset.offset", {offset}}, {"gl_FragCoord", {0.5, 0.5, own, 1}}});
+    return points;
+}
+
+const double kTiny = 1e-4;  // radians
+const double kTinyVersine = 2 * std::sin(kTiny / 2) * std::sin(kTiny / 2);
+
+const std::vector<Case> kCases = {
+    {"H_N1_zero_normal", "directional + point + spot > 0", {{{"normal", {0, 0, 0}}}}, same_as(kNoLight)},
+    {"H_N1_normals_cancel",
+     "directional + point + spot > 0 && shading == fragment",
+     {{{"eyeNormal", {0, 0, 0}}}},
+     same_as(kNoLight)},
+    {"H_N1_viewer_at_the_surface", "", {{{"position", {0, 0, 0}}}}, near_double(kByDirection)},
+    {"H_N2_short_normal",
+     "directional + point + spot > 0",
+     {{{"normal", {1e-20, 2e-20, 2e-20}}}, {{"normal", {1e-30, 2e-30, 2e-30}}}},
+     same_as({{"normal", {1, 2, 2}}}, kByDirection)},
+    {"H_N2_light_very_near",
+     "point + spot > 0",
+     {with({{"position", {0, 0, 0}}}, light_at(1e-20, 0, 2e-20)),
+      with({{"position", {0, 0, 0}}}, light_at(1e-30, 0, 2e-30))},
+     same_as(light_at(1, 0, 2), kByDirection)},
+    {"H_N3_long_normal",
+     "directional + point + spot > 0",
+     {{{"normal", {1e20, 2e20, 2e20}}}, {{"normal", {1e30, 2e30, 2e30}}}},
+     same_as({{"normal", {1, 2, 2}}}, kByDirection)},
+    {"H_N3_light_very_far",
+     "point + spot > 0",
+     {with({{"position", {0, 0, 0}}}, light_at(1e20, 0, 2e20))},
+     same_as(light_at(1, 0, 2), kByDirection)},
+    {"H_N4_light_behind_the_viewers_ray",
+     "directional > 0 && specular != none",
+     {with({{"normal", {0, 0, -1}}}, light_from(0, 0, -1))},
+     same_as(kNoHighlight)},
+    {"H_S1_shininess_zero",
+     "directional > 0 && specular != none && fog == none",
+     {with({{"Material.shininess", {0}}, {"Material.diffuse", {0, 0, 0}}}, light_from(0, 0, 1)),
+      with({{"Material.shininess", {0}}, {"Material.diffuse", {0, 0, 0}}}, light_from(1, 0, 1e-8)),
+      with({{"Material.shininess", {0}}, {"Material.diffuse", {0, 0, 0}}, {"position", {-9, 0, 9}}},
+           light_from(0.8, 0, 0.6))},
+     // x^0 is 1 for every x: a quarter of ambient light and emission, and the whole highlight
+     is_color({1.25, 1.25, 1.25, 1})},
+    {"H_S2_negative_base",
+     "directional > 0 && specular != none",
+     {with({{"position", {-9, 0, 9}}}, light_from(0.8, 0, 0.6)),
+      with({{"position", {-9, 0, 9}}, {"Material.shininess", {0.5}}}, light_from(0.8, 0, 0.6))},
+     same_as(kNoHighlight)},
+    {"H_S3_sharp_highlights", "directional > 0 && specular != none && fog == none", sharp_highlights(),
+     is_sharp_to_rounding},
+    {"H_S4_light_from_behind",
+     "directional > 0",
+     {light_from(0, 0, -1), light_from(1, 0, 0), light_from(0, 0, 0)},
+     same_as(kNoLight)},
+    {"H_L1_light_at_the_surface", "point + spot > 0", {light_at(0, 0, -5)}, same_as(kNoLight)},
+    {"H_L2_no_attenuation",
+     "point + spot > 0",
+     {{{"PointLights.lights[].attenuation", {0, 0, 0}}, {"SpotLights.lights[].attenuation", {0, 0, 0}}}},
+     near_double(kByDirection)},
+    {"H_L3_beyond_all_bounds",
+     "directional + point + spot > 0",
+     {{{"DirectionalLights.lights[].color", {1e30, 1e30, 1e30}},
+       {"PointLights.lights[].color", {1e30, 1e30, 1e30}},
+       {"SpotLights.lights[].color", {1e30, 1e30, 1e30}}},
+      {{"Material.shininess", {1e6}}, {"SpotLights.lights[].exponent", {1e6}}},
+      with(light_at(0, 0, 1e19), {{"PointLights.lights[].attenuation", {0, 0, 1e3}},
+                                  {"SpotLights.lights[].attenuation", {0, 0, 1e3}}})},
+     robust()},
+    {"H_P1_hard_edge_inside", "spot > 0", {with(cone(0.25), off_axis(0.5))}, same_as(kWideCone)},
+    {"H_P1_hard_edge_outside", "spot > 0", {with(cone(0.25), off_axis(0.8))}, same_as(kNoLight)},
+    {"H_P1_on_the_hard_edge", "spot > 0", {with(cone(0.25), off_axis(std::acos(0.75)))}, robust()},
+    {"H_P2_cone_of_0_degrees", "spot > 0", {cone(0)}, same_as(kNoLight)},
+    {"H_P2_cone_of_90_degrees_before", "spot > 0", {with(cone(1), off_axis(1.5))}, same_as(kWideCone)},
+    {"H_P2_cone_of_90_degrees_behind",
+     "spot > 0",
+     {with(cone(1), {{"position", {0, 0, 5}}, {"normal", {0, 0, -1}}})},
+     same_as(kNoLight)},
+    {"H_P2_cone_of_180_degrees",
+     "spot > 0",
+     {with(cone(2), {{"position", {0, 0, 5}}, {"normal", {0, 0, -1}}})},
+     same_as({{"SpotLights.lights[].axis", {0, 0, 1}}})},
+    {"H_P3_negative_cosine_in_a_wide_cone",
+     "spot > 0",
+     {with(cone(2), {{"position", {0, 0, 5}}, {"normal", {0, 0, -1}}, {"SpotLights.lights[].exponent", {5}}}),
+      with(cone(2),
+           {{"position", {5, 0, 1}}, {"normal", {-1, 0, 0}}, {"SpotLights.lights[].exponent", {0.5}}})},
+     same_as(kNoLight)},
+    // 0.3 % of the angle to either side of the edge
+    {"H_P4_tiny_cone_inside",
+     "spot > 0",
+     {with(cone(kTinyVersine), off_axis(kTiny * 0.997))},
+     same_as(kWideCone)},
+    {"H_P4_tiny_cone_outside",
+     "spot > 0",
+     {with(cone(kTinyVersine), off_axis(kTiny * 1.003))},
+     same_as(kNoLight)},
+    {"H_F1_step_beyond", "fog == linear", {fog_from_to(6, 6)}, same_as(fog_from_to(5e5, 1e6))},
+    {"H_F1_step_before", "fog == linear", {fog_from_to(4, 4), fog_from_to(5, 5)}, is_color(kFogColor)},
+    {"H_F2_very_far",
+     "fog != none",
+     {{{"position", {0, 0, -1e20}}, {"Fog.density", {1}}},
+      {{"position", {1e19, 1e20, -1e20}}, {"Fog.density", {1}}}},
+     is_color(kFogColor)},
+    {"H_F3_infinite_radiance_in_the_fog",
+     "fog != none && shading == vertex",
+     {{{"position", {0, 0, -1e6}},
+       {"litRadiance", std::vector<double>(3, std::numeric_limits<double>::infinity())}}},
+     is_color(kFogColor)},
+    {"H_T1_cosine_of_one",
+     "directional > 0 && diffuse == toon && fog == none",
+     {with(kOnlyLights, light_from(0, 0, 1)), with(kOnlyLights, light_from(0, 0, 1.0000001))},
+     is_color({0.75, 0.75, 0.75, 1})},
+    {"H_T2_beside_a_band_edge",
+     "directional > 0 && diffuse == toon && fog == none",
+     {band_edge(1, -1), band_edge(1, 0), band_edge(1, 1), band_edge(2, -1), band_edge(2, 0), band_edge(2, 1),
+      band_edge(3, -1), band_edge(3, 0), band_edge(3, 1), band_edge(4, -1)},
+     is_neighbouring_band},
+    {"H_G1_nothing_left",
+     "",
+     {{{"Transform.modelView", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
+       {"Transform.normalMatrix", {0, 0, 0, 0, 0, 0, 0, 0, 0}}}},
+     same_as(with(kNoLight, {{"position", {0, 0, 0}}}))},
+    {"H_G1_flattened",
+     "",
+     {{{"position", {1, 2, 3}},
+       {"Transform.modelView", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
+       {"Transform.normalMatrix", {0, 0, 0, 0, 0, 0, 0, 0, 1}}}},
+     near_double(kByDirection)},
+    {"H_I1_interpolated_below_zero",
+     "directional + point + spot > 0 && shading == vertex",
+     {{{"litRadiance", {-1e-7, -1e-7, -1e-7}}}},
+     same_as({{"litRadiance", {0, 0, 0}}})},
+    {"H_I1_normal_longer_than_one",
+     "directional + point + spot > 0 && shading == fragment",
+     {{{"eyeNormal", {0, 0, 1.000001}}}},
+     same_as({{"eyeNormal", {0, 0, 1}}})},
+    {"H_D1_H_D2_depth_offsets",
+     "depth != default && depth != early",
+     depths(),
+     keeps_depth_promise,
+     {"depth"}},
+};
+
+std::string mode_name(Mode mode) {
+    return mode == Mode::flushed ? "denormals flushed" : "fp32";
+}
+
+/// What every case demands.
+std::vector<std::string> general_faults(const Shaded& shaded) {
+    std::vector<std::string> faults = shaded.traps;
+    for (const double channel : shaded.color)
+        if (!(channel >= 0 && channel <= std::numeric_limits<float>::max()))
+            faults.push_back(fmt::format("a channel is {}", channel));
+    return faults;
+}
+
+}  // namespace
+
+const std::vector<Case>& lit_cases() {
+    return kCases;
+}
+
+std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
+    const LitUnderTest lit(tested.where, tested.features, overlay);
+    if (lit.size() == 0) return {"no key is concerned"};
+    std::vector<std::string> faults;
+    for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
+        for (const Inputs& point : tested.points)
+            for (const Mode mode : {Mode::fp32, Mode::flushed}) {
+                const Shaded shaded = lit.shade(permutation, point, mode);
+                std::vector<std::string> found = general_faults(shaded);
+                const std::string failed = tested.check({lit, permutation, point, mode, shaded});
+                if (!failed.empty()) found.push_back(failed);
+                for (const std::string& fault : found)
+                    faults.push_back(fmt::format("{}, {}: {}", lit.key(permutation), mode_name(mode), fault));
+                if (faults.size() >= most) return faults;
+            }
+    return faults;
+}
+
+}  // namespace gobo

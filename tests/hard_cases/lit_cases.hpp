@@ -1,0 +1,33 @@
+// The hard cases of `lit` as a table: which keys they concern, the inputs, and what is demanded there.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "lit_checks.hpp"
+
+namespace gobo {
+
+struct Case {
+    std::string name;   ///< the case's id, and what is tried of it
+    std::string where;  ///< the keys it concerns
+    std::vector<Inputs> points;
+    Check check;
+    std::vector<std::string> features = {"directional", "point", "spot",         "diffuse",
+                                         "specular",    "fog",   "fog_distance", "shading"};
+};
+
+/// For messages of tests.
+inline void PrintTo(const Case& tested, std::ostream* out) {
+    *out << tested.name;
+}
+
+[[nodiscard]] const std::vector<Case>& lit_cases();
+
+/// What is wrong with the permutations that the case concerns, at each of its points, with denormal numbers
+/// and without; at most `most` faults. `overlay` replaces pieces by include path.
+[[nodiscard]] std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay = {},
+                                                 std::size_t most = 8);
+
+}  // namespace gobo

@@ -1,0 +1,80 @@
+#include "lit_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gobo {
+namespace {
+
+std::string differs(const Shaded& ours, const std::array<double, 4>& wanted, double tolerance) {
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!(std::abs(ours.color[i] - wanted[i]) <= tolerance * std::abs(wanted[i])))
+            return fmt::format("channel {} is {}, should be {} within {:g} of it", i, ours.color[i],
+                               wanted[i], tolerance);
+    return {};
+}
+
+}  // namespace
+
+Inputs with(Inputs inputs, const Inputs& changes) {
+    for (const auto& [name, numbers] : changes) inputs[name] = numbers;
+    return inputs;
+}
+
+Check robust() {
+    return [](const Trial&) { return std::string(); };
+}
+
+Check same_as(const Inputs& changes, double tolerance) {
+    return [=](const Trial& trial) {
+        const Shaded other = trial.lit.shade(trial.permutation, with(trial.inputs, changes), trial.mode);
+        return differs(trial.shaded, other.color, tolerance);
+    };
+}
+
+Check is_color(const std::array<double, 4>& color) {
+    return [=](const Trial& trial) { return differs(trial.shaded, color, 0); };
+}
+
+Check near_double(double tolerance) {
+    return [=](const Trial& trial) {
+        const Shaded exact = trial.lit.shade(trial.permutation, trial.inputs, Mode::fp64);
+        return differs(trial.shaded, exact.color, tolerance);
+    };
+}
+
+std::string is_neighbouring_band(const Trial& trial) {
+    const double cosine = trial.inputs.at("DirectionalLights.lights[].direction")[2];
+    const double upper = std::round(cosine * 4) / 4;
+    const double tone = trial.shaded.color[0];
+    if (tone == std::min(upper, 0.75) || tone == upper - 0.25) return {};
+    return fmt::format("the tone {} is none of the two bands at a cosine of {}", tone, cosine);
+}
+
+/// What rounding the directions alone costs: 2 sqrt(m) 2^-24 / |s + v| of a white highlight, |s + v| being 2
+/// here. The angle to a mirrored ray is twice that to a half vector, so Phong's m counts four times.
+std::string is_sharp_to_rounding(const Trial& trial) {
+    const double exact = trial.lit.shade(trial.permutation, trial.inputs, Mode::fp64).color[0];
+    const double shininess = trial.inputs.at("Material.shininess")[0];
+    const bool is_phong = trial.lit.key(trial.permutation).find("specular=phong") != std::string::npos;
+    const double limit = std::sqrt(shininess * (is_phong ? 4 : 1)) * 0x1p-24;
+    const double error = std::abs(trial.shaded.color[0] - exact);
+    if (error <= limit + 0x1p-24) return {};  // and half a rounding of the result
+    return fmt::format("the highlight is {}, off by {:.2e}, more than {:.2e}", exact, error, limit);
+}
+
+std::string keeps_depth_promise(const Trial& trial) {
+    if (!trial.shaded.depth) return "no depth is written";
+    const double written = *trial.shaded.depth;
+    const double own = static_cast<float>(trial.inputs.at("gl_FragCoord")[2]);
+    const std::string key = trial.lit.key(trial.permutation);
+    const bool is_kept = (key != "depth=greater" || written >= own) &&
+                         (key != "depth=less" || written <= own) &&
+                         (key != "depth=unchanged" || written == own);
+    if (is_kept && written >= 0 && written <= 1) return {};
+    return fmt::format("the depth {} is written over {}", written, own);
+}
+
+}  // namespace gobo

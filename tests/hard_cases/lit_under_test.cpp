@@ -1,0 +1,165 @@
+#include "lit_under_test.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "common/file_system.hpp"
+#include "compose/compose.hpp"
+#include "compose/search_path.hpp"
+#include "family/key.hpp"
+#include "family/read_family.hpp"
+#include "family/selection.hpp"
+#include "sanitize/sanitize.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+const Inputs& ordinary_inputs() {
+    static const Inputs inputs = {
+        {"position", {0, 0, -5}},
+        {"normal", {0, 0, 1}},
+        {"Transform.modelView", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+        {"Transform.projection", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -2, 0}},
+        {"Transform.normalMatrix", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+        {"gl_FragCoord", {0.5, 0.5, 0.5, 1}},
+        {"Material.emission", {0.125, 0.125, 0.125}},
+        {"Material.shininess", {8}},
+        {"Material.ambient", {1, 1, 1}},
+        {"Material.strength", {1}},
+        {"Material.diffuse", {1, 1, 1}},
+        {"Material.specular", {1, 1, 1}},
+        {"Ambient.color", {0.125, 0.125, 0.125}},
+        {"DirectionalLights.lights[].direction", {0, 0, 1}},
+        {"DirectionalLights.lights[].color", {1, 1, 1}},
+        {"PointLights.lights[].position", {0, 0, -1, 1}},
+        {"PointLights.lights[].color", {1, 1, 1}},
+        {"PointLights.lights[].attenuation", {1, 0, 0}},
+        {"SpotLights.lights[].position", {0, 0, 0, 1}},
+        {"SpotLights.lights[].color", {1, 1, 1}},
+        {"SpotLights.lights[].exponent", {0}},
+        {"SpotLights.lights[].attenuation", {1, 0, 0}},
+        {"SpotLights.lights[].innerVersine", {0.25}},
+        {"SpotLights.lights[].outerVersine", {0.5}},
+        {"SpotLights.lights[].axis", {0, 0, -1}},
+        {"Toon.levels", {4}},
+        {"Fog.color", {0.5, 0.25, 0.75}},
+        {"Fog.density", {0.1}},
+        {"Fog.near", {1}},
+        {"Fog.far", {9}},
+        {"DepthOffset.offset", {0.125}},
+    };
+    return inputs;
+}
+
+/// "PointLights.lights[2].color" without the number.
+std::string without_number(std::string name) {
+    const auto open = name.find('[');
+    const auto close = name.find(']');
+    return open == std::string::npos ? name : name.erase(open + 1, close - open - 1);
+}
+
+/// What a float holds of the numbers, so that every mode is given the same.
+std::vector<double> as_floats(std::vector<double> numbers) {
+    for (double& number : numbers) number = static_cast<double>(static_cast<float>(number));
+    return numbers;
+}
+
+/// One invocation of the stage; values of the vertex stage stand between ordinary ones and the case's.
+evaluate::Invocations invocation(const evaluate::Program& program, const Inputs& handed_on,
+                                 const Inputs& inputs) {
+    evaluate::Invocations invocations;
+    for (const auto* ports : {&program.inputs, &program.uniforms})
+        for (const evaluate::Port& port : *ports)
+            for (const Inputs* source : {&ordinary_inputs(), &handed_on, &inputs})
+                if (const auto found = source->find(without_number(port.name)); found != source->end())
+                    invocations.values[port.name] = as_floats(found->second);
+    return invocations;
+}
+
+evaluate::Outputs run(const evaluate::Program& program, const evaluate::Invocations& invocations, Mode mode) {
+    evaluate::Options options;
+    options.flush_denormals = mode == Mode::flushed;
+    const Result<evaluate::Outputs> outputs = mode == Mode::fp64
+                                                  ? evaluate::run<double>(program, invocations, options)
+                                                  : evaluate::run<float>(program, invocations, options);
+    EXPECT_TRUE(outputs);
+    return outputs ? *outputs : evaluate::Outputs{};
+}
+
+std::vector<std::string> traps_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
+                                  Mode mode) {
+    std::vector<std::string> texts;
+    if (mode == Mode::fp64) return texts;
+    const auto found = sanitize::find_traps(program, invocations, mode == Mode::flushed);
+    EXPECT_TRUE(found);
+    for (const sanitize::Finding& finding : *found)
+        texts.push_back(fmt::format("{}:{}: {}", finding.place.file, finding.place.line, to_text(finding)));
+    return texts;
+}
+
+}  // namespace
+
+LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
+                           const Overlay& overlay) {
+    const DiskFileSystem disk;
+    MemoryFileSystem memory;
+    for (const auto& [path, text] : overlay) EXPECT_TRUE(memory.write("overlay/" + path, text));
+    SearchPath search;
+    search.add(memory, "overlay", "", false);
+    search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
+    search.add(disk, GOBO_SOURCE_DIR "/templates", "templates/", false);
+    const std::string path = GOBO_SOURCE_DIR "/templates/lit.toml";
+    const Result<Family> family = read_family(*disk.read(path), path);
+    EXPECT_TRUE(family);
+    if (!family) return;
+    family_ = *family;
+    Selection selection;
+    selection.all = true;
+    selection.over = over;
+    selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
+    const auto keys = select(family_, selection, "450");
+    EXPECT_TRUE(keys) << where;
+    if (!keys) return;
+    const Result<Composition> composition = compose(family_, *keys, search, Dialect::own);
+    EXPECT_TRUE(composition);
+    if (!composition) return;
+    composition_ = *composition;
+    ValidateOptions options;
+    options.keep_spirv = true;
+    options.debug_information = true;
+    const Validated validated = validate(family_, composition_, options);
+    EXPECT_EQ(exit_status(validated.diagnostics), 0);
+    for (const ValidatedStage& stage : validated.stages) {
+        Result<evaluate::Program> program = evaluate::decode(stage.spirv);
+        EXPECT_TRUE(program);
+        programs_.push_back(program ? std::move(*program) : evaluate::Program{});
+    }
+}
+
+std::string LitUnderTest::key(std::size_t permutation) const {
+    return key_text(family_, composition_.permutations[permutation].key);
+}
+
+Shaded LitUnderTest::shade(std::size_t permutation, const Inputs& inputs, Mode mode) const {
+    const Permutation& stages = composition_.permutations[permutation];
+    const evaluate::Program& vertex = programs_[static_cast<std::size_t>(stages.vertex)];
+    const evaluate::Program& fragment = programs_[static_cast<std::size_t>(stages.fragment)];
+    const evaluate::Invocations first = invocation(vertex, {}, inputs);
+    const evaluate::Outputs handed_on = run(vertex, first, mode);
+    const evaluate::Invocations second =
+        invocation(fragment, Inputs(handed_on.values.begin(), handed_on.values.end()), inputs);
+    const evaluate::Outputs outputs = run(fragment, second, mode);
+    Shaded shaded;
+    shaded.traps = traps_of(vertex, first, mode);
+    const std::vector<std::string> more = traps_of(fragment, second, mode);
+    shaded.traps.insert(shaded.traps.end(), more.begin(), more.end());
+    const auto color = outputs.values.find("fragmentColor");
+    EXPECT_NE(color, outputs.values.end());
+    for (std::size_t i = 0; i < 4 && color != outputs.values.end(); ++i) shaded.color[i] = color->second[i];
+    if (const auto depth = outputs.values.find("gl_FragDepth"); depth != outputs.values.end())
+        shaded.depth = depth->second.front();
+    return shaded;
+}
+
+}  // namespace gobo

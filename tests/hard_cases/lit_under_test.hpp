@@ -1,0 +1,51 @@
+// Permutations of `lit`, shaded at one point of a surface: vertex stage, then fragment stage, watched.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "evaluate/evaluate.hpp"
+#include "family/family.hpp"
+
+namespace gobo {
+
+/// Numbers by reflected name; "PointLights.lights[].color" is of every light.
+using Inputs = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// Pieces that take the place of the shipped ones, by include path: "fog/linear.glsl".
+using Overlay = std::map<std::string, std::string, std::less<>>;
+
+/// How the stages are evaluated.
+enum class Mode { fp32, flushed, fp64 };
+
+/// What came of a point.
+struct Shaded {
+    std::array<double, 4> color{};
+    std::optional<double> depth;  ///< where the permutation writes one
+    std::vector<std::string> traps;
+};
+
+/// The stages of the keys that a condition selects, ready to run.
+class LitUnderTest {
+  public:
+    /// All valid keys for which `where` holds and that have at most one light, ranging over `over`; failing
+    /// any step fails the test.
+    LitUnderTest(const std::string& where, const std::vector<std::string>& over, const Overlay& overlay);
+
+    [[nodiscard]] std::size_t size() const { return composition_.permutations.size(); }
+    [[nodiscard]] std::string key(std::size_t permutation) const;
+    /// A white surface at (0, 0, -5) that faces the viewer, lights in front of it; `inputs` overrule that.
+    /// The fragment stage is given what the vertex stage hands on, unless `inputs` name it.
+    [[nodiscard]] Shaded shade(std::size_t permutation, const Inputs& inputs, Mode mode) const;
+
+  private:
+    Family family_;
+    Composition composition_;
+    std::vector<evaluate::Program> programs_;  ///< of each stage of the composition
+};
+
+}  // namespace gobo
