@@ -1,7 +1,11 @@
 // That verification passes what is right, finds what is wrong, and says so in a way one can work with.
 #include <gtest/gtest.h>
 
+#include "evaluate/evaluate.hpp"
 #include "lit_library.hpp"
+#include "validate/validate.hpp"
+#include "verify/ask_oracle.hpp"
+#include "verify/feed.hpp"
 #include "verify/random.hpp"
 #include "verify/sample.hpp"
 
@@ -98,6 +102,30 @@ TEST(Verify, WritesAFailingPointAsAnInputOfEval) {
               "stage = \"fragment\"\n"
               "\n[inputs]\n\"eyeNormal\" = [0, 0, 0.1]\n"
               "\n[uniforms]\n\"Fog.near\" = 2\n");
+}
+
+TEST(Verify, AsksTheOracleAboutAnyInvocation) {
+    Family family = lit_family();
+    const auto keys = keys_of(family, {"depth=any directional=2 fog=linear point=1 specular=phong spot=2"});
+    const Composition composition = compose_lit(family, keys, {}).value();
+    ValidateOptions options;
+    options.keep_spirv = true;
+    const Validated validated = validate(family, composition, options);
+    const auto fragment = static_cast<std::size_t>(composition.permutations[0].fragment);
+    const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
+    const oracle::Model model = oracle::model_of(family, keys[0]).value();
+    const auto samples = verify::make_samples(model, StageKind::fragment, 1, 3);
+    const auto invocation = verify::feed(program, samples).value();
+    const auto outputs = evaluate::run<double>(program, invocation).value();
+    const auto answers = verify::ask_oracle(family, keys[0], StageKind::fragment, program, invocation);
+    ASSERT_TRUE(answers.has_value());
+    ASSERT_EQ(answers->size(), 2U) << "fragmentColor and gl_FragDepth";
+    for (const verify::Answer& answer : *answers)
+        for (std::size_t c = 0; c < answer.value.size(); ++c)
+            EXPECT_NEAR(outputs.values.at(answer.output)[c], answer.value[c], 1e-8)  // ten times 1e-9
+                << answer.output;
+    family.name = "mine";
+    EXPECT_FALSE(verify::ask_oracle(family, keys[0], StageKind::fragment, program, invocation));
 }
 
 TEST(Verify, KeepsTheWorstPoints) {

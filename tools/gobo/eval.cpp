@@ -9,6 +9,7 @@
 #include "gobo/commands.hpp"
 #include "gobo/subject.hpp"
 #include "validate/validate.hpp"
+#include "verify/ask_oracle.hpp"
 
 namespace gobo {
 namespace {
@@ -47,6 +48,24 @@ evaluate::SourceLine quote_pieces(const Composition& composition) {
     };
 }
 
+/// What the lighting models say of this point, where the family is ours and reads nothing new.
+std::optional<std::vector<verify::Answer>> answers_of(const Subject& subject, const std::string& stage,
+                                                      const evaluate::Program& program,
+                                                      const evaluate::Invocations& invocation) {
+    if (subject.are_files) return std::nullopt;
+    return verify::ask_oracle(subject.family, subject.composition.permutations.front().key,
+                              stage == "vertex" ? StageKind::vertex : StageKind::fragment, program,
+                              invocation);
+}
+
+/// {"oracle": [{"output", "exact", "fp32_bound"}]} beside what the report says.
+nlohmann::ordered_json with_answers(nlohmann::ordered_json json, const std::vector<verify::Answer>& answers) {
+    for (const verify::Answer& answer : answers)
+        json["oracle"].push_back(
+            {{"output", answer.output}, {"exact", answer.value}, {"fp32_bound", answer.float_error}});
+    return json;
+}
+
 Outcome run(const EvalOptions& options, const World& world) {
     const Result<Subject> subject = load_subject(world, options.names, options.common, options.dialect);
     if (!subject) return failed(subject.error());
@@ -61,8 +80,11 @@ Outcome run(const EvalOptions& options, const World& world) {
     const Result<evaluate::EvalReport> report =
         evaluate::evaluate_once(*program, *invocations, options.trace);
     if (!report) return failed(report.error());
-    return {options.json ? evaluate::to_json(*report).dump(2) + "\n"
-                         : evaluate::to_text(*report, quote_pieces(subject->composition)),
+    const std::vector<verify::Answer> answers =
+        answers_of(*subject, inputs->stage, *program, *invocations).value_or(std::vector<verify::Answer>{});
+    return {options.json
+                ? with_answers(evaluate::to_json(*report), answers).dump(2) + "\n"
+                : evaluate::to_text(*report, quote_pieces(subject->composition)) + verify::to_text(answers),
             evaluate::inputs_left_out(*inputs, *program),
             {}};
 }

@@ -1,8 +1,10 @@
 #include "verify/feed.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -13,78 +15,66 @@ namespace {
 std::vector<double> numbers(double value) {
     return {value};
 }
+std::vector<double> numbers(int value) {
+    return {static_cast<double>(value)};
+}
 std::vector<double> numbers(const glm::dvec3& value) {
     return {value.x, value.y, value.z};
 }
-std::vector<double> numbers(const glm::dmat3& value) {
-    return {glm::value_ptr(value), glm::value_ptr(value) + 9};
-}
-std::vector<double> numbers(const glm::dmat4& value) {
-    return {glm::value_ptr(value), glm::value_ptr(value) + 16};
-}
-/// A point as the shaders take it: its w is 1.
-std::vector<double> point_numbers(const glm::dvec3& value) {
-    return {value.x, value.y, value.z, 1};
+template <class Matrix>
+std::vector<double> numbers(const Matrix& value) {
+    const auto* first = glm::value_ptr(value);
+    return {first, first + Matrix::length() * Matrix::col_type::length()};
 }
 
-using Getters = std::map<std::string, Getter, std::less<>>;
+template <class Number>
+void assign(Number& target, const std::vector<double>& values) requires std::is_arithmetic_v<Number> {
+    target = static_cast<Number>(values.at(0));
+}
+template <class Vector>
+void assign(Vector& target, const std::vector<double>& values) {
+    auto* first = glm::value_ptr(target);
+    std::copy_n(values.begin(), std::min(values.size(), numbers(target).size()), first);
+}
 
-Getters plain_getters() {
+/// The field that `access` gives a reference to.
+template <class Access>
+Field field(Access access) {
+    return {[access](const Sample& sample) { return numbers(access(sample)); },
+            [access](Sample& sample, const std::vector<double>& values) { assign(access(sample), values); }};
+}
+
+using Fields = std::map<std::string, Field, std::less<>>;
+
+Fields plain_fields() {
     return {
-        {"position", [](const Sample& s) { return numbers(s.object_position); }},
-        {"normal", [](const Sample& s) { return numbers(s.object_normal); }},
-        {"Transform.modelView", [](const Sample& s) { return numbers(s.model_view); }},
-        {"Transform.projection", [](const Sample& s) { return numbers(s.projection); }},
-        {"Transform.normalMatrix", [](const Sample& s) { return numbers(s.normal_matrix); }},
-        {"eyePosition", [](const Sample& s) { return numbers(s.surface.position); }},
-        {"eyeNormal", [](const Sample& s) { return numbers(s.surface.normal); }},
-        {"litRadiance", [](const Sample& s) { return numbers(s.lit_radiance); }},
+        {"position", field([](auto& s) -> auto& { return s.object_position; })},
+        {"normal", field([](auto& s) -> auto& { return s.object_normal; })},
+        {"Transform.modelView", field([](auto& s) -> auto& { return s.model_view; })},
+        {"Transform.projection", field([](auto& s) -> auto& { return s.projection; })},
+        {"Transform.normalMatrix", field([](auto& s) -> auto& { return s.normal_matrix; })},
+        {"eyePosition", field([](auto& s) -> auto& { return s.surface.position; })},
+        {"eyeNormal", field([](auto& s) -> auto& { return s.surface.normal; })},
+        {"litRadiance", field([](auto& s) -> auto& { return s.lit_radiance; })},
         {"gl_FragCoord",
-         [](const Sample& s) {
-             return std::vector<double>{0.5, 0.5, s.depth, 1};
-         }},
-        {"Material.emission", [](const Sample& s) { return numbers(s.scene.material.emission); }},
-        {"Material.ambient", [](const Sample& s) { return numbers(s.scene.material.ambient); }},
-        {"Material.diffuse", [](const Sample& s) { return numbers(s.scene.material.diffuse); }},
-        {"Material.specular", [](const Sample& s) { return numbers(s.scene.material.specular); }},
-        {"Material.shininess", [](const Sample& s) { return numbers(s.scene.material.shininess); }},
-        {"Material.strength", [](const Sample& s) { return numbers(s.scene.material.strength); }},
-        {"Ambient.color", [](const Sample& s) { return numbers(s.scene.ambient); }},
-        {"Toon.levels", [](const Sample& s) { return numbers(s.scene.toon_levels); }},
-        {"Fog.color", [](const Sample& s) { return numbers(s.scene.fog.color); }},
-        {"Fog.density", [](const Sample& s) { return numbers(s.scene.fog.density); }},
-        {"Fog.near", [](const Sample& s) { return numbers(s.scene.fog.near); }},
-        {"Fog.far", [](const Sample& s) { return numbers(s.scene.fog.far); }},
-        {"DepthOffset.offset", [](const Sample& s) { return numbers(s.scene.depth_offset); }},
+         {[](const Sample& s) {
+              return std::vector<double>{0.5, 0.5, s.depth, 1};
+          },
+          [](Sample& s, const std::vector<double>& values) { s.depth = values.at(2); }}},
+        {"Material.emission", field([](auto& s) -> auto& { return s.scene.material.emission; })},
+        {"Material.ambient", field([](auto& s) -> auto& { return s.scene.material.ambient; })},
+        {"Material.diffuse", field([](auto& s) -> auto& { return s.scene.material.diffuse; })},
+        {"Material.specular", field([](auto& s) -> auto& { return s.scene.material.specular; })},
+        {"Material.shininess", field([](auto& s) -> auto& { return s.scene.material.shininess; })},
+        {"Material.strength", field([](auto& s) -> auto& { return s.scene.material.strength; })},
+        {"Ambient.color", field([](auto& s) -> auto& { return s.scene.ambient; })},
+        {"Toon.levels", field([](auto& s) -> auto& { return s.scene.toon_levels; })},
+        {"Fog.color", field([](auto& s) -> auto& { return s.scene.fog.color; })},
+        {"Fog.density", field([](auto& s) -> auto& { return s.scene.fog.density; })},
+        {"Fog.near", field([](auto& s) -> auto& { return s.scene.fog.near; })},
+        {"Fog.far", field([](auto& s) -> auto& { return s.scene.fog.far; })},
+        {"DepthOffset.offset", field([](auto& s) -> auto& { return s.scene.depth_offset; })},
     };
-}
-
-template <class Light>
-using LightGetter = std::vector<double> (*)(const Light&);
-template <class Light>
-using LightGetters = std::map<std::string, LightGetter<Light>, std::less<>>;
-
-LightGetters<oracle::DirectionalLight> directional_getters() {
-    using Light = oracle::DirectionalLight;
-    return {{"direction", [](const Light& light) { return numbers(light.direction); }},
-            {"color", [](const Light& light) { return numbers(light.color); }}};
-}
-
-template <class Light>
-LightGetters<Light> point_getters() {
-    return {{"position", [](const Light& light) { return point_numbers(light.position); }},
-            {"color", [](const Light& light) { return numbers(light.color); }},
-            {"attenuation", [](const Light& light) { return numbers(light.attenuation); }}};
-}
-
-LightGetters<oracle::SpotLight> spot_getters() {
-    using Light = oracle::SpotLight;
-    LightGetters<Light> getters = point_getters<Light>();
-    getters["axis"] = [](const Light& light) { return numbers(light.axis); };
-    getters["exponent"] = [](const Light& light) { return numbers(light.exponent); };
-    getters["innerVersine"] = [](const Light& light) { return numbers(light.inner_versine); };
-    getters["outerVersine"] = [](const Light& light) { return numbers(light.outer_versine); };
-    return getters;
 }
 
 /// "PointLights.lights[2].color" after its block's name: 2 and "color".
@@ -105,30 +95,60 @@ std::optional<LightName> light_name(std::string_view name, std::string_view bloc
     return result;
 }
 
+/// A member of one light. Setting it makes the light, and those before it, where there are fewer.
+template <class Light, class Access>
+Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, Access access) {
+    return {[=](const Sample& sample) { return numbers(access((sample.scene.*lights)[index])); },
+            [=](Sample& sample, const std::vector<double>& values) {
+                std::vector<Light>& all = sample.scene.*lights;
+                if (all.size() <= index) all.resize(index + 1);
+                assign(access(all[index]), values);
+            }};
+}
+
+std::optional<Field> directional_field(const LightName& name) {
+    const auto of = [&](auto access) { return light_field(&oracle::Scene::directional, name.index, access); };
+    if (name.member == "direction") return of([](auto& light) -> auto& { return light.direction; });
+    if (name.member == "color") return of([](auto& light) -> auto& { return light.color; });
+    return std::nullopt;
+}
+
 template <class Light>
-Getter light_getter(std::string_view name, std::string_view block, std::vector<Light> oracle::Scene::*lights,
-                    const LightGetters<Light>& getters) {
-    const auto parsed = light_name(name, block);
-    if (!parsed) return {};
-    const auto found = getters.find(parsed->member);
-    if (found == getters.end()) return {};
-    return [get = found->second, index = parsed->index, lights](const Sample& sample) {
-        return get((sample.scene.*lights)[index]);
+std::optional<Field> point_field(std::vector<Light> oracle::Scene::*lights, const LightName& name) {
+    const auto of = [&](auto access) { return light_field(lights, name.index, access); };
+    if (name.member == "color") return of([](auto& light) -> auto& { return light.color; });
+    if (name.member == "attenuation") return of([](auto& light) -> auto& { return light.attenuation; });
+    if (name.member != "position") return std::nullopt;
+    Field position = of([](auto& light) -> auto& { return light.position; });
+    position.get = [get = position.get](const Sample& sample) {  // a point as the shaders take it: its w is 1
+        std::vector<double> values = get(sample);
+        values.push_back(1);
+        return values;
     };
+    return position;
+}
+
+std::optional<Field> spot_field(const LightName& name) {
+    const auto of = [&](auto access) { return light_field(&oracle::Scene::spot, name.index, access); };
+    if (name.member == "axis") return of([](auto& light) -> auto& { return light.axis; });
+    if (name.member == "exponent") return of([](auto& light) -> auto& { return light.exponent; });
+    if (name.member == "innerVersine") return of([](auto& light) -> auto& { return light.inner_versine; });
+    if (name.member == "outerVersine") return of([](auto& light) -> auto& { return light.outer_versine; });
+    return point_field(&oracle::Scene::spot, name);
 }
 
 Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> samples,
                        evaluate::Invocations& invocations) {
-    const Getter get = getter_of(port.name);
-    if (!get && port.name.starts_with("gl_")) return true;  // gl_InstanceID and the like: 0
-    if (!get) {
+    const std::optional<Field> field = field_of(port.name);
+    if (!field && port.name.starts_with("gl_")) return true;  // gl_InstanceID and the like: 0
+    if (!field) {
         return fail(Fault::input, fmt::format("nothing is known to give '{}'", port.name),
                     "the oracle's samples must learn what it means (tools/verify/feed.cpp)");
     }
     std::vector<double>& values = invocations.values[port.name];
     values.resize(port.components * samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const std::vector<double> value = get(samples[i]);
+        const std::vector<double> value = field->get(samples[i]);
         for (std::size_t c = 0; c < std::min<std::size_t>(port.components, value.size()); ++c)
             values[c * samples.size() + i] = value[c];
     }
@@ -137,15 +157,13 @@ Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> sampl
 
 }  // namespace
 
-Getter getter_of(const std::string& name) {
-    static const Getters plain = plain_getters();
+std::optional<Field> field_of(const std::string& name) {
+    static const Fields plain = plain_fields();
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
-    using oracle::Scene;
-    if (Getter get = light_getter(name, "DirectionalLights", &Scene::directional, directional_getters()))
-        return get;
-    if (Getter get = light_getter(name, "PointLights", &Scene::point, point_getters<oracle::PointLight>()))
-        return get;
-    return light_getter(name, "SpotLights", &Scene::spot, spot_getters());
+    if (const auto light = light_name(name, "DirectionalLights")) return directional_field(*light);
+    if (const auto light = light_name(name, "PointLights")) return point_field(&oracle::Scene::point, *light);
+    if (const auto light = light_name(name, "SpotLights")) return spot_field(*light);
+    return std::nullopt;
 }
 
 Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<const Sample> samples) {
@@ -156,6 +174,20 @@ Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<c
             if (const Result<bool> fed = feed_port(port, samples, invocations); !fed)
                 return tl::unexpected(fed.error());
     return invocations;
+}
+
+std::optional<Sample> sample_of(const evaluate::Program& program, const evaluate::Invocations& invocations) {
+    Sample sample;
+    for (const auto* ports : {&program.inputs, &program.uniforms})
+        for (const evaluate::Port& port : *ports) {
+            const std::optional<Field> field = field_of(port.name);
+            if (!field && !port.name.starts_with("gl_")) return std::nullopt;
+            const auto given = invocations.values.find(port.name);
+            if (!field) continue;
+            field->set(sample, given == invocations.values.end() ? std::vector<double>(port.components)
+                                                                 : given->second);
+        }
+    return sample;
 }
 
 }  // namespace gobo::verify

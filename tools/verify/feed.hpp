@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,14 +13,22 @@
 
 namespace gobo::verify {
 
-/// The value of "PointLights.lights[2].color" in a sample, component by component, matrices column by column.
-using Getter = std::function<std::vector<double>(const Sample&)>;
+/// One number, vector or matrix of a sample, component by component, matrices column by column.
+struct Field {
+    std::function<std::vector<double>(const Sample&)> get;
+    std::function<void(Sample&, const std::vector<double>&)> set;
+};
 
-/// Empty where a sample has nothing of that name.
-[[nodiscard]] Getter getter_of(const std::string& name);
+/// The field of that reflected name: "PointLights.lights[2].color". Nothing where samples have no such field.
+[[nodiscard]] std::optional<Field> field_of(const std::string& name);
 
 /// The samples as invocations of the stage. An error for an input or uniform that samples have no value for.
 [[nodiscard]] Result<evaluate::Invocations> feed(const evaluate::Program& program,
                                                  std::span<const Sample> samples);
+
+/// The sample that one invocation stands for; what is not given is 0. Nothing where the stage reads something
+/// that samples do not have.
+[[nodiscard]] std::optional<Sample> sample_of(const evaluate::Program& program,
+                                              const evaluate::Invocations& invocations);
 
 }  // namespace gobo::verify
