@@ -1,0 +1,24 @@
+// The buffers of a glTF file, wherever they lie: in the container, in the JSON, in files beside it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/file_system.hpp"
+#include "scene/document.hpp"
+
+namespace gobo::scene {
+
+struct Buffers {
+    std::vector<std::string> contents;  ///< one per buffer of the file, of exactly its byteLength
+    std::vector<std::string> files;     ///< those that were read
+};
+
+/// Reads every buffer. Paths are relative to the folder of the document. An unreadable file is Fault::file;
+/// anything else that is wrong becomes an error of the document.
+[[nodiscard]] Buffers read_buffers(const FileSystem& files, Document& document,
+                                   std::optional<std::string_view> binary);
+
+}  // namespace gobo::scene

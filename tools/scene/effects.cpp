@@ -1,0 +1,270 @@
+#include "scene/effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "scene/motion.hpp"
+
+namespace gobo::scene {
+namespace {
+
+/// A draw being judged.
+struct Subject {
+    const Scene& scene;
+    const Draw& draw;
+    const Primitive& primitive;
+    const Material& material;
+    Wishes wishes;
+    bool is_lit = false;  ///< some light is in
+};
+
+std::string draw_name(const Scene& scene, int node, int primitive) {
+    const Node& here = scene.nodes[static_cast<std::size_t>(node)];
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(*here.mesh)];
+    std::string name = here.name.empty() ? fmt::format("node {}", node) : here.name;
+    if (mesh.primitives.size() > 1) name += fmt::format(", primitive {}", primitive);
+    return name;
+}
+
+std::string why_excluded(const Primitive& primitive) {
+    if (primitive.topology == Topology::points) return "its primitives are points";
+    if (primitive.topology == Topology::lines) return "its primitives are lines";
+    return primitive.indices.empty() ? "it has no triangles" : "";
+}
+
+/// The surface's normals in world space, where they never change and one side only is seen.
+std::vector<glm::dvec3> fixed_normals(const Scene& scene, int node, const Primitive& primitive,
+                                      const Material& material) {
+    const Node& here = scene.nodes[static_cast<std::size_t>(node)];
+    const glm::dmat3 linear(here.world);
+    if (material.double_sided || here.skin || !primitive.target_positions.empty() || is_moving(scene, node) ||
+        glm::determinant(linear) == 0)
+        return {};
+    const glm::dmat3 to_world = glm::transpose(glm::inverse(linear));
+    std::vector<glm::dvec3> normals;
+    normals.reserve(primitive.normals.size());
+    for (const glm::vec3& normal : primitive.normals) {
+        const glm::dvec3 turned = to_world * glm::dvec3(normal);
+        const double length = glm::length(turned);
+        normals.push_back(length > 0 ? turned / length : glm::dvec3(0));
+    }
+    return normals;
+}
+
+bool scatters_or_reflects(const Material& material) {
+    return material.diffuse != glm::dvec3(0) || material.specular != glm::dvec3(0);
+}
+
+std::vector<Effect> judge_lights(const Subject& subject, const std::vector<PlacedLight>& lights,
+                                 const Thresholds& thresholds) {
+    std::vector<Effect> effects;
+    const Receiver receiver{subject.draw.bounds, fixed_normals(subject.scene, subject.draw.node,
+                                                               subject.primitive, subject.material)};
+    for (const PlacedLight& light : lights) {
+        Verdict verdict{false, "its material gives back no light"};
+        if (scatters_or_reflects(subject.material)) verdict = light_reach(light, receiver, thresholds.light);
+        const std::string feature = light.label.substr(0, light.label.find(' '));
+        effects.push_back({light.label, feature, "", verdict.is_in, std::move(verdict.reason)});
+    }
+    return effects;
+}
+
+Effect judge_toon(const Subject& subject) {
+    Effect effect{"toon", "diffuse", "toon", false, ""};
+    const int levels = subject.wishes.toon_levels.value_or(0);
+    if (levels == 0) {
+        effect.reason = "not asked for";
+    } else if (!subject.is_lit) {
+        effect.reason = "no light is in";
+    } else {
+        effect.is_in = true;
+        effect.reason = fmt::format("{} levels", levels);
+    }
+    return effect;
+}
+
+Effect judge_specular(const Subject& subject, bool is_toon) {
+    const std::string model = subject.wishes.specular.value_or("blinn");
+    Effect effect{"specular", "specular", model, false, ""};
+    const Material& material = subject.material;
+    if (model == "none") {
+        effect.reason = "not asked for";
+    } else if (material.specular == glm::dvec3(0) || material.strength == 0) {
+        effect.reason = "its material has no highlight";
+    } else if (!subject.is_lit) {
+        effect.reason = "no light is in";
+    } else if (is_toon) {
+        effect.reason = "toon shading has no highlights";
+    } else {
+        effect.is_in = true;
+        effect.reason = fmt::format("{}, shininess {:.3g}", model, material.shininess);
+    }
+    return effect;
+}
+
+/// The share of the surface that fog hides at a distance (the pieces of shader_lib/fog).
+double hidden_share(const Fog& fog, double distance) {
+    const double thickness = fog.density * distance;
+    return 1 - std::exp(fog.kind == "exponential" ? -thickness : -thickness * thickness);
+}
+
+Effect judge_fog(const Subject& subject, const EyePlace& eye, double threshold) {
+    const Fog fog = subject.wishes.fog.value_or(Fog{"none", {}, 0, 0, 0});
+    Effect effect{"fog", "fog", fog.kind, true, ""};
+    if (fog.kind == "none") {
+        effect.is_in = false;
+        effect.reason = "none is stated";
+    } else if (!subject.draw.bounds) {
+        effect.reason = "bounds are not known";
+    } else if (!eye) {
+        effect.reason = "no camera tells the distance";
+    } else {
+        const double farthest = greatest_distance(*eye, *subject.draw.bounds);
+        const double share = fog.kind == "linear" ? 0 : hidden_share(fog, farthest);
+        if (fog.kind == "linear") {
+            effect.is_in = farthest > fog.near;
+            effect.reason = fmt::format("bounds end at {:.3g}, it begins at {:.3g}", farthest, fog.near);
+        } else {
+            effect.is_in = share >= threshold;
+            effect.reason = fmt::format("at {:.3g} it hides {:.2g}{}", farthest, share,
+                                        effect.is_in ? "" : fmt::format(", below {:.2g}", threshold));
+        }
+    }
+    return effect;
+}
+
+Effect flag(std::string name, bool is_in, std::string why_in, std::string why_out) {
+    Effect effect{std::move(name), "", "on", is_in, is_in ? std::move(why_in) : std::move(why_out)};
+    effect.feature = effect.name;
+    return effect;
+}
+
+/// A surface may shade itself unless it is flat.
+bool may_shade_itself(const Draw& draw) {
+    if (!draw.bounds) return true;
+    const glm::dvec3 size = draw.bounds->high - draw.bounds->low;
+    return size.x > 0 && size.y > 0 && size.z > 0;
+}
+
+/// Whether a caster may stand between the light and the receiver: it must touch the box around both or, for a
+/// directional light, lie not wholly behind the receiver.
+bool may_stand_between(const PlacedLight& light, const Draw& caster, const Draw& receiver) {
+    if (!caster.bounds || !receiver.bounds) return true;
+    if (light.light->kind != LightKind::directional) {
+        Box between = light.positions;
+        between.add(*receiver.bounds);
+        return least_distance(between, *caster.bounds) == 0;
+    }
+    if (light.turns) return true;
+    const glm::dvec3 toward = -light.direction;
+    double highest = -std::numeric_limits<double>::infinity();
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 8; ++i) {
+        highest = std::max(highest, glm::dot(toward, caster.bounds->corner(i)));
+        lowest = std::min(lowest, glm::dot(toward, receiver.bounds->corner(i)));
+    }
+    return highest > lowest;
+}
+
+Effect judge_shadow(const Subject& subject, const std::vector<PlacedLight>& lights,
+                    const std::vector<Draw>& draws) {
+    if (!subject.wishes.shadow.value_or(true)) return flag("shadow", false, "", "it receives none");
+    bool is_lit_by_caster = false;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (!lights[i].light->casts_shadow || !subject.draw.effects[i].is_in) continue;
+        is_lit_by_caster = true;
+        for (const Draw& caster : draws) {
+            if (!caster.excluded.empty()) continue;
+            const bool is_self = &caster == &subject.draw;
+            if (is_self ? may_shade_itself(caster) : may_stand_between(lights[i], caster, subject.draw))
+                return flag("shadow", true,
+                            fmt::format("'{}' may shade it from {}", caster.name, lights[i].label), "");
+        }
+    }
+    return flag("shadow", false, "",
+                is_lit_by_caster ? "nothing can shade it" : "no light that is in casts any");
+}
+
+void judge_material(const Subject& subject, std::vector<Effect>& effects) {
+    const Material& material = subject.material;
+    effects.push_back(
+        flag("two_sided", material.double_sided, "its material is marked doubleSided", "not marked"));
+    effects.push_back(flag("cutout", material.alpha_mode == AlphaMode::mask,
+                           "its material's alphaMode is MASK", "alphaMode is not MASK"));
+    effects.push_back(flag("vertex_color", subject.primitive.is_colored, "its vertices have colours",
+                           subject.primitive.colors.empty() ? "it has none" : "all are white"));
+    effects.push_back(flag("texture", material.is_textured, "its material has textures", "it has none"));
+    effects.push_back(flag("probe", subject.wishes.probe.value_or(false), "asked for", "not asked for"));
+}
+
+std::vector<Draw> draws_of(const Scene& scene) {
+    std::vector<Draw> draws;
+    for (const int index : scene.order) {
+        const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+        if (!node.mesh) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(*node.mesh)];
+        for (int i = 0; i < static_cast<int>(mesh.primitives.size()); ++i) {
+            const Primitive& primitive = mesh.primitives[static_cast<std::size_t>(i)];
+            Draw draw{index, i, draw_name(scene, index, i), why_excluded(primitive), {}, {}};
+            if (draw.excluded.empty()) draw.bounds = world_bounds(scene, index, primitive);
+            draws.push_back(std::move(draw));
+        }
+    }
+    return draws;
+}
+
+Subject subject_of(const Scene& scene, const Draw& draw) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(draw.node)];
+    const Primitive& primitive = scene.meshes[static_cast<std::size_t>(*node.mesh)]
+                                     .primitives[static_cast<std::size_t>(draw.primitive)];
+    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    Subject subject{scene, draw, primitive, material, material.wishes, false};
+    subject.wishes.fill_from(node.wishes);
+    return subject;
+}
+
+EyePlace eye_where(const Scene& scene, const std::optional<int>& camera) {
+    Box places;
+    for (const int index : scene.order) {
+        const auto& here = scene.nodes[static_cast<std::size_t>(index)].camera;
+        if (here && (!camera || here == camera))
+            places.add(world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)}));
+    }
+    return places.is_empty() ? EyePlace() : places;
+}
+
+}  // namespace
+
+EyePlace eye_of_cameras(const Scene& scene) {
+    return eye_where(scene, std::nullopt);
+}
+
+EyePlace eye_of_camera(const Scene& scene, int camera) {
+    return eye_where(scene, camera);
+}
+
+std::vector<Draw> what_draws_call_for(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds) {
+    std::vector<Draw> draws = draws_of(scene);
+    const std::vector<PlacedLight> lights = place_lights(scene);
+    for (Draw& draw : draws) {
+        if (!draw.excluded.empty()) continue;
+        Subject subject = subject_of(scene, draw);
+        draw.effects = judge_lights(subject, lights, thresholds);
+        subject.is_lit = std::any_of(draw.effects.begin(), draw.effects.end(),
+                                     [](const Effect& light) { return light.is_in; });
+        const Effect toon = judge_toon(subject);
+        const Effect shadow = judge_shadow(subject, lights, draws);
+        draw.effects.push_back(toon);
+        draw.effects.push_back(judge_specular(subject, toon.is_in));
+        draw.effects.push_back(judge_fog(subject, eye, thresholds.fog));
+        judge_material(subject, draw.effects);
+        draw.effects.push_back(shadow);
+    }
+    return draws;
+}
+
+}  // namespace gobo::scene

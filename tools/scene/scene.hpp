@@ -1,0 +1,172 @@
+// The data model of a scene: what read_scene() makes of a glTF file. World space is glTF's: right-handed, y
+// up, lengths in the scene's unit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "scene/box.hpp"
+
+namespace gobo::scene {
+
+/// Fog as `extras.gobo.fog` states it. Distances in the scene's unit, the colour is a radiance.
+struct Fog {
+    std::string kind;  ///< "none", "linear", "exponential" or "exponential_squared"
+    glm::dvec3 color{0};
+    double density = 0;
+    double near = 0;
+    double far = 0;
+};
+
+/// What `extras.gobo` of a scene, node or material asks for; nothing where it says nothing. A material's word
+/// counts before a node's, a node's before that of the nodes above it, and the scene's counts last.
+struct Wishes {
+    std::optional<Fog> fog;
+    std::optional<int> toon_levels;       ///< 0: no toon shading
+    std::optional<std::string> specular;  ///< "phong" or "blinn"; "none": no highlights
+    std::optional<bool> probe;            ///< lit by an ambient probe
+    std::optional<bool> shadow;           ///< receives shadows
+
+    /// Takes over what is not said yet from `outer`.
+    void fill_from(const Wishes& outer);
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// A material in the terms of the family `lit`. docs/scene_format.md states how it follows from glTF's.
+struct Material {
+    std::string name;
+    glm::dvec3 emission{0};
+    glm::dvec3 ambient{0};
+    glm::dvec3 diffuse{0};
+    glm::dvec3 specular{0};  ///< zero: no highlight
+    double strength = 1;
+    double shininess = 0;
+    bool unlit = false;
+    bool is_textured = false;
+    bool double_sided = false;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    double alpha_cutoff = 0.5;
+    Wishes wishes;
+};
+
+enum class LightKind { directional, point, spot };
+
+/// A light of KHR_lights_punctual. It shines along -z of its node.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::point;
+    glm::dvec3 color{1};  ///< colour times intensity: the radiance at attenuation 1
+    double range = std::numeric_limits<double>::infinity();
+    glm::dvec3 attenuation{0, 0, 1};  ///< k_c, k_l, k_q
+    double inner_angle = 0;           ///< half angles of the cone, radians, at most pi / 2
+    double outer_angle = 0;
+    double exponent = 0;
+    bool casts_shadow = false;
+};
+
+/// A camera looks along -z of its node.
+struct Camera {
+    std::string name;
+    bool is_perspective = true;
+    double vertical_angle = 0;  ///< perspective: of the whole view, radians
+    std::optional<double> aspect;
+    glm::dvec2 half_extent{0};  ///< orthographic
+    double near_plane = 0;
+    double far_plane = std::numeric_limits<double>::infinity();
+};
+
+enum class Topology { points, lines, triangles };
+
+/// A joint of the node's skin that moves a vertex, and how much.
+struct Influence {
+    std::uint32_t joint = 0;
+    float weight = 0;
+};
+
+/// One mesh primitive. Strips and fans are triangles already; missing normals have been computed, flat.
+struct Primitive {
+    Topology topology = Topology::triangles;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;                        ///< one per position
+    std::vector<glm::vec2> texcoords;                      ///< one per position, or none
+    std::vector<glm::vec4> colors;                         ///< one per position, or none; RGBA
+    std::vector<std::uint32_t> indices;                    ///< three per triangle
+    std::vector<std::vector<glm::vec3>> target_positions;  ///< per morph target, one per position
+    std::vector<std::vector<Influence>> influences;        ///< one list per position, or none
+    int material = 0;         ///< the last of the scene is glTF's default material
+    bool is_colored = false;  ///< a vertex colour is not white
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+    std::vector<double> weights;  ///< of its morph targets, at rest
+};
+
+struct Interval {
+    double low = 0;
+    double high = 0;
+    void add(double value);
+};
+
+/// Everything that animations do to a node: it stays within these, between keyframes too.
+struct Motion {
+    Box translation;
+    Box scale;
+    bool rotates = false;
+    bool moves = false;             ///< translation, scale or rotation is animated
+    std::vector<Interval> weights;  ///< of morph targets; empty: not animated
+};
+
+struct Node {
+    std::string name;
+    std::optional<int> parent;
+    std::vector<int> children;
+    std::optional<int> mesh;
+    std::optional<int> skin;
+    std::optional<int> camera;
+    std::optional<int> light;
+    std::vector<double> weights;  ///< of its mesh's morph targets; empty: the mesh's
+    bool has_matrix = false;
+    glm::dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    glm::dvec3 scale{1};
+    glm::dmat4 local{1};  ///< to the parent's space, at rest
+    glm::dmat4 world{1};  ///< to world space, at rest
+    bool in_scene = false;
+    std::optional<Motion> motion;
+    Wishes wishes;
+};
+
+struct Skin {
+    std::vector<int> joints;               ///< nodes
+    std::vector<glm::dmat4> inverse_bind;  ///< one per joint
+};
+
+/// A scene with everything that decides what its draws call for, and what a renderer needs to draw it.
+struct Scene {
+    std::string path;
+    std::vector<std::string> files;  ///< every file read, the scene first
+    std::vector<Node> nodes;
+    std::vector<int> order;  ///< the nodes of the scene, parents before children
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<Skin> skins;
+    glm::dvec3 ambient{0};  ///< radiance from everywhere
+    Wishes wishes;
+};
+
+}  // namespace gobo::scene
