@@ -9,6 +9,7 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/read_family.hpp"
+#include "gobo/scene_selection.hpp"
 
 namespace gobo {
 namespace {
@@ -97,6 +98,12 @@ void add_selection_options(CLI::App& app, SelectionOptions& options) {
                    "A file of keys, one a line; - is standard input (repeatable)")
         ->type_name("FILE")
         ->allow_extra_args(false);
+    app.add_option("--scene", options.scenes, "A glTF scene: the keys that its draws call for (repeatable)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app.add_option("--bucket-lights", options.bucket_lights,
+                   "Round the light counts of --scene up to one of these")
+        ->type_name("0,1,2,...");
     app.add_flag("--all", options.all, "Every valid key");
     app.add_option("--cover", options.cover, "Keys that contain every combination of T feature values")
         ->type_name("T")
@@ -168,7 +175,8 @@ Selection to_selection(const SelectionOptions& options) {
     return selection;
 }
 
-Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
+Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options,
+                                 Dialect dialect) {
     Selection selection = to_selection(options);
     for (const std::string& path : options.key_files) {
         const Result<std::string> text = read_input(world, path);
@@ -185,12 +193,18 @@ Result<Selection> load_selection(const World& world, LoadedFamily& family, const
         selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
         if (path != "-") family.files.push_back(path);
     }
+    for (const std::string& path : options.scenes) {
+        const Result<std::vector<NamedKey>> keys =
+            keys_of_scene(world, family, path, options.bucket_lights, dialect);
+        if (!keys) return tl::unexpected(keys.error());
+        selection.keys.insert(selection.keys.end(), keys->begin(), keys->end());
+    }
     return selection;
 }
 
 Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family, const SelectionOptions& options,
                                    Dialect dialect) {
-    const Result<Selection> selection = load_selection(world, family, options);
+    const Result<Selection> selection = load_selection(world, family, options, dialect);
     if (!selection) return tl::unexpected(selection.error());
     return select(family.family, *selection, name_of(dialect));
 }

@@ -54,6 +54,8 @@ struct CommonOptions {
 struct SelectionOptions {
     std::vector<std::string> keys;
     std::vector<std::string> key_files;
+    std::vector<std::string> scenes;
+    std::string bucket_lights;
     bool all = false;
     int cover = 0;
     std::vector<std::string> over;
@@ -76,7 +78,7 @@ struct LoadedFamily {
 [[nodiscard]] Result<LoadedFamily> load_family(const World& world, const std::string& name,
                                                const CommonOptions& options);
 
-/// The selected keys. Key files that were read are added to `family.files`.
+/// The selected keys. Key files, scenes and their buffers that were read are added to `family.files`.
 [[nodiscard]] Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                                  const SelectionOptions& options, Dialect dialect);
 

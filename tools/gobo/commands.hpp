@@ -14,6 +14,7 @@ namespace gobo {
 [[nodiscard]] Command build_command(CLI::App& gobo);
 [[nodiscard]] Command render_command(CLI::App& gobo);
 [[nodiscard]] Command sanitize_command(CLI::App& gobo);
+[[nodiscard]] Command scene_command(CLI::App& gobo);
 [[nodiscard]] Command library_command(CLI::App& gobo);
 
 }  // namespace gobo

@@ -40,7 +40,8 @@ Outcome run(const ListOptions& options, const World& world) {
     if (!dialect) return failed(dialect.error());
     Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
-    if (options.count && options.selection.key_files.empty()) {  // by arithmetic, where no key need be made
+    const bool names_files = !options.selection.key_files.empty() || !options.selection.scenes.empty();
+    if (options.count && !names_files) {  // by arithmetic, where no key need be made
         const Result<std::uint64_t> count =
             count_selected(family->family, to_selection(options.selection), name_of(*dialect));
         if (!count) return failed(count.error());
