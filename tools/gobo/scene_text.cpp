@@ -23,12 +23,13 @@ std::string funnel_text(const SceneReport& report) {
         "funnel\n"
         "  full product         {:>12}\n"
         "  valid                {:>12}\n"
-        "  called for           {:>12}  by {} draws\n"
+        "  called for           {:>12}  by {} draw{}\n"
         "  after light buckets  {:>12}  ({})\n"
         "  distinct programs    {:>12}\n"
         "  compiled stages      {:>12}\n",
-        funnel.full_product, funnel.valid, funnel.called_for, funnel.draws, funnel.bucketed,
-        scene::buckets_text(report.buckets), report.distinct_programs, report.compiled_stages);
+        funnel.full_product, funnel.valid, funnel.called_for, funnel.draws, funnel.draws == 1 ? "" : "s",
+        funnel.bucketed, scene::buckets_text(report.buckets), report.distinct_programs,
+        report.compiled_stages);
 }
 
 /// Unused lights are what a bucketing costs: each is evaluated at every fragment, for nothing.
