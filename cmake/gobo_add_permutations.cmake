@@ -1,5 +1,6 @@
 # gobo_add_permutations(TARGET FAMILY family
-#                       [KEYS key...] [KEYS_FROM file...] [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
+#                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
+#                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [LIBRARY folder])
 #
 # Has gobo write the header of the selected permutations, NAME.hpp after the family's name, and puts it on the include
@@ -14,7 +15,7 @@ cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED" "FAMILY;COVER;WHERE;NAMESPACE;DIALECT;LIBRARY"
-                        "KEYS;KEYS_FROM;OVER;INCLUDE")
+                        "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
     get_property(arg_LIBRARY GLOBAL PROPERTY GOBO_LIBRARY_FOLDER)
@@ -105,6 +106,11 @@ function(_gobo_command_line arguments_variable inputs_variable)
     add(--keys-from "${file}")
     list(APPEND inputs "${escaped}")
   endforeach()
+  foreach(scene IN LISTS arg_SCENES)
+    get_filename_component(scene "${scene}" ABSOLUTE)
+    add(--scene "${scene}")
+    list(APPEND inputs "${escaped}")
+  endforeach()
   foreach(include IN LISTS arg_INCLUDE)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
@@ -121,6 +127,10 @@ function(_gobo_command_line arguments_variable inputs_variable)
       add(${flag} "${arg_${option}}")
     endif()
   endforeach()
+  if(arg_BUCKET_LIGHTS)
+    list(JOIN arg_BUCKET_LIGHTS "," counts)
+    add(--bucket-lights "${counts}")
+  endif()
   if(arg_OVER)
     list(JOIN arg_OVER "," features)
     add(--over "${features}")
