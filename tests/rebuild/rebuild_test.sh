@@ -53,6 +53,22 @@ sed -i 's/spot < 2"/spot < 2 \&\& point >= 0"/' "$work/CMakeLists.txt"
 expect "a condition in other words" "gobo:clear"
 expect "again" ""
 
+# A scene chooses the permutations: it is read again when it or its buffer changes, and only then.
+cp "$source"/tests/assets/scenes/teapot.{gltf,bin} "$work"
+cat >>"$work/CMakeLists.txt" <<CMAKE
+add_executable(staged staged.cpp)
+gobo_add_permutations(staged FAMILY lit SCENES teapot.gltf BUCKET_LIGHTS 0 2 LIBRARY library)
+CMAKE
+expect "a program with a scene" "compiler:staged gobo:staged"
+"$work/build/staged" || fail "staged does not find its keys"
+expect "again" ""
+touch "$work/teapot.bin"
+expect "a touched buffer: gobo looks, the header stays" "gobo:staged"
+sed -i 's/"kind": "linear"/"kind": "exponential", "density": 1/' "$work/teapot.gltf"
+expect "another fog" "compiler:staged gobo:staged"
+"$work/build/staged" && fail "staged still finds the keys of the scene as it was"
+expect "again" ""
+
 # Keys and conditions reach gobo as they are written, whatever a shell, a makefile or CMake's lists would make of their
 # characters: gobo refuses these, and quotes them.
 odd_key="li'near=\"x\" \$HOME \$(shell) %d \\ ; & | < > *"

@@ -130,7 +130,8 @@ void read_targets(Document& document, Accessors& accessors, const Value& value, 
 }
 
 int read_mode(Document& document, const Value& value, Primitive& primitive) {
-    const auto mode = static_cast<int>(document.number_within(value, "mode", 0, 6).value_or(4));
+    const auto mode = static_cast<int>(document.integer(value, "mode").value_or(4));
+    if (!document.number_within(value, "mode", 0, 6)) return 4;  // triangles, too, where it is absent
     if (mode == 0) primitive.topology = Topology::points;
     if (mode >= 1 && mode <= 3) primitive.topology = Topology::lines;
     return mode;
