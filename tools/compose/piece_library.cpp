@@ -36,6 +36,7 @@ Result<std::optional<int>> PieceLibrary::load(const std::string& path) {
     Result<ScannedPiece> scanned = scan_piece(std::move(piece.text), piece.path);
     if (!scanned) return tl::unexpected(scanned.error());
     piece.text = std::move(scanned->text);
+    piece.code = std::move(scanned->code);
     Entry entry{std::move(piece), std::move(scanned->version), std::move(scanned->includes), {}};
     for (const std::string& identifier : interest_) {
         entry.mentions.push_back(scanned->identifiers.contains(identifier) ? 1 : 0);

@@ -131,6 +131,7 @@ class Scanner {
         if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos) {
             result_.bindings = bindings_of(bare_);
         }
+        result_.code = bare_;
         result_.warnings = unstated_layouts(bare_, result_.text, path_);
         return std::move(result_);
     }
@@ -224,7 +225,10 @@ Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
         return error_at({path, line, 0}, "", "holds a NUL byte and is no text", "name a GLSL file");
     }
     Result<ScannedPiece> piece = Scanner(std::move(text), path).run();
-    if (piece) piece->text = without_trailing_blanks(piece->text);
+    if (piece) {
+        piece->text = without_trailing_blanks(piece->text);
+        piece->code = without_trailing_blanks(piece->code);
+    }
     return piece;
 }
 

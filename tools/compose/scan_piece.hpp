@@ -23,6 +23,7 @@ struct Include {
 /// One GLSL file as the composer sees it.
 struct ScannedPiece {
     std::string text;     ///< the file with #include and #version lines blanked, ending in a newline
+    std::string code;     ///< `text` without its comments, line for line
     std::string version;  ///< "330 core" of its #version line, or empty
     std::vector<Include> includes;
     std::set<std::string, std::less<>> identifiers;  ///< outside comments
