@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "gobo/commands.hpp"
+#include "gobo/shard.hpp"
+#include "gobo/witness.hpp"
 #include "validate/validate.hpp"
 #include "verify/verify.hpp"
 
@@ -17,6 +20,8 @@ struct TestOptions {
     SelectionOptions selection;
     std::string family;
     std::string folder = "failed_points";
+    std::string shard;
+    WitnessOptions witness;
 };
 
 /// A file name of letters, digits and '_' for a key.
@@ -98,11 +103,22 @@ std::string figures_text(const verify::VerifyReport& report) {
     return text;
 }
 
+Result<Composition> compose_shard(const World& world, LoadedFamily& family, const TestOptions& options) {
+    Result<std::vector<Key>> keys = load_keys(world, family, options.selection, Dialect::own);
+    if (!keys) return tl::unexpected(keys.error());
+    keys = shard_of(std::move(*keys), options.shard);
+    if (!keys) return tl::unexpected(keys.error());
+    return compose(family.family, *keys, family.search, Dialect::own);
+}
+
 Outcome run(const TestOptions& options, const World& world) {
     Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
-    const Result<Composition> composition = load_composition(world, *family, options.selection, Dialect::own);
+    const Result<Composition> composition = compose_shard(world, *family, options);
     if (!composition) return failed(composition.error());
+    if (options.witness.render)
+        return run_witness(world, options.witness, family->family, *composition, options.folder,
+                           options.common.jobs);
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.keep_spirv = true;
@@ -124,10 +140,13 @@ Command test_command(CLI::App& gobo) {
     CLI::App* app = gobo.add_subcommand("test", "Evaluate every permutation and hold it against the oracle");
     app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
     add_selection_options(*app, options->selection);
-    app->add_option("-o,--output", options->folder,
-                    "Folder for the worst points of failing keys, as input files of gobo eval")
+    app->add_option(
+           "-o,--output", options->folder,
+           "Folder for the worst points of failing keys, as input files of gobo eval, or their pictures")
         ->type_name("FOLDER")
         ->capture_default_str();
+    app->add_option("--shard", options->shard, "Only every N-th key, from the I-th on")->type_name("I/N");
+    add_witness_options(*app, options->witness);
     add_common_options(*app, options->common);
     app->footer(
         "The stages are evaluated in fp32 and fp64 over points made to exercise each model. Families of your "
@@ -136,6 +155,7 @@ Command test_command(CLI::App& gobo) {
         "Examples:\n"
         "  gobo test lit                               the family's default set\n"
         "  gobo test lit --cover 3\n"
+        "  gobo test lit --cover 2 --render            every key drawn, too\n"
         "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
         "  gobo test game.toml -o build/failed_points");
     return {app, [options](const World& world) { return run(*options, world); }};

@@ -1,9 +1,6 @@
 #include "verify/verify.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <functional>
-#include <thread>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -12,20 +9,10 @@
 #include "oracle/model.hpp"
 #include "verify/against_oracle.hpp"
 #include "verify/alone.hpp"
+#include "verify/parallel.hpp"
 
 namespace gobo::verify {
 namespace {
-
-/// Calls `work(i)` for each index, by several threads.
-void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    const auto run = [&] {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < jobs; ++i) threads.emplace_back(run);
-    run();
-}
 
 using Programs = std::vector<Result<evaluate::Program>>;
 

@@ -1,0 +1,107 @@
+// That the witness passes what agrees and finds what does not.
+#include "verify/witness.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "lit_library.hpp"
+#include "render/render_selection.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+using verify::PictureReport;
+
+verify::WitnessScene scene_of(const Family& family) {
+    verify::WitnessScene scene;
+    scene.objects = demo_objects(make_sphere(48, 24));
+    scene.values = family.render;
+    scene.view.camera = demo_camera();
+    scene.view.width = scene.view.height = 64;
+    return scene;
+}
+
+/// The renderer draws the library with `overlay`, the evaluator the one as it stands: as if either were
+/// wrong.
+Result<PictureReport> compare(const std::string& key, const Overlay& overlay) {
+    const Family family = lit_family();
+    const std::vector<Key> keys = keys_of(family, {key});
+    const Result<Composition> drawn = compose_lit(family, keys, overlay);
+    if (!drawn) return tl::unexpected(drawn.error());
+    const Result<Composition> evaluated = compose_lit(family, keys, {});
+    if (!evaluated) return tl::unexpected(evaluated.error());
+    ValidateOptions options;
+    options.keep_spirv = true;
+    const Validated validated = validate(family, *evaluated, options);
+    const Result<Context> context = open_context(Backend::osmesa);
+    if (!context) return tl::unexpected(context.error());
+    return verify::witness(*context, *drawn, validated, scene_of(family), 1).front();
+}
+
+struct Disagreement {
+    const char* name;
+    const char* key;
+    const char* piece;
+    const char* from;
+    const char* to;
+};
+
+constexpr Disagreement disagreements[] = {
+    {"a product off by a thousandth", "directional=1", "lighting/response.glsl", "return material.diffuse",
+     "return 1.001 * material.diffuse"},
+    {"fog by another distance", "fog=linear", "fog_distance/radial.glsl", "vectorLength(surfacePosition())",
+     "-surfacePosition().z"},
+    {"a normal not normalised", "directional=1", "surface/normal.frag.glsl", "unitVector(eyeNormal)",
+     "eyeNormal"},
+    {"depth moved the wrong way", "depth=greater directional=1", "depth/greater.glsl",
+     "gl_FragCoord.z + away", "1.0 - gl_FragCoord.z"},
+};
+
+TEST(Witness, FindsDisagreements) {
+    for (const Disagreement& row : disagreements) {
+        std::string text = piece_text(row.piece);
+        const auto place = text.find(row.from);
+        ASSERT_NE(place, std::string::npos) << row.name;
+        text.replace(place, std::string(row.from).size(), row.to);
+        const Result<PictureReport> report = compare(row.key, {{row.piece, text}});
+        ASSERT_TRUE(report) << row.name << ": " << to_text(report.error().front());
+        ASSERT_TRUE(report->diagnostics.empty()) << to_text(report->diagnostics.front());
+        EXPECT_TRUE(report->fails()) << row.name;
+        EXPECT_GT(report->wrong, 0U) << row.name;
+        EXPECT_EQ(report->actual.width, 64) << row.name << ": the pictures are kept";
+    }
+}
+
+TEST(Witness, PassesWhatAgreesAndHasSeenTheScene) {
+    for (const std::string key :
+         {"directional=1 point=1 specular=blinn", "shading=vertex spot=1 specular=phong",
+          "depth=any diffuse=toon fog=exponential point=2"}) {
+        const Result<PictureReport> report = compare(key, {});
+        ASSERT_TRUE(report) << to_text(report.error().front());
+        ASSERT_TRUE(report->diagnostics.empty()) << to_text(report->diagnostics.front());
+        EXPECT_FALSE(report->fails()) << key;
+        EXPECT_GT(report->drawn, report->pixels / 2) << key;
+        EXPECT_GT(report->largest_error, 0) << key << ": floats that agree to the bit were not drawn";
+    }
+}
+
+TEST(Witness, FailsForEdgesAndForManySmallErrors) {
+    PictureReport report;
+    report.pixels = 1000;
+    report.edges = 10;
+    report.root_mean_square = verify::kRmsLimit;
+    EXPECT_FALSE(report.fails());
+    ++report.edges;
+    EXPECT_TRUE(report.fails()) << "more than 1 %";
+    report.edges = 0;
+    report.root_mean_square = std::nextafter(verify::kRmsLimit, 1);
+    EXPECT_TRUE(report.fails());
+    report.root_mean_square = 0;
+    report.wrong = 1;
+    EXPECT_TRUE(report.fails());
+}
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,68 @@
+// A permutation drawn without a renderer: its stages evaluated in fp32, between them the rasteriser.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/render.hpp"
+#include "validate/validated.hpp"
+#include "verify/rasterise.hpp"
+#include "verify/render_feed.hpp"
+
+namespace gobo::verify {
+
+/// How the fragment stage reads one of its inputs.
+enum class Interpolation { perspective, linear, flat };
+
+/// Both stages, ready to be evaluated, and what joins them.
+struct SoftwareProgram {
+    evaluate::Program vertex;
+    evaluate::Program fragment;
+    struct Varying {
+        std::string output;  ///< of the vertex stage
+        std::string input;   ///< of the fragment stage
+        std::uint32_t components = 0;
+        Interpolation interpolation = Interpolation::perspective;
+    };
+    std::vector<Varying> varyings;
+    std::string color;         ///< the output at location 0; empty where there is none
+    bool needs_quads = false;  ///< derivatives, or textures that pick their level by them
+    bool tests_early = false;  ///< early_fragment_tests: a written depth does not count
+};
+
+/// Errors of decode(), and a varying that the vertex stage does not write.
+[[nodiscard]] Result<SoftwareProgram> software_program(const SpirvModule& vertex,
+                                                       const SpirvModule& fragment);
+
+/// What the fragment stage made of a fragment.
+struct Shaded {
+    std::array<double, 4> color = {0, 0, 0, 1};
+    double depth = 0;
+    bool is_discarded = false;
+};
+
+/// One object, rasterised, ready to be shaded.
+struct SoftwareObject {
+    evaluate::Invocations vertices;  ///< of the vertex stage
+    evaluate::Invocations uniforms;  ///< of the fragment stage, without its inputs
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::dvec4> positions;  ///< gl_Position of each vertex
+    std::vector<Fragment> fragments;
+    int width = 0;
+    int height = 0;
+};
+
+/// Evaluates the vertex stage and rasterises. `values` and `view` as of render_permutation().
+[[nodiscard]] Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& program,
+                                                                    const Interface& interface,
+                                                                    const std::vector<Object>& objects,
+                                                                    const std::vector<RenderValue>& values,
+                                                                    const View& view);
+
+/// Shades every fragment of the object. `nudge` moves each attribute and each varying at random by up to that
+/// much of the largest component of its vector, to see what hangs on a rounding; coverage stays. 0: none.
+[[nodiscard]] Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const SoftwareObject& object,
+                                                double nudge, std::uint64_t seed);
+
+}  // namespace gobo::verify
