@@ -1,5 +1,5 @@
-# gobo as a package: gobo::gobo (the program), gobo::headers (what generated headers include) and gobo_add_permutations(),
-# installed, from the build tree, or by add_subdirectory and FetchContent.
+# gobo as a package: gobo::gobo (the program), gobo::headers (what generated headers include) and gobo_add_permutations()
+# and gobo_add_permutation_tests(), installed, from the build tree, or by add_subdirectory and FetchContent.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,7 +15,7 @@ add_executable(gobo::gobo ALIAS gobo)
 
 # Projects that take gobo in as a subdirectory call the function from their own folders.
 set_property(GLOBAL PROPERTY GOBO_LIBRARY_FOLDER "${PROJECT_SOURCE_DIR}")
-include("${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutations.cmake")
+include("${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutation_tests.cmake")
 
 set(gobo_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/gobo")
 set(gobo_version_file "${PROJECT_BINARY_DIR}/cmake/goboConfigVersion.cmake")
@@ -23,7 +23,7 @@ write_basic_package_version_file("${gobo_version_file}" COMPATIBILITY SameMinorV
 
 # From the build tree: cmake -D gobo_DIR=build/release/cmake.
 set(GOBO_LIBRARY_FOLDER "${PROJECT_SOURCE_DIR}")
-set(gobo_module "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutations.cmake")
+set(gobo_module "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutation_tests.cmake")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" "${PROJECT_BINARY_DIR}/cmake/goboConfig.cmake"
   INSTALL_DESTINATION "${PROJECT_BINARY_DIR}/cmake" INSTALL_PREFIX "${PROJECT_BINARY_DIR}"
   PATH_VARS GOBO_LIBRARY_FOLDER gobo_module)
@@ -34,13 +34,14 @@ if(NOT GOBO_INSTALL)
   return()
 endif()
 set(GOBO_LIBRARY_FOLDER "${CMAKE_INSTALL_DATADIR}/gobo")
-set(gobo_module "${gobo_package_folder}/gobo_add_permutations.cmake")
+set(gobo_module "${gobo_package_folder}/gobo_add_permutation_tests.cmake")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" "${PROJECT_BINARY_DIR}/installed/goboConfig.cmake"
   INSTALL_DESTINATION "${gobo_package_folder}" PATH_VARS GOBO_LIBRARY_FOLDER gobo_module)
 install(TARGETS gobo gobo_headers EXPORT goboTargets RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(EXPORT goboTargets NAMESPACE gobo:: DESTINATION "${gobo_package_folder}")
 install(FILES "${PROJECT_BINARY_DIR}/installed/goboConfig.cmake" "${gobo_version_file}"
-              "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutations.cmake" DESTINATION "${gobo_package_folder}")
+              "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutations.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutation_tests.cmake" DESTINATION "${gobo_package_folder}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/gobo" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/shader_lib" "${PROJECT_SOURCE_DIR}/templates"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/gobo")

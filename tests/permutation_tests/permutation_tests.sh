@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# permutation_tests.sh SOURCE_FOLDER PACKAGE_FOLDER: the tests that gobo_add_permutation_tests() registers, by name, which of
+# them fail, and that the report in JUnit's format names the keys that do.
+set -euo pipefail
+source=$1
+package=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+work="$scratch/with spaces"
+mkdir -p "$work/wrong/fog"
+cp -r "$source/tests/permutation_tests/application/." "$work"
+# Fog that begins where it should end.
+sed 's/fog\.near/fog.swapped/g; s/fog\.far/fog.near/g; s/fog\.swapped/fog.far/g' "$source/shader_lib/fog/linear.glsl" \
+  >"$work/wrong/fog/linear.glsl"
+if cmp -s "$source/shader_lib/fog/linear.glsl" "$work/wrong/fog/linear.glsl"; then
+  echo "FAILED: fog/linear.glsl has no near and far to swap"
+  exit 1
+fi
+
+cmake -S "$work" -B "$work/build" -D gobo_DIR="$package" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
+status=0
+ctest --test-dir "$work/build" --output-junit "$work/report.xml" >"$scratch/log" 2>&1 || status=$?
+
+expected='fail wrong.fog=linear
+fail wrong.point=1 fog=linear
+fail wrong_shared.1_of_1
+run listed.directional=1
+run listed.point=1
+run listed.render.directional=1
+run listed.render.point=1
+run listed.render.spot=1 fog=linear
+run listed.spot=1 fog=linear
+run shared.1_of_2
+run shared.2_of_2
+run wrong.directional=1'
+found=$(sed -nE 's/.*<testcase name="([^"]*)".* status="(run|fail)".*/\2 \1/p' "$work/report.xml" | LC_ALL=C sort)
+if [ "$found" != "$expected" ] || [ "$status" = 0 ]; then
+  cat "$scratch/log"
+  diff <(echo "$expected") <(echo "$found")
+  exit 1
+fi
+if ! grep -q 'out of tolerance \[fog=linear\]' "$work/report.xml"; then
+  echo "FAILED: the report does not name the key that fails in a shard"
+  exit 1
+fi
+echo "$found"
