@@ -91,7 +91,8 @@ std::vector<std::string> traps_of(const evaluate::Program& program, const evalua
                                   Mode mode) {
     std::vector<std::string> texts;
     if (mode == Mode::fp64) return texts;
-    const auto found = sanitize::find_traps(program, invocations, mode == Mode::flushed);
+    const auto found = sanitize::find_traps(
+        program, invocations, mode == Mode::flushed ? sanitize::Machine::flushed : sanitize::Machine::ieee);
     EXPECT_TRUE(found);
     for (const sanitize::Finding& finding : *found)
         texts.push_back(fmt::format("{}:{}: {}", finding.place.file, finding.place.line, to_text(finding)));

@@ -14,6 +14,7 @@
 #include "common/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
+#include "evaluate/eval_inputs.hpp"
 #include "sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 
@@ -100,7 +101,7 @@ TEST_P(HarmlessShader, IsNotFlagged) {
     EXPECT_GT(report.points, 0U);
 }
 
-/// The input that a finding names makes it happen again, by itself.
+/// The input file that a finding comes with makes it happen again, by itself.
 TEST_P(PlainShader, NamesAnInputThatShowsIt) {
     const sanitize::SanitizeReport report = report_of(GetParam());
     const DiskFileSystem disk;
@@ -114,8 +115,11 @@ TEST_P(PlainShader, NamesAnInputThatShowsIt) {
     const Result<evaluate::Program> program = evaluate::decode(validated.stages.front().spirv);
     ASSERT_TRUE(program);
     for (const sanitize::SharedFinding& shared : report.findings) {
-        const auto alone = sanitize::find_traps(*program, sanitize::invocations_of(shared.finding.point),
-                                                shared.finding.is_flushed);
+        const auto inputs = evaluate::read_eval_inputs(eval_input(shared.finding, "an input"), "found.toml");
+        ASSERT_TRUE(inputs) << to_text(inputs.error().front());
+        const auto invocations = evaluate::invocations_of(*inputs, *program);
+        ASSERT_TRUE(invocations) << to_text(invocations.error().front());
+        const auto alone = sanitize::find_traps(*program, *invocations, shared.finding.machine);
         ASSERT_TRUE(alone);
         EXPECT_TRUE(std::any_of(alone->begin(), alone->end(), [&](const sanitize::Finding& finding) {
             return finding.message == shared.finding.message && finding.place == shared.finding.place;

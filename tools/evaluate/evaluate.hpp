@@ -69,9 +69,17 @@ struct Invocations {
     Images images;
 };
 
+/// Which errors a machine makes beside those of rounding.
+enum class Errors {
+    none,
+    largest_up,    ///< pow, exp, exp2, log, log2, inversesqrt too large by all that the specification allows
+    largest_down,  ///< too small by as much
+};
+
 struct Options {
     bool flush_denormals = false;  ///< fp32 only: denormal operands and results are taken as 0
-    bool count = false;            ///< fill Outputs::counts
+    Errors errors = Errors::none;
+    bool count = false;  ///< fill Outputs::counts
     /// A loop whose head is passed more often than this, by any of the kLanes invocations that run together,
     /// is an error.
     std::uint64_t iteration_limit = 1U << 20U;

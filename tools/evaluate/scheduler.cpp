@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "evaluate/largest_errors.hpp"
 #include "evaluate/loops.hpp"
 
 namespace gobo::evaluate {
@@ -46,7 +47,16 @@ template <class T>
 void Scheduler<T>::run_quickly(const Block& block) {
     const Operation* operation = program_.quick.data() + block.quick_first;
     for (const Operation* end = operation + block.quick_count; operation != end; ++operation)
-        rows_[operation->row](*operation, machine_);
+        execute(*operation);
+}
+
+template <class T>
+void Scheduler<T>::execute(const Operation& operation) {
+    rows_[operation.row](operation, machine_);
+    if (options_.errors == Errors::none) return;
+    const std::uint32_t code = instruction_table()[operation.row].code;
+    if (has_largest_error(code))
+        add_largest_error(code, operation, machine_, options_.errors == Errors::largest_up);
 }
 
 template <class T>
@@ -60,7 +70,7 @@ void Scheduler<T>::run_observed(const Block& block) {
             observer_->before(step);
             observe_indices(step, operation, lanes);
         }
-        rows_[operation.row](operation, machine_);
+        execute(operation);
         if (is_shown) observer_->after(step);
     }
 }

@@ -26,6 +26,7 @@ class Scheduler {
 
   private:
     void run_quickly(const Block& block);
+    void execute(const Operation& operation);
     void run_observed(const Block& block);
     void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes);
     void count_visit(std::uint32_t block);

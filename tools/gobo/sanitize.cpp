@@ -22,6 +22,8 @@ struct SanitizeCommandOptions {
     std::string folder = "failed_points";
     std::size_t points = 2048;
     std::uint64_t seed = 1;
+    double minutes = 0;
+    std::vector<std::string> machines = {"ieee", "flushed"};
 };
 
 struct Subject {
@@ -107,6 +109,14 @@ std::string counts_text(const Subject& subject, const sanitize::SanitizeReport& 
                        found.findings.size());
 }
 
+/// The names have been checked when the command line was read.
+std::vector<sanitize::Machine> machines_of(const SanitizeCommandOptions& options) {
+    std::vector<sanitize::Machine> machines;
+    for (const std::string& name : options.machines)
+        if (const auto machine = sanitize::machine_named(name)) machines.push_back(*machine);
+    return machines;
+}
+
 Outcome run(const SanitizeCommandOptions& options, const World& world) {
     const Result<Subject> subject = subject_of(options, world);
     if (!subject) return failed(subject.error());
@@ -120,6 +130,8 @@ Outcome run(const SanitizeCommandOptions& options, const World& world) {
     sanitize_options.jobs = options.common.jobs;
     sanitize_options.points = options.points;
     sanitize_options.seed = options.seed;
+    sanitize_options.minutes = options.minutes;
+    sanitize_options.machines = machines_of(options);
     const sanitize::SanitizeReport found =
         sanitize::sanitize(subject->family, subject->composition, validated, sanitize_options);
     Diagnostics diagnostics = found.diagnostics;
@@ -143,6 +155,15 @@ Command sanitize_command(CLI::App& gobo) {
     add_selection_options(*app, options->selection);
     app->add_option("--points", options->points, "Hard inputs of each distinct stage")->capture_default_str();
     app->add_option("--seed", options->seed, "Another seed tries other inputs")->capture_default_str();
+    app->add_option("--minutes", options->minutes, "Go on with fresh inputs until so long has passed")
+        ->check(CLI::NonNegativeNumber);
+    app->add_option("--machine", options->machines,
+                    "What to run on: ieee, flushed (denormals are 0), errors_up, errors_down (pow, exp, log, "
+                    "inversesqrt off by all that is allowed); repeatable")
+        ->type_name("NAME")
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember({"ieee", "flushed", "errors_up", "errors_down"}))
+        ->default_str("ieee and flushed");
     app->add_option("-o,--output", options->folder,
                     "Folder for the inputs of what is found, as input files of gobo eval")
         ->type_name("FOLDER")
@@ -151,10 +172,11 @@ Command sanitize_command(CLI::App& gobo) {
     app->footer(
         "Inputs lie within the family's domains; of files, and where no domain is declared, within [-100, "
         "100].\n"
-        "Each is run with denormal numbers and with those flushed to 0.\n\n"
+        "Each is run on all the machines.\n\n"
         "Examples:\n"
         "  gobo sanitize lit                           the family's default set\n"
         "  gobo sanitize lit --cover 3 --points 16384\n"
+        "  gobo sanitize lit --machine errors_up --machine errors_down --minutes 10\n"
         "  gobo sanitize game.vert game.frag");
     return {app, [options](const World& world) { return run(*options, world); }};
 }

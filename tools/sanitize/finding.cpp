@@ -1,5 +1,7 @@
 #include "sanitize/finding.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,6 +24,7 @@ std::map<std::string, std::vector<double>> values_of(const std::vector<evaluate:
 }
 
 std::string toml_table(std::string_view name, const std::map<std::string, std::vector<double>>& values) {
+    if (values.empty()) return {};
     std::string text = fmt::format("\n[{}]\n", name);
     for (const auto& [key, numbers] : values) {
         if (numbers.size() == 1)
@@ -36,28 +39,31 @@ std::string toml_table(std::string_view name, const std::map<std::string, std::v
 
 Point point_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
                std::size_t index) {
-    return {values_of(program.inputs, invocations, index), values_of(program.uniforms, invocations, index)};
-}
-
-evaluate::Invocations invocations_of(const Point& point) {
-    evaluate::Invocations invocations;
-    for (const auto* values : {&point.inputs, &point.uniforms})
-        for (const auto& [name, numbers] : *values) invocations.values[name] = numbers;
-    return invocations;
+    Point point{
+        values_of(program.inputs, invocations, index), values_of(program.uniforms, invocations, index), {}};
+    evaluate::ImageRequest request;
+    request.invocation = index;
+    for (const evaluate::ImagePort& image : program.images) {
+        const auto given = invocations.images.find(image.name);
+        if (given == invocations.images.end()) continue;
+        const std::array<double, 4> texel = given->second(request);
+        point.samplers[image.name].assign(texel.begin(), texel.end());
+    }
+    return point;
 }
 
 std::string to_text(const Finding& finding) {
     std::string text = finding.message;
     if (!finding.operation.empty()) text += ": " + finding.operation;
-    if (finding.is_flushed) text += ", denormals flushed";
+    if (finding.machine != Machine::ieee) text += fmt::format(", machine {}", name_of(finding.machine));
     return text;
 }
 
 std::string eval_input(const Finding& finding, const std::string& heading) {
-    return fmt::format("# {}\n# {}:{}: {}\nstage = \"{}\"\n{}{}", heading, finding.place.file,
-                       finding.place.line, to_text(finding), name_of(finding.stage),
-                       toml_table("inputs", finding.point.inputs),
-                       toml_table("uniforms", finding.point.uniforms));
+    return fmt::format(
+        "# {}\n# {}:{}: {}\nstage = \"{}\"\n{}{}{}", heading, finding.place.file, finding.place.line,
+        to_text(finding), gobo::name_of(finding.stage), toml_table("inputs", finding.point.inputs),
+        toml_table("uniforms", finding.point.uniforms), toml_table("samplers", finding.point.samplers));
 }
 
 }  // namespace gobo::sanitize

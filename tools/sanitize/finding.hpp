@@ -9,6 +9,7 @@
 #include "common/diagnostic.hpp"
 #include "compose/composition.hpp"
 #include "evaluate/evaluate.hpp"
+#include "sanitize/machine.hpp"
 
 namespace gobo::sanitize {
 
@@ -16,28 +17,26 @@ namespace gobo::sanitize {
 struct Point {
     std::map<std::string, std::vector<double>> inputs;
     std::map<std::string, std::vector<double>> uniforms;
+    std::map<std::string, std::vector<double>> samplers;  ///< the colour that each texture answers
 };
 
 /// An undefined operation at one place of one stage.
 struct Finding {
     StageKind stage = StageKind::vertex;
     Place place;
-    std::string message;      ///< "division by zero"
-    std::string operation;    ///< with its values: "FDiv 1, depth = 0 -> inf"; empty where there is none
-    bool is_flushed = false;  ///< the example needs denormal numbers taken as 0
-    Point point;              ///< the first that showed it
+    std::string message;    ///< "division by zero"
+    std::string operation;  ///< with its values: "FDiv 1, depth = 0 -> inf"; empty where there is none
+    Machine machine = Machine::ieee;  ///< that the example was run on
+    Point point;                      ///< the first that showed it
     std::uint64_t points = 0;
 };
 
-/// Invocation `index` of a stage's inputs. Values that hold for all invocations are found too.
+/// Invocation `index` of a stage's inputs.
 [[nodiscard]] Point point_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
                              std::size_t index);
 
-/// One point as invocations of the stage: a single one.
-[[nodiscard]] evaluate::Invocations invocations_of(const Point& point);
-
-/// The point as an input file of `gobo eval`: `stage`, `[inputs]` and `[uniforms]` by reflected name, numbers
-/// that read back as they were. `heading` becomes comment lines.
+/// The point as an input file of `gobo eval`: `stage`, `[inputs]`, `[uniforms]` and `[samplers]` by
+/// reflected name, numbers that read back as they were. `heading` becomes comment lines.
 [[nodiscard]] std::string eval_input(const Finding& finding, const std::string& heading);
 
 /// The finding's message with the operation's values.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "sanitize/input_range.hpp"
 #include "sanitize/random.hpp"
@@ -174,16 +175,26 @@ void place_pixels(evaluate::Invocations& invocations) {
     }
 }
 
-/// Textures hold hard values too: all texels in [0, 1], some exactly 0 or 1.
-std::array<double, 4> texels(const evaluate::ImageRequest& request) {
-    if (request.what == evaluate::ImageRequest::What::size) return {4, 4, 4, 4};
-    if (request.what == evaluate::ImageRequest::What::levels) return {3, 0, 0, 0};
-    std::array<double, 4> texel{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        const double wave = std::sin(request.coordinates[c % 3] * 12.9898 + static_cast<double>(c));
-        texel[c] = std::isfinite(wave) ? std::clamp(0.5 + wave, 0.0, 1.0) : 0.0;
-    }
+using Texel = std::array<double, 4>;
+
+/// Textures hold hard values too. Each is of one colour, its own at every point: an input file can say that.
+Texel draw_texel(Random& random) {
+    Texel texel{};
+    for (double& channel : texel)
+        channel = random.one_in(2) ? static_cast<double>(random.index(2)) : random.index(257) / 256.0;
     return texel;
+}
+
+evaluate::Image one_colour_at_each_point(std::size_t count, std::uint64_t seed) {
+    Random random(seed);
+    auto texels = std::make_shared<std::vector<Texel>>();
+    for (std::size_t i = 0; i < count; ++i) texels->push_back(draw_texel(random));
+    return [texels](const evaluate::ImageRequest& request) {
+        using What = evaluate::ImageRequest::What;
+        if (request.what == What::size) return Texel{4, 4, 4, 4};
+        if (request.what == What::levels) return Texel{3, 0, 0, 0};
+        return (*texels)[request.invocation];
+    };
 }
 
 }  // namespace
@@ -203,7 +214,8 @@ evaluate::Invocations hard_inputs(const evaluate::Program& program, const std::v
                 values[c * count + i] = static_cast<double>(static_cast<float>(field.value[c]));
         }
     place_pixels(invocations);
-    for (const evaluate::ImagePort& image : program.images) invocations.images[image.name] = texels;
+    for (const evaluate::ImagePort& image : program.images)
+        invocations.images[image.name] = one_colour_at_each_point(count, ++seed);
     return invocations;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -95,30 +96,29 @@ struct StageReport {
 /// Inputs are made and run in portions, so that they stay in the cache.
 constexpr std::size_t kPortion = 1024;
 
-StageReport sanitize_stage(const SpirvModule& spirv, StageKind kind, const std::vector<Domain>& domains,
-                           const SanitizeOptions& options) {
-    StageReport report;
+/// Adds `options.points` points from `seed` on to the stage's report.
+void sanitize_stage(const SpirvModule& spirv, StageKind kind, const std::vector<Domain>& domains,
+                    const SanitizeOptions& options, std::uint64_t seed, StageReport& report) {
     const Result<evaluate::Program> program = evaluate::decode(spirv);
     if (!program) {
         report.diagnostics = program.error();
-        return report;
+        return;
     }
     for (std::size_t done = 0; done < options.points; done += kPortion) {
         const std::size_t count = std::min(kPortion, options.points - done);
         const evaluate::Invocations invocations =
-            hard_inputs(*program, domains, count, options.seed + done / kPortion);
-        for (const bool flushes : {false, true}) {
-            Result<std::vector<Finding>> found = find_traps(*program, invocations, flushes);
+            hard_inputs(*program, domains, count, seed + done / kPortion);
+        for (const Machine machine : options.machines) {
+            Result<std::vector<Finding>> found = find_traps(*program, invocations, machine);
             if (!found) {
                 report.diagnostics = found.error();
-                return report;
+                return;
             }
             for (Finding& finding : *found) finding.stage = kind;
             merge(report.findings, std::move(*found));
             report.points += count;
         }
     }
-    return report;
 }
 
 /// What stages share is reported once.
@@ -133,8 +133,27 @@ void add(SanitizeReport& report, const StageReport& stage, const std::vector<std
             continue;
         }
         shared->finding.points += finding.points;
-        shared->permutations.insert(shared->permutations.end(), permutations.begin(), permutations.end());
+        std::vector<std::size_t>& all = shared->permutations;
+        all.insert(all.end(), permutations.begin(), permutations.end());
     }
+}
+
+/// Every stage once, and again from other seeds as long as there is time.
+std::vector<StageReport> sanitize_stages(const Family& family, const Composition& composition,
+                                         const Validated& validated, const SanitizeOptions& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
+    const std::uint64_t seeds_of_round = (options.points + kPortion - 1) / kPortion;
+    std::vector<StageReport> stages(composition.stages.size());
+    std::uint64_t seed = options.seed;
+    do {
+        for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+            sanitize_stage(validated.stages[i].spirv, composition.stages[i].kind, family.domains, options,
+                           seed, stages[i]);
+        });
+        seed += seeds_of_round;
+    } while (Clock::now() < end && options.points > 0);
+    return stages;
 }
 
 std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage) {
@@ -150,11 +169,10 @@ std::vector<std::size_t> permutations_of(const Composition& composition, std::si
 }  // namespace
 
 Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
-                                        const evaluate::Invocations& invocations, bool flush_denormals) {
+                                        const evaluate::Invocations& invocations, Machine machine) {
     TrapObserver observer(program);
-    evaluate::Options options;
-    options.flush_denormals = flush_denormals;
-    const Result<evaluate::Outputs> outputs = evaluate::run<float>(program, invocations, options, &observer);
+    const Result<evaluate::Outputs> outputs =
+        evaluate::run<float>(program, invocations, options_of(machine), &observer);
     if (!outputs) return tl::unexpected(outputs.error());
     observer.finish();
     std::vector<Finding> findings = unwritten_outputs(program, invocations, *outputs, observer);
@@ -163,7 +181,7 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
         finding.place = program.place_of(where.first);
         finding.message = where.second;
         finding.operation = hit.operation;
-        finding.is_flushed = flush_denormals;
+        finding.machine = machine;
         finding.point = point_of(program, invocations, hit.first);
         finding.points = hit.invocations;
         findings.push_back(std::move(finding));
@@ -173,16 +191,12 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
 
 SanitizeReport sanitize(const Family& family, const Composition& composition, const Validated& validated,
                         const SanitizeOptions& options) {
-    std::vector<StageReport> stages(composition.stages.size());
-    for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
-        stages[i] =
-            sanitize_stage(validated.stages[i].spirv, composition.stages[i].kind, family.domains, options);
-    });
+    const std::vector<StageReport> stages = sanitize_stages(family, composition, validated, options);
     SanitizeReport report;
     report.stages = stages.size();
     for (std::size_t i = 0; i < stages.size(); ++i) {
         const std::vector<std::size_t> permutations = permutations_of(composition, i);
-        for (Diagnostic& error : stages[i].diagnostics) {
+        for (Diagnostic error : stages[i].diagnostics) {
             if (!permutations.empty())
                 error.subject = key_text(family, composition.permutations[permutations.front()].key);
             report.diagnostics.push_back(std::move(error));

@@ -16,6 +16,9 @@ struct SanitizeOptions {
     int jobs = 1;               ///< threads
     std::size_t points = 2048;  ///< hard inputs of each distinct stage
     std::uint64_t seed = 1;
+    /// Each point is run on all of them.
+    std::vector<Machine> machines = {Machine::ieee, Machine::flushed};
+    double minutes = 0;  ///< goes on with fresh points until so long has passed
 };
 
 /// A finding, once per place, with all that share it.
@@ -28,11 +31,11 @@ struct SanitizeReport {
     std::vector<SharedFinding> findings;  ///< by place and message
     Diagnostics diagnostics;              ///< why a stage could not be evaluated
     std::size_t stages = 0;
-    std::uint64_t points = 0;  ///< invocations that were watched, over all stages and modes
+    std::uint64_t points = 0;  ///< invocations that were watched, over all stages and machines
 };
 
-/// Each point is run twice: with denormal numbers, and with those flushed to 0. `validated` must hold the
-/// SPIR-V of every stage, with debug information, so that places are known.
+/// `validated` must hold the SPIR-V of every stage, with debug information, so that places are known. Without
+/// `minutes` the same options give the same report.
 [[nodiscard]] SanitizeReport sanitize(const Family& family, const Composition& composition,
                                       const Validated& validated, const SanitizeOptions& options);
 
@@ -40,6 +43,6 @@ struct SanitizeReport {
 /// ever stores to has no place.
 [[nodiscard]] Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
                                                       const evaluate::Invocations& invocations,
-                                                      bool flush_denormals);
+                                                      Machine machine);
 
 }  // namespace gobo::sanitize
