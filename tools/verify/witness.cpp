@@ -151,6 +151,7 @@ class Judge {
                          [](const auto& left, const auto& right) { return left.ratio > right.ratio; });
         report_.wrong = doubts_.size();
         if (!doubts_.empty()) report_.largest_ratio = doubts_.front().ratio;
+        for (const WrongPixel& pixel : doubts_) measure(pixel.actual, pixel.expected);
         doubts_.resize(std::min(doubts_.size(), kWorstPixels));
         report_.worst = std::move(doubts_);
         report_.root_mean_square =
@@ -173,8 +174,12 @@ class Judge {
             doubts_.push_back({x, row, actual, expected, ratio});
             return;
         }
-        ++compared_;
         report_.largest_ratio = std::max(report_.largest_ratio, ratio);
+        measure(actual, expected);
+    }
+
+    void measure(const Color& actual, const Color& expected) {
+        ++compared_;
         for (std::size_t c = 0; c < 4; ++c) {
             const double error = actual[c] == expected[c] ? 0 : std::abs(actual[c] - expected[c]);
             report_.largest_error = std::max(report_.largest_error, error);
