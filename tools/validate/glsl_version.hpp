@@ -19,8 +19,8 @@ struct GlslVersion {
 /// Whether glslang makes SPIR-V of the version as it is: desktop from 330, ES from 310.
 [[nodiscard]] bool makes_spirv(const GlslVersion& version);
 
-/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the functions that
-/// have since been renamed defined by their new names.
+/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the functions
+/// that have since been renamed defined by their new names.
 [[nodiscard]] std::string raised_for_spirv(std::string_view prologue);
 
 }  // namespace gobo
