@@ -75,6 +75,7 @@ class Backends : public testing::TestWithParam<Backend> {};
 
 TEST_P(Backends, DrawUnclampedFloats) {
     const auto context = open_context(GetParam());
+    // EGL is optional: OSMesa alone must draw, so only its absence is a failure.
     if (!context && GetParam() == Backend::egl) GTEST_SKIP() << text_of(context.error());
     ASSERT_TRUE(context) << text_of(context.error());
     EXPECT_EQ(context->backend(), GetParam());
@@ -88,6 +89,7 @@ TEST_P(Backends, DrawUnclampedFloats) {
 
 TEST_P(Backends, GiveOpenGl33) {
     const auto context = open_context(GetParam(), 33);
+    // As above: EGL is optional.
     if (!context && GetParam() == Backend::egl) GTEST_SKIP() << text_of(context.error());
     ASSERT_TRUE(context) << text_of(context.error());
     EXPECT_GE(context->version(), 33);
@@ -100,6 +102,7 @@ TEST(Context, TwoBackendsTakeTurnsInOneThread) {
     const auto osmesa = open_context(Backend::osmesa);
     ASSERT_TRUE(osmesa) << text_of(osmesa.error());
     const auto egl = open_context(Backend::egl);
+    // As above: EGL is optional.
     if (!egl) GTEST_SKIP() << text_of(egl.error());
     for (int round = 0; round < 2; ++round) {
         for (const Context& context : {*osmesa, *egl}) {

@@ -69,6 +69,7 @@ class Lit : public testing::TestWithParam<Row> {};
 
 /// One renderer, the same expressions: the pictures are the same to the bit, whatever the dialect.
 TEST_P(Lit, RendersAsIn450OnOsmesa) {
+    // EGL is optional: OSMesa alone must draw, so only its absence is a failure.
     if (GetParam().backend == Backend::egl && !open_context(Backend::egl)) GTEST_SKIP() << "there is no EGL";
     const DiskFileSystem disk;
     const Source lit{disk, GOBO_SOURCE_DIR, "templates/lit.toml"};
