@@ -3,6 +3,7 @@
 #include "common/diagnostic.hpp"
 #include "common/file_system.hpp"
 #include "common/text.hpp"
+#include "common/text_template.hpp"
 
 namespace gobo {
 namespace {
@@ -46,6 +47,16 @@ TEST(DiskFileSystem, AFullDiskIsAnError) {
     EXPECT_EQ(to_text(written.error().front()),
               "/dev/full: error: cannot be written: No space left on device\n");
     EXPECT_EQ(exit_status(written.error()), 3);
+}
+
+TEST(TextTemplate, APlaceholderWithoutValueIsAFaultOfOurOwn) {
+    const TextTemplate text_template{"header.hpp.in", "one {{known}}\ntwo {{unknown}}\n"};
+    const auto text = fill(text_template, {{"known", "1"}});
+    ASSERT_FALSE(text);
+    EXPECT_EQ(to_text(text.error().front()),
+              "header.hpp.in:2: error: the placeholder 'unknown' has no value\n"
+              "    two {{unknown}}\n");
+    EXPECT_EQ(exit_status(text.error()), 4);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compose/composition.hpp"
-#include "emit/text_template.hpp"
+#include "emit/header_templates.hpp"
 #include "family/family.hpp"
 #include "reflect/interface.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "emit/text_template.hpp"
+#include "emit/header_templates.hpp"
 #include "family/family.hpp"
 #include "reflect/interface.hpp"
 

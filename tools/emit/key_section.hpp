@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "emit/header_templates.hpp"
 #include "emit/key_names.hpp"
-#include "emit/text_template.hpp"
 #include "family/family.hpp"
 
 namespace gobo {

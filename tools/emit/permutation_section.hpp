@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compose/composition.hpp"
+#include "emit/header_templates.hpp"
 #include "emit/key_names.hpp"
-#include "emit/text_template.hpp"
 
 namespace gobo {
 

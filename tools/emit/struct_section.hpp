@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "emit/header_templates.hpp"
 #include "emit/identifiers.hpp"
-#include "emit/text_template.hpp"
 #include "family/family.hpp"
 #include "reflect/interface.hpp"
 

@@ -199,15 +199,5 @@ TEST(EmitHeader, RefusesALayoutThatOverlaps) {
               "  remedy: declare the block with layout(std140)\n");
 }
 
-TEST(TextTemplate, APlaceholderWithoutValueIsAFaultOfOurOwn) {
-    const TextTemplate text_template{"header.hpp.in", "one {{known}}\ntwo {{unknown}}\n"};
-    const auto text = fill(text_template, {{"known", "1"}});
-    ASSERT_FALSE(text);
-    EXPECT_EQ(to_text(text.error().front()),
-              "header.hpp.in:2: error: the placeholder 'unknown' has no value\n"
-              "    two {{unknown}}\n");
-    EXPECT_EQ(exit_status(text.error()), 4);
-}
-
 }  // namespace
 }  // namespace gobo
