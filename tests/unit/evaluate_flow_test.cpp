@@ -172,6 +172,15 @@ TEST(Flow, DiscardEndsAnInvocation) {
                 ::testing::ElementsAre(1, 2, 1));
 }
 
+TEST(Flow, NoInvocationsGiveNoValues) {
+    Invocations invocations;
+    invocations.count = 0;
+    invocations.values["a"] = {};
+    const Result<Outputs> outputs = run<double>(fragment_of("r = a;"), invocations);
+    ASSERT_TRUE(outputs);
+    EXPECT_TRUE(outputs->values.at("r").empty());
+}
+
 TEST(Flow, AnEndlessLoopIsAnErrorAtItsPlace) {
     const Program program = fragment_of("r = a;\nwhile (r.x < 2.0)\n  r.x *= 0.5;");
     Options options;

@@ -27,6 +27,7 @@ class Evaluation {
 
     Result<Outputs> run(const std::vector<Binding>& bindings) {
         prepare();
+        if (invocations_.count == 0) return std::move(outputs_);
         fill_constants();
         for (const Binding& binding : bindings)
             if (!binding.is_per_invocation) fill(binding, 0);

@@ -10,6 +10,7 @@
 #include "gobo/shard.hpp"
 #include "gobo/witness.hpp"
 #include "validate/validate.hpp"
+#include "verify/test_meshes.hpp"
 #include "verify/verify.hpp"
 
 namespace gobo {
@@ -93,8 +94,10 @@ std::string figures_text(const verify::VerifyReport& report) {
                            : 0;
     std::string text;
     if (report.without_oracle < report.permutations.size())
-        text += fmt::format("fp64: at most {:.1e} of the largest term away from the oracle\n",
-                            figures.largest_fp64_error);
+        text += fmt::format(
+            "{} of the points on rasterised meshes\n"
+            "fp64: at most {:.1e} of the largest term away from the oracle\n",
+            report.points_on_meshes, figures.largest_fp64_error);
     text += fmt::format("fp32: at most {:.2f} of the error bound\n", figures.largest_fp32_ratio);
     text += fmt::format(
         "{} permutations, {} points, {} ({:.3f} %) at a discontinuity, {} permutations without an "
@@ -126,6 +129,9 @@ Outcome run(const TestOptions& options, const World& world) {
     if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
     verify::VerifyOptions verify_options;
     verify_options.jobs = options.common.jobs;
+    Result<Mesh> teapot = read_obj(world.shipped, "data/meshes/teapot.obj");
+    if (!teapot) return failed(teapot.error());
+    verify_options.meshes = verify::test_meshes(std::move(*teapot));
     const verify::VerifyReport report =
         verify::verify(family->family, *composition, validated, verify_options);
     const Result<std::string> size = size_text(family->family, report.permutations.size(), Dialect::own);

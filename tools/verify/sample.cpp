@@ -24,6 +24,20 @@ class SampleMaker {
             place_vertex(sample);
         else
             place_fragment(sample);
+        furnish(sample);
+        return sample;
+    }
+
+    Sample make_draw(const Mesh& mesh) {
+        Sample sample;
+        place_mesh(sample, mesh);
+        furnish(sample);
+        return sample;
+    }
+
+  private:
+    /// All that is the same for every point of a draw.
+    void furnish(Sample& sample) {
         normal_ = glm::normalize(sample.surface.normal);
         const glm::dvec3 to_viewer = -glm::normalize(sample.surface.position);
         mirrored_ = 2 * glm::dot(normal_, to_viewer) * normal_ - to_viewer;
@@ -33,10 +47,8 @@ class SampleMaker {
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
-        return sample;
     }
 
-  private:
     void place_fragment(Sample& sample) {
         const double size = random_.across(0.1, 1e3);
         sample.surface.position = random_.direction() * size;
@@ -64,6 +76,22 @@ class SampleMaker {
         sample.surface.normal = sample.normal_matrix * sample.object_normal;
         for (int column = 0; column < 4; ++column)
             sample.projection[column] = {random_.components(-2, 2), random_.between(-2, 2)};
+        nearest_light_ = std::max(0.3 * size, 1e-2);
+        farthest_light_ = 10 * size;
+    }
+
+    /// Turned, stretched and moved to two to six times its size before the viewer; lit at one vertex.
+    void place_mesh(Sample& sample, const Mesh& mesh) {
+        const double size = random_.across(0.1, 100);
+        glm::dmat4 matrix = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4 * size));
+        matrix = glm::rotate(matrix, random_.between(0, 6.28), random_.direction());
+        sample.model_view = glm::scale(matrix, random_.components(0.5, 2) * size);
+        sample.normal_matrix = glm::transpose(glm::inverse(glm::dmat3(sample.model_view)));
+        sample.projection = glm::perspective(0.9, 1.0, size, 8 * size);
+        const auto last = static_cast<int>(mesh.positions.size()) - 1;
+        sample = at_vertex(sample, mesh, static_cast<std::size_t>(random_.whole(0, last)));
+        sample.surface.position = glm::dvec3(sample.model_view * glm::dvec4(sample.object_position, 1));
+        sample.surface.normal = sample.normal_matrix * sample.object_normal;
         nearest_light_ = std::max(0.3 * size, 1e-2);
         farthest_light_ = 10 * size;
     }
@@ -207,6 +235,17 @@ std::vector<Sample> make_samples(const oracle::Model& model, StageKind stage, in
     return samples;
 }
 
+Sample make_draw(const oracle::Model& model, const Mesh& mesh, std::uint64_t seed) {
+    return SampleMaker(model, StageKind::vertex, seed).make_draw(mesh);
+}
+
+Sample at_vertex(const Sample& draw, const Mesh& mesh, std::size_t vertex) {
+    Sample sample = draw;
+    sample.object_position = glm::dvec3(mesh.positions[vertex]);
+    sample.object_normal = glm::dvec3(mesh.normals[vertex]);
+    return sample;
+}
+
 Sample rounded_to_float(Sample sample) {
     to_float(sample.scene);
     for (glm::dvec3* vector : {&sample.object_position, &sample.object_normal, &sample.surface.position,
@@ -220,6 +259,11 @@ Sample rounded_to_float(Sample sample) {
         }
     to_float(sample.depth);
     return sample;
+}
+
+std::vector<Sample> rounded_to_float(std::vector<Sample> samples) {
+    for (Sample& sample : samples) sample = rounded_to_float(std::move(sample));
+    return samples;
 }
 
 }  // namespace gobo::verify

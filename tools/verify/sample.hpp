@@ -11,6 +11,7 @@
 #include "compose/composition.hpp"
 #include "oracle/model.hpp"
 #include "oracle/scene.hpp"
+#include "render/mesh.hpp"
 
 namespace gobo::verify {
 
@@ -38,7 +39,15 @@ struct Sample {
 [[nodiscard]] std::vector<Sample> make_samples(const oracle::Model& model, StageKind stage, int count,
                                                std::uint64_t seed);
 
+/// A draw of the mesh, whose vertices lie within about 1 of its origin: matrices that bring it before the
+/// viewer, and all that lights the surface around one of its vertices, for which the sample stands.
+[[nodiscard]] Sample make_draw(const oracle::Model& model, const Mesh& mesh, std::uint64_t seed);
+
+/// The draw's sample at a vertex: what the vertex stage reads there.
+[[nodiscard]] Sample at_vertex(const Sample& draw, const Mesh& mesh, std::size_t vertex);
+
 /// The sample with every number rounded to a float, as an application would hand it to a shader.
 [[nodiscard]] Sample rounded_to_float(Sample sample);
+[[nodiscard]] std::vector<Sample> rounded_to_float(std::vector<Sample> samples);
 
 }  // namespace gobo::verify

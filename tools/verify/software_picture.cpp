@@ -6,72 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "evaluate/module.hpp"
 #include "verify/random.hpp"
 
 namespace gobo::verify {
 namespace {
-
-constexpr std::size_t kQuad = 4;
-
-/// What decorations of variables and execution modes tell beyond what decoding keeps.
-struct ModuleFacts {
-    std::map<std::string, Interpolation> interpolations;  ///< of variables, by name
-    bool tests_early = false;
-    bool has_derivatives = false;
-};
-
-bool is_derivative(spv::Op opcode) {
-    return (opcode >= spv::OpDPdx && opcode <= spv::OpFwidthCoarse) ||
-           opcode == spv::OpImageSampleImplicitLod || opcode == spv::OpImageSampleDrefImplicitLod ||
-           opcode == spv::OpImageSampleProjImplicitLod || opcode == spv::OpImageSampleProjDrefImplicitLod ||
-           opcode == spv::OpImageQueryLod;
-}
-
-Result<ModuleFacts> facts_of(const SpirvModule& words) {
-    const Result<evaluate::Module> module = evaluate::read_module(words);
-    if (!module) return tl::unexpected(module.error());
-    ModuleFacts facts;
-    for (const evaluate::Instruction& instruction : module->instructions) {
-        if (is_derivative(instruction.opcode)) facts.has_derivatives = true;
-        if (instruction.opcode == spv::OpExecutionMode &&
-            instruction.word(2) == spv::ExecutionModeEarlyFragmentTests)
-            facts.tests_early = true;
-        if (instruction.opcode != spv::OpDecorate) continue;
-        if (instruction.word(2) == spv::DecorationFlat)
-            facts.interpolations[module->name_of(instruction.word(1))] = Interpolation::flat;
-        if (instruction.word(2) == spv::DecorationNoPerspective)
-            facts.interpolations[module->name_of(instruction.word(1))] = Interpolation::linear;
-    }
-    return facts;
-}
-
-/// The vertex stage's output for an input: by location where both state one, else by name.
-const evaluate::Port* source_of(const evaluate::Program& vertex, const evaluate::Port& input) {
-    for (const evaluate::Port& output : vertex.outputs)
-        if (output.name == input.name || (input.location >= 0 && output.location == input.location))
-            return &output;
-    return nullptr;
-}
-
-Result<std::vector<SoftwareProgram::Varying>> match(const evaluate::Program& vertex,
-                                                    const evaluate::Program& fragment,
-                                                    const ModuleFacts& facts) {
-    std::vector<SoftwareProgram::Varying> varyings;
-    for (const evaluate::Port& input : fragment.inputs) {
-        if (input.name.starts_with("gl_")) continue;
-        const evaluate::Port* output = source_of(vertex, input);
-        if (output == nullptr)
-            return fail(Fault::input,
-                        fmt::format("the vertex stage does not write the fragment stage's '{}'", input.name));
-        const std::string variable = input.name.substr(0, input.name.find_first_of(".["));
-        const auto found = facts.interpolations.find(variable);
-        varyings.push_back(
-            {output->name, input.name, input.components,
-             found == facts.interpolations.end() ? Interpolation::perspective : found->second});
-    }
-    return varyings;
-}
 
 /// The vector moved by up to `nudge` of its largest component, in each component.
 void move(std::vector<double>& values, std::uint32_t components, std::size_t count, double nudge,
@@ -85,65 +23,24 @@ void move(std::vector<double>& values, std::uint32_t components, std::size_t cou
     }
 }
 
-/// Where the fragment stage runs: a fragment's own pixel, or its quad's.
-struct Invocation {
-    const Fragment* fragment = nullptr;
-    int x = 0;
-    int y = 0;
-    Weights weights;
-};
-
-std::vector<Invocation> invocations_of(const SoftwareProgram& program, const SoftwareObject& object) {
-    std::vector<Invocation> invocations;
-    for (const Fragment& fragment : object.fragments) {
-        if (!program.needs_quads) {
-            invocations.push_back({&fragment, fragment.x, fragment.y, fragment.weights});
-            continue;
-        }
-        const std::uint32_t* corner = &object.indices[3 * std::size_t{fragment.triangle}];
-        const Interpolator interpolator(
-            {object.positions[corner[0]], object.positions[corner[1]], object.positions[corner[2]]},
-            object.width, object.height);
-        for (int i = 0; i < static_cast<int>(kQuad); ++i) {
-            const int x = (fragment.x & ~1) + i % 2;
-            const int y = (fragment.y & ~1) + i / 2;
-            invocations.push_back({&fragment, x, y, interpolator.at(x + 0.5, y + 0.5)});
-        }
-    }
-    return invocations;
-}
-
-/// The place of a fragment's own invocation among invocations_of().
-std::size_t own_invocation(const SoftwareProgram& program, const Fragment& fragment, std::size_t index) {
-    if (!program.needs_quads) return index;
-    return kQuad * index + static_cast<std::size_t>(fragment.x % 2 + 2 * (fragment.y % 2));
-}
-
-double interpolated(const std::vector<double>& values, std::size_t first, const std::uint32_t* corner,
-                    const Weights& weights, Interpolation interpolation) {
-    // OpenGL's last vertex is the provoking one unless told otherwise.
-    if (interpolation == Interpolation::flat) return values[first + corner[2]];
-    const auto& shares = interpolation == Interpolation::linear ? weights.linear : weights.perspective;
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += shares[i] * values[first + corner[i]];
-    return sum;
-}
-
 /// The fragment stage's inputs at each invocation.
 evaluate::Invocations fragment_inputs(const SoftwareProgram& program, const SoftwareObject& object,
-                                      const std::vector<Invocation>& places, const evaluate::Outputs& outputs,
-                                      double nudge, Random& random) {
+                                      const std::vector<FragmentPlace>& places,
+                                      const evaluate::Outputs& outputs, double nudge, Random& random) {
     evaluate::Invocations invocations = object.uniforms;
     invocations.count = places.size();
-    for (const SoftwareProgram::Varying& varying : program.varyings) {
+    for (const Varying& varying : program.link.varyings) {
         const std::vector<double>& from = outputs.values.at(varying.output);
         std::vector<double>& to = invocations.values[varying.input];
         to.resize(varying.components * places.size());
         for (std::uint32_t c = 0; c < varying.components; ++c) {
-            for (std::size_t i = 0; i < places.size(); ++i)
-                to[c * places.size() + i] = interpolated(
-                    from, c * outputs.count, &object.indices[3 * std::size_t{places[i].fragment->triangle}],
-                    places[i].weights, varying.interpolation);
+            const double* first = &from[c * outputs.count];
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const std::uint32_t* corner = &object.indices[3 * std::size_t{places[i].fragment->triangle}];
+                to[c * places.size() + i] =
+                    interpolated({first[corner[0]], first[corner[1]], first[corner[2]]}, places[i].weights,
+                                 varying.interpolation);
+            }
         }
         if (varying.interpolation != Interpolation::flat)
             move(to, varying.components, places.size(), nudge, random);
@@ -153,10 +50,8 @@ evaluate::Invocations fragment_inputs(const SoftwareProgram& program, const Soft
         std::vector<double>& to = invocations.values[port.name];
         to.resize(port.components * places.size());
         for (std::size_t i = 0; i < places.size(); ++i) {
-            const Invocation& place = places[i];
-            const double front = place.fragment->is_front_facing ? 1 : 0;
-            const std::array<double, 4> at = {place.x + 0.5, place.y + 0.5, place.weights.depth,
-                                              place.weights.inverse_w};
+            const double front = places[i].fragment->is_front_facing ? 1 : 0;
+            const std::array<double, 4> at = window_position(places[i]);
             for (std::size_t c = 0; c < port.components; ++c)
                 to[c * places.size() + i] = port.name == "gl_FragCoord" ? at[c] : front;
         }
@@ -178,7 +73,7 @@ Shaded shaded(const SoftwareProgram& program, const evaluate::Outputs& outputs, 
         for (std::size_t c = 0; c < std::min<std::size_t>(color->second.size() / outputs.count, 4); ++c)
             result.color[c] = color->second[c * outputs.count + invocation];
     const auto depth = outputs.values.find("gl_FragDepth");
-    if (depth != outputs.values.end() && !program.tests_early)
+    if (depth != outputs.values.end() && !program.link.tests_early)
         result.depth = stored_depth(depth->second[invocation]);
     return result;
 }
@@ -219,15 +114,11 @@ Result<SoftwareProgram> software_program(const SpirvModule& vertex, const SpirvM
     if (!first) return tl::unexpected(first.error());
     Result<evaluate::Program> second = evaluate::decode(fragment);
     if (!second) return tl::unexpected(second.error());
-    const Result<ModuleFacts> facts = facts_of(fragment);
-    if (!facts) return tl::unexpected(facts.error());
-    auto varyings = match(*first, *second, *facts);
-    if (!varyings) return tl::unexpected(varyings.error());
+    Result<Link> joined = link(*first, *second, fragment);
+    if (!joined) return tl::unexpected(joined.error());
     program.vertex = std::move(*first);
     program.fragment = std::move(*second);
-    program.varyings = std::move(*varyings);
-    program.needs_quads = facts->has_derivatives;
-    program.tests_early = facts->tests_early;
+    program.link = std::move(*joined);
     for (const evaluate::Port& output : program.fragment.outputs)
         if (!output.name.starts_with("gl_") && output.location <= 0) program.color = output.name;
     return program;
@@ -264,14 +155,17 @@ Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const Software
             move(found->second, port.components, vertices.count, nudge, random);
     const Result<evaluate::Outputs> varyings = evaluate::run<float>(program.vertex, vertices);
     if (!varyings) return tl::unexpected(varyings.error());
-    const std::vector<Invocation> places = invocations_of(program, object);
+    const std::vector<FragmentPlace> places =
+        places_of({object.fragments, object.indices, object.positions, object.width, object.height},
+                  program.link.needs_quads);
     const evaluate::Invocations inputs = fragment_inputs(program, object, places, *varyings, nudge, random);
     const Result<evaluate::Outputs> outputs = evaluate::run<float>(program.fragment, inputs);
     if (!outputs) return tl::unexpected(outputs.error());
     std::vector<Shaded> result;
     for (std::size_t i = 0; i < object.fragments.size(); ++i)
-        result.push_back(
-            shaded(program, *outputs, own_invocation(program, object.fragments[i], i), object.fragments[i]));
+        result.push_back(shaded(program, *outputs,
+                                own_place(object.fragments[i], i, program.link.needs_quads),
+                                object.fragments[i]));
     return result;
 }
 

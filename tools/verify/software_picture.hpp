@@ -7,28 +7,17 @@
 
 #include "render/render.hpp"
 #include "validate/validated.hpp"
-#include "verify/rasterise.hpp"
+#include "verify/link.hpp"
 #include "verify/render_feed.hpp"
 
 namespace gobo::verify {
-
-/// How the fragment stage reads one of its inputs.
-enum class Interpolation { perspective, linear, flat };
 
 /// Both stages, ready to be evaluated, and what joins them.
 struct SoftwareProgram {
     evaluate::Program vertex;
     evaluate::Program fragment;
-    struct Varying {
-        std::string output;  ///< of the vertex stage
-        std::string input;   ///< of the fragment stage
-        std::uint32_t components = 0;
-        Interpolation interpolation = Interpolation::perspective;
-    };
-    std::vector<Varying> varyings;
-    std::string color;         ///< the output at location 0; empty where there is none
-    bool needs_quads = false;  ///< derivatives, or textures that pick their level by them
-    bool tests_early = false;  ///< early_fragment_tests: a written depth does not count
+    Link link;
+    std::string color;  ///< the output at location 0; empty where there is none
 };
 
 /// Errors of decode(), and a varying that the vertex stage does not write.

@@ -9,6 +9,7 @@
 #include "oracle/model.hpp"
 #include "verify/against_oracle.hpp"
 #include "verify/alone.hpp"
+#include "verify/on_mesh.hpp"
 #include "verify/parallel.hpp"
 
 namespace gobo::verify {
@@ -26,9 +27,13 @@ Programs decode_all(const Validated& validated, int jobs) {
 /// Verifies one permutation after the other, keeping what all share.
 class Verifier {
   public:
-    Verifier(const Family& family, const Composition& composition, const Programs& programs,
-             const VerifyOptions& options)
-        : family_(family), composition_(composition), programs_(programs), options_(options) {}
+    Verifier(const Family& family, const Composition& composition, const Validated& validated,
+             const Programs& programs, const VerifyOptions& options)
+        : family_(family),
+          composition_(composition),
+          validated_(validated),
+          programs_(programs),
+          options_(options) {}
 
     [[nodiscard]] PermutationReport verify(const Permutation& permutation) const {
         PermutationReport report;
@@ -43,6 +48,7 @@ class Verifier {
             else
                 add(report, std::move(found.error()));
         }
+        if (model && report.diagnostics.empty()) check_on_meshes(report, permutation, *model);
         return report;
     }
 
@@ -52,17 +58,44 @@ class Verifier {
         const Result<evaluate::Program>& program = programs_[stage];
         if (!program) return tl::unexpected(program.error());
         const StageKind kind = composition_.stages[stage].kind;
-        const std::string text = key_text(family_, key);
-        const std::uint64_t seed = XXH3_64bits(text.data(), text.size());
+        const std::uint64_t seed = seed_of(key);
         const int count = kind == StageKind::vertex ? options_.vertices : options_.fragments;
         return model ? check_against_oracle(*program, kind, *model, count, seed)
                      : check_alone(*program, kind, family_.domains, count, seed);
+    }
+
+    void check_on_meshes(PermutationReport& report, const Permutation& permutation,
+                         const oracle::Model& model) const {
+        if (permutation.vertex < 0 || permutation.fragment < 0) return;
+        const auto fragment = static_cast<std::size_t>(permutation.fragment);
+        const evaluate::Program& first = *programs_[static_cast<std::size_t>(permutation.vertex)];
+        const evaluate::Program& second = *programs_[fragment];
+        Result<Link> joined = link(first, second, validated_.stages[fragment].spirv);
+        if (!joined) return add(report, std::move(joined.error()));
+        const Pipeline pipeline{first, second, std::move(*joined)};
+        for (std::size_t i = 0; i < options_.meshes.size(); ++i) {
+            auto found = check_on_mesh(pipeline, model, options_.meshes[i], seed_of(permutation.key) + i + 1);
+            if (!found) return add(report, std::move(found.error()));
+            for (StageReport& stage : *found) {
+                report.points_on_meshes += stage.figures.points;
+                add(report, std::move(stage));
+            }
+        }
+    }
+
+    /// Of the key's text alone.
+    [[nodiscard]] std::uint64_t seed_of(const Key& key) const {
+        const std::string text = key_text(family_, key);
+        return XXH3_64bits(text.data(), text.size());
     }
 
     void add(PermutationReport& report, StageReport found) const {
         report.figures += found.figures;
         report.failed_points += found.failed_points;
         for (Failure& failure : found.worst) report.worst.push_back(std::move(failure));
+        std::stable_sort(report.worst.begin(), report.worst.end(),
+                         [](const Failure& left, const Failure& right) { return left.ratio > right.ratio; });
+        if (report.worst.size() > 2 * kWorstPoints) report.worst.resize(2 * kWorstPoints);
     }
 
     void add(PermutationReport& report, Diagnostics errors) const {
@@ -74,6 +107,7 @@ class Verifier {
 
     const Family& family_;
     const Composition& composition_;
+    const Validated& validated_;
     const Programs& programs_;
     const VerifyOptions& options_;
 };
@@ -83,7 +117,7 @@ class Verifier {
 VerifyReport verify(const Family& family, const Composition& composition, const Validated& validated,
                     const VerifyOptions& options) {
     const Programs programs = decode_all(validated, options.jobs);
-    const Verifier verifier(family, composition, programs, options);
+    const Verifier verifier(family, composition, validated, programs, options);
     VerifyReport report;
     report.permutations.resize(composition.permutations.size());
     for_each_index(report.permutations.size(), options.jobs, [&](std::size_t i) {
@@ -91,6 +125,7 @@ VerifyReport verify(const Family& family, const Composition& composition, const 
     });
     for (const PermutationReport& permutation : report.permutations) {
         report.figures += permutation.figures;
+        report.points_on_meshes += permutation.points_on_meshes;
         if (!permutation.has_oracle) ++report.without_oracle;
     }
     return report;

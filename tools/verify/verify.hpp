@@ -4,15 +4,17 @@
 
 #include "compose/composition.hpp"
 #include "family/family.hpp"
+#include "render/mesh.hpp"
 #include "validate/validated.hpp"
 #include "verify/report.hpp"
 
 namespace gobo::verify {
 
 struct VerifyOptions {
-    int jobs = 1;         ///< threads
-    int vertices = 128;   ///< samples of each vertex stage
-    int fragments = 384;  ///< samples of each fragment stage
+    int jobs = 1;              ///< threads
+    int vertices = 128;        ///< samples of each vertex stage
+    int fragments = 384;       ///< samples of each fragment stage
+    std::vector<Mesh> meshes;  ///< on which the stages together are tried where there is an oracle
 };
 
 /// The stages of one permutation together.
@@ -20,6 +22,7 @@ struct PermutationReport {
     Key key;
     bool has_oracle = false;
     Figures figures;
+    std::size_t points_on_meshes = 0;  ///< of figures.points
     std::size_t failed_points = 0;
     std::vector<Failure> worst;
     Diagnostics diagnostics;  ///< why a stage could not be evaluated
@@ -31,6 +34,7 @@ inline constexpr double kLargestEdgeShare = 0.01;
 struct VerifyReport {
     std::vector<PermutationReport> permutations;  ///< in the composition's order
     Figures figures;
+    std::size_t points_on_meshes = 0;
     std::size_t without_oracle = 0;
 };
 
