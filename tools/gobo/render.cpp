@@ -5,6 +5,7 @@
 
 #include "common/text.hpp"
 #include "gobo/commands.hpp"
+#include "gobo/render_scene.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
 
@@ -14,13 +15,14 @@ namespace {
 struct RenderOptions {
     CommonOptions common;
     SelectionOptions selection;
-    std::string family;
+    std::string family = "lit";
     std::string dialect;
     std::string folder;
     std::string size = "640x480";
     std::string backend = "osmesa";
     std::string format = "png";
     std::string mesh = "teapot";
+    int camera = -1;  ///< of scenes; below 0: each scene's first
 };
 
 /// "640x480"
@@ -60,6 +62,11 @@ Result<PictureOptions> read_options(const RenderOptions& options) {
     return pictures;
 }
 
+/// What is left of a selection without its scenes.
+bool selects_keys(const SelectionOptions& selection) {
+    return !selection.keys.empty() || !selection.key_files.empty() || selection.all || selection.cover != 0;
+}
+
 /// The interfaces of all permutations, or why there are none.
 Result<std::vector<Interface>> interfaces_of(const Family& family, const Composition& composition, int jobs) {
     ValidateOptions options;
@@ -72,6 +79,44 @@ Result<std::vector<Interface>> interfaces_of(const Family& family, const Composi
     return interfaces;
 }
 
+/// Draws each key with the demonstration mesh.
+Result<RenderedSelection> render_keys(const RenderOptions& options, const World& world, LoadedFamily& family,
+                                      Dialect dialect, const Context& context,
+                                      const PictureOptions& pictures) {
+    const auto mesh = read_mesh(world, options.mesh);
+    if (!mesh) return tl::unexpected(mesh.error());
+    SelectionOptions selection = options.selection;
+    selection.scenes.clear();
+    const auto composition = load_composition(world, family, selection, dialect);
+    if (!composition) return tl::unexpected(composition.error());
+    const auto interfaces = interfaces_of(family.family, *composition, options.common.jobs);
+    if (!interfaces) return tl::unexpected(interfaces.error());
+    return render_selection(context, family.family, *composition, *interfaces, demo_objects(*mesh), pictures,
+                            world.disk);
+}
+
+Result<RenderedSelection> render_both(const RenderOptions& options, const World& world, LoadedFamily& family,
+                                      Dialect dialect, const Context& context,
+                                      const PictureOptions& pictures) {
+    RenderedSelection rendered;
+    for (const std::string& path : options.selection.scenes) {
+        auto picture = render_scene(
+            {path, options.camera, options.selection.bucket_lights, dialect, options.common.jobs}, world,
+            family, context, pictures);
+        if (!picture) return tl::unexpected(picture.error());
+        rendered.files.push_back(std::move(picture->file));
+        rendered.diagnostics.insert(rendered.diagnostics.end(), picture->warnings.begin(),
+                                    picture->warnings.end());
+    }
+    if (!options.selection.scenes.empty() && !selects_keys(options.selection)) return rendered;
+    const auto keys = render_keys(options, world, family, dialect, context, pictures);
+    if (!keys) return tl::unexpected(keys.error());
+    rendered.files.insert(rendered.files.end(), keys->files.begin(), keys->files.end());
+    rendered.diagnostics.insert(rendered.diagnostics.end(), keys->diagnostics.begin(),
+                                keys->diagnostics.end());
+    return rendered;
+}
+
 Outcome run(const RenderOptions& options, const World& world) {
     const auto pictures = read_options(options);
     if (!pictures) return failed(pictures.error());
@@ -79,30 +124,25 @@ Outcome run(const RenderOptions& options, const World& world) {
     if (!backend) return failed(backend.error());
     const Result<Dialect> dialect = read_dialect(options.dialect);
     if (!dialect) return failed(dialect.error());
-    const auto mesh = read_mesh(world, options.mesh);
-    if (!mesh) return failed(mesh.error());
     Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
-    const auto composition = load_composition(world, *family, options.selection, *dialect);
-    if (!composition) return failed(composition.error());
-    const auto interfaces = interfaces_of(family->family, *composition, options.common.jobs);
-    if (!interfaces) return failed(interfaces.error());
     const auto context = open_context(*backend);
     if (!context) return failed(context.error());
-    const RenderedSelection rendered = render_selection(*context, family->family, *composition, *interfaces,
-                                                        demo_objects(*mesh), *pictures, world.disk);
-    const std::string files = rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n";
-    return {files, rendered.diagnostics,
-            fmt::format("{} pictures of {} x {} by {}", rendered.files.size(), pictures->view.width,
-                        pictures->view.height, context->renderer())};
+    const auto rendered = render_both(options, world, *family, *dialect, *context, *pictures);
+    if (!rendered) return failed(rendered.error());
+    const std::string files = rendered->files.empty() ? "" : join(rendered->files, "\n") + "\n";
+    return {files, rendered->diagnostics,
+            fmt::format("{} picture{} of {} x {} by {}", rendered->files.size(),
+                        rendered->files.size() == 1 ? "" : "s", pictures->view.width, pictures->view.height,
+                        context->renderer())};
 }
 
 }  // namespace
 
 Command render_command(CLI::App& gobo) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* app = gobo.add_subcommand("render", "A picture of every key of a selection");
-    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
+    CLI::App* app = gobo.add_subcommand("render", "A picture of every key of a selection, or of scenes");
+    app->add_option("FAMILY", options->family, "A shipped family or a .toml file; by default lit");
     add_selection_options(*app, options->selection);
     app->add_option("-o,--output", options->folder, "Folder for the pictures, which are named after the keys")
         ->type_name("DIR")
@@ -117,11 +157,19 @@ Command render_command(CLI::App& gobo) {
     app->add_option("--mesh", options->mesh, "What stands on the plane")
         ->type_name("teapot|sphere|torus|plane|FILE.obj")
         ->capture_default_str();
+    app->add_option(
+           "--camera", options->camera,
+           "Number in the file of the camera that sees the scenes; by default each one's first, or a "
+           "view of everything")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
     app->footer(
-        "Prints the paths of the pictures. The family's [render] table says what its uniforms hold.\n\n"
+        "Prints the paths of the pictures. The family's [render] table says what its uniforms hold; with "
+        "--scene the scene does, and each of its draws has the permutation that it calls for.\n\n"
         "Examples:\n"
+        "  gobo render --scene room.gltf -o pictures\n"
         "  gobo render lit --key 'directional=1 specular=blinn' -o pictures\n"
         "  gobo render lit --cover 2 --where 'point <= 2' -o pictures --size 320x240 --backend egl\n"
         "  gobo render lit --key 'spot=1' -o pictures --format exr --mesh torus --dialect 330\n"

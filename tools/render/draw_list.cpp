@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/matrix.hpp>
 
 #include "common/text.hpp"
 
@@ -60,6 +61,10 @@ void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::stri
 }
 
 }  // namespace
+
+bool Object::is_mirrored() const {
+    return glm::determinant(glm::dmat3(model)) < 0;
+}
 
 GlResources::GlResources(GlResources&& other) noexcept
     : context_(other.context_),
@@ -158,6 +163,7 @@ Result<void> DrawList::add(const Interface& interface, const Object& object,
     static_cast<void>(
         resources_.make_buffer(GL_ELEMENT_ARRAY_BUFFER, indices.data(), indices.size() * sizeof indices[0]));
     item.indices = static_cast<GLsizei>(indices.size());
+    if (object.culls_back_faces) item.culled = object.is_mirrored() ? GL_FRONT : GL_BACK;
     resources_.context().gl().BindVertexArray(0);
     items_.push_back(std::move(item));
     return {};
@@ -204,9 +210,16 @@ void DrawList::draw() const {
                 values[i] = static_cast<GLfloat>(constant.numbers[i]);
             gl.VertexAttrib4fv(constant.location, values.data());
         }
+        if (item.culled == GL_NONE) {
+            gl.Disable(GL_CULL_FACE);
+        } else {
+            gl.Enable(GL_CULL_FACE);
+            gl.CullFace(item.culled);
+        }
         gl.BindVertexArray(item.array);
         gl.DrawElements(GL_TRIANGLES, item.indices, GL_UNSIGNED_INT, nullptr);
     }
+    gl.Disable(GL_CULL_FACE);
     gl.BindVertexArray(0);
     gl.UseProgram(0);
 }

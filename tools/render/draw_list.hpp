@@ -15,6 +15,10 @@ struct Object {
     Mesh mesh;
     glm::dmat4 model{1};              ///< object to world space
     std::vector<RenderValue> values;  ///< uniforms and attributes that differ from those of other objects
+    bool culls_back_faces = false;    ///< the model matrix may mirror: a front face stays one
+
+    /// Whether the model matrix turns counter-clockwise faces into clockwise ones.
+    [[nodiscard]] bool is_mirrored() const;
 };
 
 /// Buffers, arrays and textures of OpenGL, deleted together.
@@ -66,6 +70,7 @@ class DrawList {
     struct Item {
         GLuint array = 0;
         GLsizei indices = 0;
+        GLenum culled = GL_NONE;  ///< GL_BACK, GL_FRONT or nothing
         std::vector<Constant> constants;
         std::vector<Buffer> blocks;
         std::vector<Assignment> uniforms;

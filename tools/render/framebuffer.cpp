@@ -51,6 +51,13 @@ void Framebuffer::bind() const {
     context_.gl().Viewport(0, 0, width_, height_);
 }
 
+void Framebuffer::clear(const std::array<float, 4>& background) const {
+    const GladGLContext& gl = context_.gl();
+    gl.ClearColor(background[0], background[1], background[2], background[3]);
+    gl.ClearDepth(1);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
 Image Framebuffer::read_color() const {
     return read(4, GL_RGBA);
 }

@@ -1,6 +1,8 @@
 // What is drawn to: float colour and depth, read back as pictures.
 #pragma once
 
+#include <array>
+
 #include "render/context.hpp"
 #include "render/image.hpp"
 
@@ -17,6 +19,8 @@ class Framebuffer {
 
     /// Makes it what is drawn to, all of it.
     void bind() const;
+    /// Fills what is bound with a colour and the farthest depth.
+    void clear(const std::array<float, 4>& background) const;
     /// Four channels, linear.
     [[nodiscard]] Image read_color() const;
     /// One channel, window-space depth in [0, 1].

@@ -3,16 +3,6 @@
 #include <fmt/format.h>
 
 namespace gobo {
-namespace {
-
-void clear(const Context& context, const std::array<float, 4>& background) {
-    const GladGLContext& gl = context.gl();
-    gl.ClearColor(background[0], background[1], background[2], background[3]);
-    gl.ClearDepth(1);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
-}  // namespace
 
 Result<Picture> render_permutation(const Context& context, const std::vector<StageText>& stages,
                                    const Interface& interface, const std::vector<Object>& objects,
@@ -29,7 +19,7 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     const auto list = make_draw_list(context, *program, interface, objects, values, viewed);
     if (!list) return tl::unexpected(list.error());
     framebuffer->bind();
-    clear(context, view.background);
+    framebuffer->clear(view.background);
     list->draw();
     Picture picture{framebuffer->read_color(), framebuffer->read_depth(), list->warnings()};
     if (const GLenum error = context.gl().GetError(); error != GL_NO_ERROR)

@@ -218,13 +218,7 @@ std::vector<Draw> draws_of(const Scene& scene) {
 }
 
 Subject subject_of(const Scene& scene, const Draw& draw) {
-    const Node& node = scene.nodes[static_cast<std::size_t>(draw.node)];
-    const Primitive& primitive = scene.meshes[static_cast<std::size_t>(*node.mesh)]
-                                     .primitives[static_cast<std::size_t>(draw.primitive)];
-    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-    Subject subject{scene, draw, primitive, material, material.wishes, false};
-    subject.wishes.fill_from(node.wishes);
-    return subject;
+    return {scene, draw, primitive_of(scene, draw), material_of(scene, draw), wishes_of(scene, draw), false};
 }
 
 EyePlace eye_where(const Scene& scene, const std::optional<int>& camera) {
@@ -238,6 +232,22 @@ EyePlace eye_where(const Scene& scene, const std::optional<int>& camera) {
 }
 
 }  // namespace
+
+const Primitive& primitive_of(const Scene& scene, const Draw& draw) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(draw.node)];
+    return scene.meshes[static_cast<std::size_t>(*node.mesh)]
+        .primitives[static_cast<std::size_t>(draw.primitive)];
+}
+
+const Material& material_of(const Scene& scene, const Draw& draw) {
+    return scene.materials[static_cast<std::size_t>(primitive_of(scene, draw).material)];
+}
+
+Wishes wishes_of(const Scene& scene, const Draw& draw) {
+    Wishes wishes = material_of(scene, draw).wishes;
+    wishes.fill_from(scene.nodes[static_cast<std::size_t>(draw.node)].wishes);
+    return wishes;
+}
 
 EyePlace eye_of_cameras(const Scene& scene) {
     return eye_where(scene, std::nullopt);

@@ -35,6 +35,11 @@ struct Draw {
     std::vector<Effect> effects;  ///< of what is drawn: every light first, in the scene's order
 };
 
+[[nodiscard]] const Primitive& primitive_of(const Scene& scene, const Draw& draw);
+[[nodiscard]] const Material& material_of(const Scene& scene, const Draw& draw);
+/// What the draw's material asks for, else its node, else the scene.
+[[nodiscard]] Wishes wishes_of(const Scene& scene, const Draw& draw);
+
 /// Where the eye may be: nothing where any place is possible, as when the application moves its camera.
 using EyePlace = std::optional<Box>;
 

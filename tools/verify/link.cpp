@@ -16,6 +16,7 @@ struct ModuleFacts {
     std::map<std::string, Interpolation> interpolations;  ///< of variables, by name
     bool tests_early = false;
     bool has_derivatives = false;
+    bool has_discard = false;
 };
 
 bool is_derivative(spv::Op opcode) {
@@ -31,6 +32,8 @@ Result<ModuleFacts> facts_of(const SpirvModule& words) {
     ModuleFacts facts;
     for (const evaluate::Instruction& instruction : module->instructions) {
         if (is_derivative(instruction.opcode)) facts.has_derivatives = true;
+        if (instruction.opcode == spv::OpKill || instruction.opcode == spv::OpTerminateInvocation)
+            facts.has_discard = true;
         if (instruction.opcode == spv::OpExecutionMode &&
             instruction.word(2) == spv::ExecutionModeEarlyFragmentTests)
             facts.tests_early = true;
@@ -77,7 +80,7 @@ Result<Link> link(const evaluate::Program& vertex, const evaluate::Program& frag
     if (!facts) return tl::unexpected(facts.error());
     auto varyings = match(vertex, fragment, *facts);
     if (!varyings) return tl::unexpected(varyings.error());
-    return Link{std::move(*varyings), facts->has_derivatives, facts->tests_early};
+    return Link{std::move(*varyings), facts->has_derivatives, facts->tests_early, facts->has_discard};
 }
 
 std::vector<FragmentPlace> places_of(const Raster& raster, bool in_quads) {

@@ -32,6 +32,7 @@ struct Link {
     std::vector<Varying> varyings;
     bool needs_quads = false;  ///< derivatives, or textures that pick their level by them
     bool tests_early = false;  ///< early_fragment_tests: a written depth does not count
+    bool may_discard = false;  ///< some path of the fragment stage ends without a colour
 };
 
 /// An error for a varying that the vertex stage does not write. `module` is the fragment stage's.

@@ -78,9 +78,30 @@ Shaded shaded(const SoftwareProgram& program, const evaluate::Outputs& outputs, 
     return result;
 }
 
+}  // namespace
+
+Result<SoftwareProgram> software_program(const SpirvModule& vertex, const SpirvModule& fragment) {
+    SoftwareProgram program;
+    Result<evaluate::Program> first = evaluate::decode(vertex);
+    if (!first) return tl::unexpected(first.error());
+    Result<evaluate::Program> second = evaluate::decode(fragment);
+    if (!second) return tl::unexpected(second.error());
+    Result<Link> joined = link(*first, *second, fragment);
+    if (!joined) return tl::unexpected(joined.error());
+    program.vertex = std::move(*first);
+    program.fragment = std::move(*second);
+    program.link = std::move(*joined);
+    for (const evaluate::Port& output : program.fragment.outputs)
+        if (!output.name.starts_with("gl_") && output.location <= 0) program.color = output.name;
+    return program;
+}
+
 Result<SoftwareObject> rasterise_object(const SoftwareProgram& program, const Interface& interface,
-                                        const Object& object, const std::vector<RenderValue>& values,
-                                        const ViewedObject& viewed) {
+                                        const Object& object, const std::vector<RenderValue>& family_values,
+                                        ViewedObject viewed) {
+    viewed.model = object.model;
+    std::vector<RenderValue> values = family_values;
+    values.insert(values.end(), object.values.begin(), object.values.end());
     Result<evaluate::Invocations> vertices = uniforms_of(program.vertex, interface, values, viewed);
     if (!vertices) return tl::unexpected(vertices.error());
     Result<evaluate::Invocations> uniforms = uniforms_of(program.fragment, interface, values, viewed);
@@ -103,25 +124,11 @@ Result<SoftwareObject> rasterise_object(const SoftwareProgram& program, const In
             to[c] = position->second[static_cast<std::size_t>(c) * outputs->count + i];
     }
     result.fragments = rasterise(result.positions, result.indices, result.width, result.height);
+    if (object.culls_back_faces)
+        std::erase_if(result.fragments, [mirrored = object.is_mirrored()](const Fragment& fragment) {
+            return fragment.is_front_facing == mirrored;
+        });
     return result;
-}
-
-}  // namespace
-
-Result<SoftwareProgram> software_program(const SpirvModule& vertex, const SpirvModule& fragment) {
-    SoftwareProgram program;
-    Result<evaluate::Program> first = evaluate::decode(vertex);
-    if (!first) return tl::unexpected(first.error());
-    Result<evaluate::Program> second = evaluate::decode(fragment);
-    if (!second) return tl::unexpected(second.error());
-    Result<Link> joined = link(*first, *second, fragment);
-    if (!joined) return tl::unexpected(joined.error());
-    program.vertex = std::move(*first);
-    program.fragment = std::move(*second);
-    program.link = std::move(*joined);
-    for (const evaluate::Port& output : program.fragment.outputs)
-        if (!output.name.starts_with("gl_") && output.location <= 0) program.color = output.name;
-    return program;
 }
 
 Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& program,
@@ -135,10 +142,7 @@ Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& pro
     viewed.viewport = {view.width, view.height};
     std::vector<SoftwareObject> result;
     for (const Object& object : objects) {
-        viewed.model = object.model;
-        std::vector<RenderValue> all = values;
-        all.insert(all.end(), object.values.begin(), object.values.end());
-        Result<SoftwareObject> one = rasterise_object(program, interface, object, all, viewed);
+        Result<SoftwareObject> one = rasterise_object(program, interface, object, values, viewed);
         if (!one) return tl::unexpected(one.error());
         result.push_back(std::move(*one));
     }

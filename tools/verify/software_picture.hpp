@@ -42,7 +42,15 @@ struct SoftwareObject {
     int height = 0;
 };
 
-/// Evaluates the vertex stage and rasterises. `values` and `view` as of render_permutation().
+/// Evaluates the vertex stage for one object and rasterises it, without the faces that it culls. `values` are
+/// the family's, the object's own come after them; `view` is the camera's part, the model matrix is the
+/// object's.
+[[nodiscard]] Result<SoftwareObject> rasterise_object(const SoftwareProgram& program,
+                                                      const Interface& interface, const Object& object,
+                                                      const std::vector<RenderValue>& values,
+                                                      ViewedObject view);
+
+/// The same for every object of a picture. `values` and `view` as of render_permutation().
 [[nodiscard]] Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& program,
                                                                     const Interface& interface,
                                                                     const std::vector<Object>& objects,

@@ -1,0 +1,60 @@
+#include "scene_library.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "family/read_family.hpp"
+#include "scene/read_scene.hpp"
+
+namespace gobo::scene {
+namespace {
+
+const std::string source = GOBO_SOURCE_DIR;
+
+std::string scene_folder() {
+    return source + "/tests/assets/scenes";
+}
+
+}  // namespace
+
+std::string text_of(const Diagnostics& diagnostics) {
+    std::string text;
+    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
+    return text;
+}
+
+ShippedFamily::ShippedFamily(const std::string& name) {
+    const std::string path = source + "/templates/" + name + ".toml";
+    const FindFamily find_base = [this](const std::string& base) -> Result<FamilyText> {
+        const std::string base_path = source + "/templates/" + base + ".toml";
+        Result<std::string> text = files.read(base_path);
+        if (!text) return tl::unexpected(text.error());
+        return FamilyText{std::move(*text), base_path};
+    };
+    Result<std::string> text = files.read(path);
+    EXPECT_TRUE(text) << path;
+    Result<Family> read = read_family(*text, path, find_base);
+    EXPECT_TRUE(read) << text_of(read.error());
+    family = std::move(*read);
+    for (const std::string folder : {"shader_lib", "templates"})
+        search.add(files, source + "/" + folder, folder + "/", false);
+}
+
+Scene shipped_scene(const std::string& file) {
+    const DiskFileSystem files;
+    Result<Scene> scene = read_scene(files, scene_folder() + "/" + file);
+    EXPECT_TRUE(scene) << text_of(scene.error());
+    return scene ? std::move(*scene) : Scene();
+}
+
+std::vector<std::string> shipped_scenes() {
+    const DiskFileSystem files;
+    std::vector<std::string> scenes = files.files_below(scene_folder());
+    std::erase_if(
+        scenes, [](const std::string& name) { return !name.ends_with(".gltf") && !name.ends_with(".glb"); });
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
+}  // namespace gobo::scene

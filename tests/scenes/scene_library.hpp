@@ -1,0 +1,31 @@
+// Families and scenes of the source tree, for tests that draw.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/file_system.hpp"
+#include "compose/search_path.hpp"
+#include "family/family.hpp"
+#include "scene_picture/scene_shaders.hpp"
+#include "scene_picture/scene_view.hpp"
+
+namespace gobo::scene {
+
+/// A shipped family with its pieces, as they stand in the source tree.
+struct ShippedFamily {
+    explicit ShippedFamily(const std::string& name);
+    DiskFileSystem files;
+    Family family;
+    SearchPath search;
+};
+
+[[nodiscard]] std::string text_of(const Diagnostics& diagnostics);
+
+/// A scene of tests/assets/scenes/, which must be in order.
+[[nodiscard]] Scene shipped_scene(const std::string& file);
+
+/// The names of the scenes of tests/assets/scenes/, sorted.
+[[nodiscard]] std::vector<std::string> shipped_scenes();
+
+}  // namespace gobo::scene

@@ -1,0 +1,24 @@
+// A draw of a scene as the renderer takes it: its mesh, where it stands, and what its uniforms hold.
+#pragma once
+
+#include <vector>
+
+#include "family/family.hpp"
+#include "render/draw_list.hpp"
+#include "scene/effects.hpp"
+
+namespace gobo::scene {
+
+/// The draw's uniforms by their names in `lit`, in world space: the material, ambient light, fog, tones, and
+/// the lights that are in. Lights of a kind stand in the scene's order, from element 0 on; those beyond them
+/// have no colour, so that a permutation for more lights draws the same.
+[[nodiscard]] std::vector<RenderValue> values_of(const Scene& scene, const Draw& draw);
+
+/// The draw as an object with these values. Back faces are culled unless the material is double-sided.
+[[nodiscard]] Object object_of(const Scene& scene, const Draw& draw);
+
+/// A family's values without those of blocks that a scene fills: what a scene does not light is dark, not lit
+/// by the family's demonstration.
+[[nodiscard]] std::vector<RenderValue> values_beside_scene(const std::vector<RenderValue>& family_values);
+
+}  // namespace gobo::scene

@@ -1,0 +1,30 @@
+// A picture of a scene without a renderer: stages evaluated in fp32, between them the rasteriser.
+#pragma once
+
+#include "render/image.hpp"
+#include "scene_picture/scene_shaders.hpp"
+#include "scene_picture/scene_view.hpp"
+#include "verify/software_picture.hpp"
+
+namespace gobo::scene {
+
+/// What the evaluator drew.
+struct SoftwarePicture {
+    Image color;            ///< linear, four channels, rows from the top down
+    std::vector<int> draw;  ///< which draw each pixel shows, rows from the top down; -1: none
+};
+
+/// One program for each permutation.
+using SoftwarePrograms = std::vector<verify::SoftwareProgram>;
+
+[[nodiscard]] Result<SoftwarePrograms> software_programs(const SceneShaders& shaders);
+
+/// Draws objects, one for each draw, in the scene's order and with a depth test (less). Only what is seen is
+/// shaded; samplers read one colour. `values` are the family's, an object's own come after them.
+[[nodiscard]] Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders,
+                                                       const SoftwarePrograms& programs,
+                                                       const std::vector<Object>& objects,
+                                                       const std::vector<RenderValue>& values,
+                                                       const SceneView& view);
+
+}  // namespace gobo::scene
