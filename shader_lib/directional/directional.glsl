@@ -4,6 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Directional Light.
 // Space:  eye. Ranges: direction unit or zero, colour 0 to 1e5 (radiance).
 // Edges:  a zero direction gives no light.
+#include <directional_shadows>
 #include "lighting/response.glsl"
 
 /// `direction` is the unit vector from the surface to the light, in eye space.
@@ -19,6 +20,10 @@ BLOCK(4, DirectionalLights) {
 /// Adds every directional light to the surface's response.
 void addDirectionalLights() {
     for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i) {
-        addLight(directionalLights.lights[i].direction, directionalLights.lights[i].color);
+        vec3 color = directionalLights.lights[i].color;
+#if DIRECTIONAL_SHADOWS > 0
+        if (i < DIRECTIONAL_SHADOWS) color *= directionalVisibility(i);
+#endif
+        addLight(directionalLights.lights[i].direction, color);
     }
 }

@@ -4,6 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights.
 // Space:  eye. Ranges: positions within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
 // Edges:  a light at the surface's own position gives no light (H-L1).
+#include <point_shadows>
 #include "guards/polar.glsl"
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
@@ -25,6 +26,10 @@ void addPointLights() {
     for (int i = 0; i < POINT_LIGHTS; ++i) {
         PointLight light = pointLights.lights[i];
         vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
-        addLight(ray.xyz, light.color * attenuation(light.attenuation, ray.w));
+        float share = attenuation(light.attenuation, ray.w);
+#if POINT_SHADOWS > 0
+        if (i < POINT_SHADOWS) share *= pointVisibility(i);
+#endif
+        addLight(ray.xyz, light.color * share);
     }
 }

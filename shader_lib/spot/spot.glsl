@@ -4,6 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Spotlights; glTF 2.0 KHR_lights_punctual.
 // Space:  eye. Ranges: as point lights and coneFactor(); axis unit.
 // Edges:  as point lights and coneFactor().
+#include <spot_shadows>
 #include "guards/polar.glsl"
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
@@ -33,6 +34,10 @@ void addSpotLights() {
         SpotLight light = spotLights.lights[i];
         vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
         float cone = coneFactor(light.axis, -ray.xyz, light.innerVersine, light.outerVersine, light.exponent);
-        addLight(ray.xyz, light.color * (cone * attenuation(light.attenuation, ray.w)));
+        float share = cone * attenuation(light.attenuation, ray.w);
+#if SPOT_SHADOWS > 0
+        if (i < SPOT_SHADOWS) share *= spotVisibility(i);
+#endif
+        addLight(ray.xyz, light.color * share);
     }
 }

@@ -70,13 +70,59 @@ class Parser {
     Expression compare() {
         Expression expression;
         expression.kind = Expression::Kind::compare;
-        do {
-            expression.features.push_back(feature());
-        } while (!error_ && accepts("+"));
+        expression.features = sum();
         expression.comparison = comparison();
         if (!error_) check_kinds(expression);
+        if (!error_ && is_count(expression.features.front()) && next_is_count()) {
+            return compare_sums(expression, sum());
+        }
         if (!error_) expression.value = value(expression);
         return expression;
+    }
+
+    /// Features joined by "+".
+    std::vector<int> sum() {
+        std::vector<int> features;
+        do {
+            features.push_back(feature());
+        } while (!error_ && accepts("+"));
+        return features;
+    }
+
+    [[nodiscard]] bool is_count(int feature) const {
+        return features_[static_cast<std::size_t>(feature)].kind == FeatureKind::count;
+    }
+
+    /// Whether a count's name follows, which is left to be read.
+    bool next_is_count() {
+        skip_blanks();
+        std::size_t end = at_;
+        while (end < text_.size() && is_identifier_part(text_[end])) ++end;
+        const std::string_view name = text_.substr(at_, end - at_);
+        return std::any_of(features_.begin(), features_.end(),
+                           [&](const Feature& f) { return f.kind == FeatureKind::count && f.name == name; });
+    }
+
+    /// `left op right` as what it is for each value of the right sum: right == v && left op v, for some v.
+    Expression compare_sums(Expression left, std::vector<int> right) {
+        Expression equals;
+        equals.kind = Expression::Kind::compare;
+        equals.features = std::move(right);
+        if (!error_) check_kinds(equals);
+        Expression any;
+        any.kind = Expression::Kind::disjunction;
+        int largest = 0;
+        for (const int index : equals.features)
+            largest += static_cast<int>(features_[static_cast<std::size_t>(index)].values.size()) - 1;
+        for (int value = 0; value <= largest; ++value) {
+            equals.value = left.value = value;
+            Expression both;
+            both.kind = Expression::Kind::conjunction;
+            both.parts = {std::make_shared<const Expression>(equals),
+                          std::make_shared<const Expression>(left)};
+            any.parts.push_back(std::make_shared<const Expression>(std::move(both)));
+        }
+        return any;
     }
 
     int feature() {

@@ -15,10 +15,10 @@ struct Feature;
 /// A condition over a key. Immutable; copies share their parts.
 ///
 /// Grammar: or  := and ("||" and)*        and := not ("&&" not)*
-///          not := "!" not | "(" or ")" | sum op value
+///          not := "!" not | "(" or ")" | sum op (value | sum)
 ///          sum := feature ("+" feature)*     (more than one only for counts)
 ///          op  := "==" | "!=" | "<" | "<=" | ">" | ">="
-/// Choices and defines compare with == and != only; a count compares with a whole number.
+/// Choices and defines compare with == and != only; counts compare with a whole number or with other counts.
 struct Expression {
     enum class Kind { constant, compare, conjunction, disjunction, negation };
     enum class Comparison { equal, not_equal, less, less_equal, greater, greater_equal };
