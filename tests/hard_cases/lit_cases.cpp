@@ -44,6 +44,16 @@ Inputs fog_from_to(double near, double far) {
     return {{"Fog.near", {near}}, {"Fog.far", {far}}};
 }
 
+const std::vector<std::string> kShadowFeatures = {
+    "directional",         "point",         "spot",         "shading",
+    "directional_shadows", "point_shadows", "spot_shadows", "shadow_filter"};
+
+/// The point as a shadow map has it, before the division; everything on the map is nearer to the light.
+Inputs dark_map_at(double x, double y, double depth, double w) {
+    return {{"shadowMaps", {0}},
+            {"Shadows.shadows[].toMap", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, x, y, depth, w}}};
+}
+
 /// Light at a cosine k / 4 to the normal, moved by so many roundings.
 Inputs band_edge(int k, int ulps) {
     const double cosine = k / 4.0 + ulps * 0x1p-24;
@@ -164,6 +174,35 @@ const std::vector<Case> kCases = {
      "spot > 0",
      {with(cone(kTinyVersine), off_axis(kTiny * 1.003))},
      same_as(kNoLight)},
+    {"H_W1_behind_the_light",
+     "directional_shadows + spot_shadows > 0",
+     {dark_map_at(-0.5, -0.5, -0.5, -1), dark_map_at(-5e5, -5e5, -5e5, -1e6), dark_map_at(0, 0, 0, 0),
+      dark_map_at(0.5, 0.5, 0.5, 0)},
+     same_as({{"shadowMaps", {1}}}),
+     kShadowFeatures},
+    {"H_W1_beside_the_map",
+     "directional_shadows + spot_shadows > 0",
+     {dark_map_at(1.001, 0.5, 0.5, 1), dark_map_at(0.5, -0.001, 0.5, 1), dark_map_at(0.5, 0.5, 1.001, 1),
+      dark_map_at(0.5, 0.5, -0.001, 1), dark_map_at(1e6, 1e6, 1e6, 1e-6)},
+     same_as({{"shadowMaps", {1}}}),
+     kShadowFeatures},
+    {"H_W1_point_at_the_light",
+     "point_shadows > 0",
+     {dark_map_at(0, 0, 0, 1)},
+     same_as({{"shadowMaps", {1}}}),
+     kShadowFeatures},
+    {"S15_in_the_shadow",
+     "directional_shadows + spot_shadows > 0",
+     {dark_map_at(0.5, 0.5, 0.5, 1), dark_map_at(0, 0, 1, 1), dark_map_at(1, 1, 1e-6, 1),
+      dark_map_at(1e-30, 2e-30, 2e-30, 2e-30)},
+     same_as(kNoLight),
+     kShadowFeatures},
+    {"S15_in_the_shadow_of_a_cube",
+     "point_shadows > 0",
+     {dark_map_at(1, 0, 0, 1), dark_map_at(-1, 1, 1, 1), dark_map_at(0, 1, 0.5, 1),
+      dark_map_at(0, -1e6, 0, 1), dark_map_at(0.5, 0, 1, 1), dark_map_at(0, 0, -1e-6, 1)},
+     same_as(kNoLight),
+     kShadowFeatures},
     {"H_F1_step_beyond", "fog == linear", {fog_from_to(6, 6)}, same_as(fog_from_to(5e5, 1e6))},
     {"H_F1_step_before", "fog == linear", {fog_from_to(4, 4), fog_from_to(5, 5)}, is_color(kFogColor)},
     {"H_F2_very_far",

@@ -62,6 +62,8 @@ const std::vector<Guard> kGuards = {
     {"power_zero_exponent", "power/exact.glsl", "exponent > 0.0 ? 0.0 : 1.0", "0.0", "H_S1_shininess_zero"},
     {"toon_top_band", "diffuse/toon.glsl", "min(floor(levels * cosine), levels - 1.0)",
      "floor(levels * cosine)", "H_T1_cosine_of_one"},
+    {"shadow_beside", "shadow/visibility.glsl", "isBeside || w == 0.0", "w == 0.0", "H_W1_behind_the_light"},
+    {"shadow_zero", "shadow/visibility.glsl", "isBeside || w == 0.0", "isBeside", "H_W1_behind_the_light"},
     {"fog_step", "fog/linear.glsl", "if (depth == 0.0)", "if (false)", "H_F1_step_beyond"},
     {"fog_square", "fog/exponential_squared.glsl", "min(fog.density * fogDistance(), 16.0)",
      "fog.density * fogDistance()", "H_F2_very_far"},

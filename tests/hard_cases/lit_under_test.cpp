@@ -6,6 +6,7 @@
 #include "common/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
+#include "evaluate/images.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
@@ -48,6 +49,14 @@ const Inputs& ordinary_inputs() {
         {"Fog.near", {1}},
         {"Fog.far", {9}},
         {"DepthOffset.offset", {0.125}},
+        // Every point is looked up in the middle of a directional or spot light's map, and on a point light's
+        // +x.
+        {"Shadows.shadows[].toMap", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 0.5, 0.5, 1}},
+        {"Shadows.shadows[].layer", {0}},
+        {"Shadows.shadows[].depthScale", {0.5}},
+        {"Shadows.shadows[].depthShift", {0}},
+        {"Shadows.shadows[].spread", {0.5}},
+        {"shadowMaps", {1}},
     };
     return inputs;
 }
@@ -74,6 +83,12 @@ evaluate::Invocations invocation(const evaluate::Program& program, const Inputs&
             for (const Inputs* source : {&ordinary_inputs(), &handed_on, &inputs})
                 if (const auto found = source->find(without_number(port.name)); found != source->end())
                     invocations.values[port.name] = as_floats(found->second);
+    for (const evaluate::ImagePort& image : program.images)
+        for (const Inputs* source : {&ordinary_inputs(), &inputs})
+            if (const auto found = source->find(image.name); found != source->end())
+                invocations.images[image.name] = [depth = found->second.front()](const auto& request) {
+                    return evaluate::answer({depth, depth, depth, depth}, request);
+                };
     return invocations;
 }
 

@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include "common/text.hpp"
+#include "evaluate/images.hpp"
 #include "evaluate/module.hpp"
 
 namespace gobo::evaluate {
@@ -140,7 +141,7 @@ void match_samplers(const EvalInputs& inputs, const Program& program, Invocation
             diagnostics.push_back(fault(value, fmt::format("'{}' takes one to four numbers", name)));
         std::array<double, 4> texel{};
         std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
-        invocations.images[name] = [texel](const ImageRequest&) { return texel; };
+        invocations.images[name] = [texel](const ImageRequest& request) { return answer(texel, request); };
     }
 }
 

@@ -24,8 +24,7 @@ struct EvalInputs {
     std::string stage = "fragment";             ///< or "vertex"
     std::map<std::string, EvalValue> inputs;    ///< [inputs]
     std::map<std::string, EvalValue> uniforms;  ///< [uniforms]
-    std::map<std::string, EvalValue>
-        samplers;  ///< [samplers]: the colour that every texture function answers
+    std::map<std::string, EvalValue> samplers;  ///< [samplers]: the one colour, or depth, of each texture
 };
 
 /// Reads

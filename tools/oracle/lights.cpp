@@ -68,7 +68,7 @@ std::vector<Arrival> arrivals(const Scene& scene, const glm::dvec3& position, De
     std::vector<Arrival> result;
     result.reserve(scene.directional.size() + scene.point.size() + scene.spot.size());
     for (const DirectionalLight& light : scene.directional)
-        result.push_back({light.direction, light.color, light.color, 0, 0, nullptr});
+        result.push_back({light.direction, light.color, light.color, 0, 0, nullptr, false, 0, 0});
     for (const PointLight& light : scene.point) result.push_back(arrival_of(light, position));
     for (const SpotLight& light : scene.spot) result.push_back(arrival_of(light, position, decisions));
     return result;

@@ -29,6 +29,9 @@ struct Arrival {
     double distance = 0;     ///< 0 for a directional light
     double cone_angle = 0;   ///< between the ray and a spot light's axis
     const SpotLight* spot = nullptr;
+    bool is_shadowed = false;        ///< a shadow map was asked
+    double shadow_per_rounding = 0;  ///< as of Visibility
+    double shadow_per_length = 0;
 };
 
 /// All lights at a point: directional, point, spot, each in the scene's order.

@@ -33,6 +33,12 @@ const std::map<std::string, Setter>& setters() {
         {"directional", count(&Model::directional)},
         {"point", count(&Model::point)},
         {"spot", count(&Model::spot)},
+        {"directional_shadows", count(&Model::directional_shadows)},
+        {"point_shadows", count(&Model::point_shadows)},
+        {"spot_shadows", count(&Model::spot_shadows)},
+        {"shadow_filter", choice<ShadowFilter>(&Model::shadow_filter, {{"bilinear", ShadowFilter::bilinear},
+                                                                       {"sampler", ShadowFilter::sampler},
+                                                                       {"nearest", ShadowFilter::nearest}})},
         {"diffuse",
          choice<Diffuse>(&Model::diffuse, {{"lambert", Diffuse::lambert}, {"toon", Diffuse::toon}})},
         {"specular", choice<Specular>(

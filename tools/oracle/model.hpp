@@ -14,6 +14,7 @@ enum class Specular { none, phong, blinn };
 enum class Fog { none, linear, exponential, exponential_squared };
 enum class FogDistance { radial, planar };
 enum class Shading { fragment, vertex };
+enum class ShadowFilter { bilinear, sampler, nearest };
 enum class Depth { untouched, any, greater, less, unchanged };
 
 /// One model: everything about a key that the radiance and the depth depend on.
@@ -27,8 +28,13 @@ struct Model {
     FogDistance fog_distance = FogDistance::radial;
     Shading shading = Shading::fragment;
     Depth depth = Depth::untouched;
+    int directional_shadows = 0;  ///< the first so many lights of each kind
+    int point_shadows = 0;
+    int spot_shadows = 0;
+    ShadowFilter shadow_filter = ShadowFilter::bilinear;
 
     [[nodiscard]] int lights() const { return directional + point + spot; }
+    [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 
 /// The model of a key; otherwise the reason why the oracle has none: another family, or a feature or value

@@ -4,6 +4,8 @@
 
 #include <glm/common.hpp>
 
+#include "oracle/shadow.hpp"
+
 namespace gobo::oracle {
 
 Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
@@ -15,7 +17,9 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     Radiance radiance;
     radiance.value = material.emission + material.ambient * scene.ambient;
     radiance.largest = radiance.value;
-    for (const Arrival& arrival : arrivals(scene, point.position, decisions)) {
+    std::vector<Arrival> lights = arrivals(scene, point.position, decisions);
+    cast_shadows(model, scene, point.position, lights, decisions);
+    for (const Arrival& arrival : lights) {
         const LightTerm term = respond(model, scene, normal, to_viewer, arrival, decisions);
         radiance.value += (material.diffuse * term.diffuse + highlight * term.specular) * arrival.radiance;
         radiance.largest += material.diffuse * arrival.unshaped;

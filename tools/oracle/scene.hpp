@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 namespace gobo::oracle {
@@ -45,6 +46,26 @@ struct SpotLight : PointLight {
     double outer_versine = 2;  ///< none from here on; 2 is all directions
 };
 
+/// How a shadowed light's maps are looked up. Of directional and spot lights `to_map` leads from eye space to
+/// x, y and depth from 0 to 1, to be divided by w. Of a point light it leads to axes with the light at the
+/// origin; on the face of a cube, at w along its axis, the depth is depth_scale + depth_shift / w, and what
+/// lies s along a side appears at 1/2 + spread s / w.
+struct Shadow {
+    glm::dmat4 to_map{1};
+    double layer = 0;  ///< of a cube's face +x; -x +y -y +z -z follow
+    double depth_scale = 0;
+    double depth_shift = 0;
+    double spread = 0.5;
+};
+
+/// The depth of what is nearest to each light, layer after layer, row after row from y = 0.
+struct DepthMaps {
+    int width = 1;
+    int height = 1;
+    int layers = 1;
+    std::vector<double> depths = {1};
+};
+
 /// Distances along the view. Each kind of fog reads what it needs.
 struct FogParameters {
     glm::dvec3 color{0};
@@ -60,6 +81,8 @@ struct Scene {
     std::vector<DirectionalLight> directional;
     std::vector<PointLight> point;
     std::vector<SpotLight> spot;
+    std::vector<Shadow> shadows;  ///< of the first directional lights, then spot lights, then point lights
+    DepthMaps maps;
     int toon_levels = 1;
     FogParameters fog;
     double depth_offset = 0;  ///< in window depth

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "evaluate/images.hpp"
 #include "sanitize/input_range.hpp"
 #include "sanitize/random.hpp"
 
@@ -190,10 +191,7 @@ evaluate::Image one_colour_at_each_point(std::size_t count, std::uint64_t seed) 
     auto texels = std::make_shared<std::vector<Texel>>();
     for (std::size_t i = 0; i < count; ++i) texels->push_back(draw_texel(random));
     return [texels](const evaluate::ImageRequest& request) {
-        using What = evaluate::ImageRequest::What;
-        if (request.what == What::size) return Texel{4, 4, 4, 4};
-        if (request.what == What::levels) return Texel{3, 0, 0, 0};
-        return (*texels)[request.invocation];
+        return evaluate::answer((*texels)[request.invocation], request);
     };
 }
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "verify/shadow_feed.hpp"
+
 namespace gobo::verify {
 namespace {
 
@@ -163,7 +165,7 @@ std::optional<Field> field_of(const std::string& name) {
     if (const auto light = light_name(name, "DirectionalLights")) return directional_field(*light);
     if (const auto light = light_name(name, "PointLights")) return point_field(&oracle::Scene::point, *light);
     if (const auto light = light_name(name, "SpotLights")) return spot_field(*light);
-    return std::nullopt;
+    return shadow_field(name);
 }
 
 Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<const Sample> samples) {
@@ -173,10 +175,13 @@ Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<c
         for (const evaluate::Port& port : *ports)
             if (const Result<bool> fed = feed_port(port, samples, invocations); !fed)
                 return tl::unexpected(fed.error());
+    for (const evaluate::ImagePort& image : program.images)
+        if (image.name == "shadowMaps") invocations.images[image.name] = shadow_maps_of(samples);
     return invocations;
 }
 
 std::optional<Sample> sample_of(const evaluate::Program& program, const evaluate::Invocations& invocations) {
+    if (!program.images.empty()) return std::nullopt;  // what textures hold is not told
     Sample sample;
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports) {

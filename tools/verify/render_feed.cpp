@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "evaluate/images.hpp"
+
 namespace gobo::verify {
 namespace {
 
@@ -39,17 +41,8 @@ void add_plain_uniform(const evaluate::Program& program, const Assignment& assig
 
 /// What a texture of one colour answers: the comparison, its size, or the colour.
 evaluate::Image plain_image(const std::array<double, 4>& color, bool is_depth) {
-    return [color, is_depth](const evaluate::ImageRequest& request) -> std::array<double, 4> {
-        using What = evaluate::ImageRequest::What;
-        const double side = is_depth ? 1 : 64;
-        if (request.what == What::size) return {side, side, 1, 1};
-        if (request.what == What::levels) return {is_depth ? 1.0 : 7.0, 0, 0, 0};
-        if (request.compares) {
-            const double passes = request.reference <= color[0] ? 1 : 0;
-            return {passes, passes, passes, passes};
-        }
-        const double one = color[static_cast<std::size_t>(request.component)];
-        return request.what == What::gather ? std::array{one, one, one, one} : color;
+    return [color, is_depth](const evaluate::ImageRequest& request) {
+        return evaluate::answer(color, request, is_depth ? 1 : 64);
     };
 }
 

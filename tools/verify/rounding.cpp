@@ -61,6 +61,15 @@ double cone_error(const oracle::Arrival& arrival, double to_light_error) {
     return edge_error + power_error(u, light.exponent) + kU;
 }
 
+/// Error of a shadowed light's share. A product of a matrix and a position rounds each term at most four
+/// times, a cube's spread twice more, the division once, and the place among the texels twice; what lies
+/// before the place in the map is decided. The weights and the product with the light are ten roundings of at
+/// most 1.
+double shadow_error(const oracle::Arrival& arrival, double position_error) {
+    if (arrival.shadow_per_rounding == 0) return arrival.is_shadowed ? kU : 0;
+    return arrival.shadow_per_rounding * 9 * kU + arrival.shadow_per_length * position_error + 10 * kU;
+}
+
 /// What the light's arrival is known to.
 struct ArrivalErrors {
     double direction = 0;
@@ -71,12 +80,13 @@ struct ArrivalErrors {
 /// and the position's own error), the distance is good to as much, and 1 / (k_c + d (k_l + d k_q)) changes by
 /// at most twice as much, with seven roundings of positive terms.
 ArrivalErrors arrival_errors(const oracle::Arrival& arrival, double position_error) {
-    if (arrival.distance == 0) return {2 * kU, glm::dvec3(0)};
+    const glm::dvec3 shadow = arrival.unshaped * shadow_error(arrival, position_error);
+    if (arrival.distance == 0) return {2 * kU, shadow};
     const double ray = kU + position_error / arrival.distance;
     const double direction = ray + kDirectionError;
     const double fading = 2 * direction + 7 * kU;
     const double cone = arrival.spot != nullptr ? cone_error(arrival, direction) : 0;
-    return {direction, arrival.radiance * fading + arrival.unshaped * cone};
+    return {direction, arrival.radiance * fading + arrival.unshaped * cone + shadow};
 }
 
 /// The sum of the errors of the two directions between which the highlight's angle lies.

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "verify/random.hpp"
+#include "verify/shadow_sample.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -47,6 +48,7 @@ class SampleMaker {
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
+        add_shadows(model_, random_, sample);
     }
 
     void place_fragment(Sample& sample) {
@@ -212,6 +214,13 @@ void to_float(oracle::Scene& scene) {
     for (double* number : {&material.shininess, &material.strength, &scene.fog.density, &scene.fog.near,
                            &scene.fog.far, &scene.depth_offset})
         to_float(*number);
+    for (oracle::Shadow& shadow : scene.shadows) {
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row) to_float(shadow.to_map[column][row]);
+        for (double* number : {&shadow.layer, &shadow.depth_scale, &shadow.depth_shift, &shadow.spread})
+            to_float(*number);
+    }
+    for (double& depth : scene.maps.depths) to_float(depth);
     for (oracle::DirectionalLight& light : scene.directional) {
         to_float(light.direction);
         to_float(light.color);
