@@ -1,9 +1,21 @@
 # cmake -D OUTPUT=... -D ROOT=... -P gobo_embed.cmake: writes a C++ file that holds the text of every file below ROOT/shader_lib,
-# ROOT/templates and ROOT/data/meshes. Untouched where nothing changed, so that a touched file alone rebuilds nothing.
-file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/shader_lib/*" "${ROOT}/templates/*" "${ROOT}/data/meshes/*")
+# ROOT/templates, ROOT/data/meshes and ROOT/data/environments. Untouched where nothing changed, so that a touched file alone rebuilds nothing.
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/shader_lib/*" "${ROOT}/templates/*" "${ROOT}/data/meshes/*"
+  "${ROOT}/data/environments/*.exr")
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)
+  if(file MATCHES "\\.exr$")  # bytes, zeros among them
+    file(READ "${ROOT}/${file}" digits HEX)
+    string(LENGTH "${digits}" length)
+    math(EXPR size "${length} / 2")
+    string(REGEX REPLACE "(................................................................)" "\\1\n" lines "${digits}")
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" lines "${lines}")
+    string(REGEX REPLACE "([^\n]+)" "\n     \"\\1\"" literals "${lines}")
+    string(REPLACE "\n\n" "\n" literals "${literals}")
+    string(APPEND rows "    {\"${file}\", std::string(${literals}, ${size})},\n")
+    continue()
+  endif()
   file(READ "${ROOT}/${file}" text)
   # Compilers need not take literals above 64 KiB; adjacent ones are joined.
   set(literals "")

@@ -80,10 +80,25 @@ TEST_P(LitMatrix, EveryCombinationOfThreeIsValidAndDeclaresNothingInVain) {
 TEST_P(LitMatrix, TheMostLightsOfEachKindAreValid) {
     Selection selection;
     selection.all = true;
+    selection.over = {"directional", "point", "spot",         "diffuse", "specular",
+                      "fog",         "depth", "fog_distance", "shading"};
     selection.where = "directional == 8 && point == 8 && spot == 8";
     const Composition composition = compose_lit(selection, GetParam());
     EXPECT_GE(composition.permutations.size(), 2u * 4u * 7u)
         << "at least 2 shadings, 4 kinds of surface, 7 kinds of fog";
+    EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");
+}
+
+TEST_P(LitMatrix, TheMostShadowsOfEachKindAreValid) {
+    Selection selection;
+    selection.all = true;
+    selection.over = {"directional",         "point",         "spot",         "specular",     "shading",
+                      "directional_shadows", "point_shadows", "spot_shadows", "shadow_filter"};
+    selection.where =
+        "directional == 8 && point == 8 && spot == 8 && directional_shadows + point_shadows + spot_shadows "
+        "== 12";
+    const Composition composition = compose_lit(selection, GetParam());
+    EXPECT_EQ(composition.permutations.size() % 6, 0U) << "2 shadings, 3 filters";
     EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");
 }
 

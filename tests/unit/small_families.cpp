@@ -38,6 +38,11 @@ const std::vector<std::pair<std::string, std::string>>& small_families() {
          "[[rules]]\nforbid = \"s == y && a + b + c > 6\"\nreason = \"too many\"\n"
          "[[rules]]\nwhen = \"a + b == 0\"\ndefault = [\"s\"]\n"
          "[[rules]]\nforbid = \"!(a != 3 || b < 2) || a + a >= 8\"\nreason = \"odd\"\n"},
+        {"counts_with_counts",
+         "[features]\na = { count = [0, 3], constant = \"A\" }\nb = { count = [0, 4], constant = \"B\" }\n"
+         "c = { count = [0, 2], constant = \"C\" }\n"
+         "[[rules]]\nwhen = \"a == 0\"\ndefault = [\"b\"]\n"
+         "[[rules]]\nforbid = \"b > a || a + c == b + 1\"\nreason = \"more than there are\"\n"},
         {"dialects_and_retired",
          "[features]\na = { values = [\"x\", \"y\", \"z\"], retired = [\"z\"] }\nb = { define = \"B\" }\n"
          "[[rules]]\nforbid = \"a == y && b == on\"\nreason = \"no\"\ndialects = [\"330\"]\n"},
@@ -48,12 +53,14 @@ const std::vector<std::pair<std::string, std::string>>& small_families() {
     return families;
 }
 
-std::vector<Key> product_of(const Family& family) {
+std::vector<Key> product_of(const Family& family, const std::vector<int>& over) {
     std::vector<Key> keys = {{}};
-    for (const Feature& feature : family.features) {
+    for (std::size_t i = 0; i < family.features.size(); ++i) {
+        const bool varies = over.empty() || std::count(over.begin(), over.end(), static_cast<int>(i)) > 0;
+        const int values = varies ? static_cast<int>(family.features[i].values.size()) : 1;
         std::vector<Key> longer;
         for (const Key& key : keys) {
-            for (int value = 0; value < static_cast<int>(feature.values.size()); ++value) {
+            for (int value = 0; value < values; ++value) {
                 longer.push_back(key);
                 longer.back().push_back(value);
             }
@@ -66,7 +73,7 @@ std::vector<Key> product_of(const Family& family) {
 std::vector<Key> keys_by_trying(const Family& family, std::string_view dialect,
                                 const KeySpaceLimits& limits) {
     std::vector<Key> kept;
-    for (const Key& key : product_of(family)) {
+    for (const Key& key : product_of(family, limits.over)) {
         bool keep =
             canonical(family, key, dialect) == key && forbidding_rule(family, key, dialect) == nullptr;
         for (const Expression& where : limits.where) keep = keep && holds(where, key);

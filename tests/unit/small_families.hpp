@@ -22,7 +22,7 @@ namespace gobo {
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& small_families();
 
 /// All keys of the family's product of values, in lexicographic order.
-[[nodiscard]] std::vector<Key> product_of(const Family& family);
+[[nodiscard]] std::vector<Key> product_of(const Family& family, const std::vector<int>& over = {});
 
 /// The canonical valid keys by trying every one, without the decision diagram.
 [[nodiscard]] std::vector<Key> keys_by_trying(const Family& family, std::string_view dialect,

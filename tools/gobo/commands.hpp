@@ -12,6 +12,7 @@ namespace gobo {
 [[nodiscard]] Command reflect_command(CLI::App& gobo);
 [[nodiscard]] Command eval_command(CLI::App& gobo);
 [[nodiscard]] Command build_command(CLI::App& gobo);
+[[nodiscard]] Command probe_command(CLI::App& gobo);
 [[nodiscard]] Command render_command(CLI::App& gobo);
 [[nodiscard]] Command sanitize_command(CLI::App& gobo);
 [[nodiscard]] Command scene_command(CLI::App& gobo);

@@ -129,10 +129,10 @@ int run(const std::vector<std::string>& arguments) {
         "read or written, 4 a fault of gobo's own.\n\n"
         "Examples:\n  gobo list lit --all --where 'point <= 1' --count\n  gobo build lit --key 'fog=linear "
         "point=3' -o generated\n  gobo COMMAND --help");
-    const std::vector<Command> commands = {list_command(app),  show_command(app),     check_command(app),
-                                           build_command(app), reflect_command(app),  eval_command(app),
-                                           test_command(app),  sanitize_command(app), render_command(app),
-                                           scene_command(app), library_command(app)};
+    const std::vector<Command> commands = {list_command(app),   show_command(app),     check_command(app),
+                                           build_command(app),  reflect_command(app),  eval_command(app),
+                                           test_command(app),   sanitize_command(app), probe_command(app),
+                                           render_command(app), scene_command(app),    library_command(app)};
     if (const auto unknown = unknown_command(app, arguments)) {
         print(*unknown, color);
         return usage_status;

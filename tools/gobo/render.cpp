@@ -5,6 +5,7 @@
 
 #include "common/text.hpp"
 #include "gobo/commands.hpp"
+#include "gobo/depth_pass.hpp"
 #include "gobo/render_scene.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
@@ -81,8 +82,7 @@ Result<std::vector<Interface>> interfaces_of(const Family& family, const Composi
 
 /// Draws each key with the demonstration mesh.
 Result<RenderedSelection> render_keys(const RenderOptions& options, const World& world, LoadedFamily& family,
-                                      Dialect dialect, const Context& context,
-                                      const PictureOptions& pictures) {
+                                      Dialect dialect, const Context& context, PictureOptions pictures) {
     const auto mesh = read_mesh(world, options.mesh);
     if (!mesh) return tl::unexpected(mesh.error());
     SelectionOptions selection = options.selection;
@@ -91,6 +91,13 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     if (!composition) return tl::unexpected(composition.error());
     const auto interfaces = interfaces_of(family.family, *composition, options.common.jobs);
     if (!interfaces) return tl::unexpected(interfaces.error());
+    DepthPass depth_pass;
+    if (has_shadows(family.family, *composition)) {
+        auto loaded = load_depth_pass(world, options.common);
+        if (!loaded) return tl::unexpected(loaded.error());
+        depth_pass = std::move(*loaded);
+        pictures.depth_pass = &depth_pass;
+    }
     return render_selection(context, family.family, *composition, *interfaces, demo_objects(*mesh), pictures,
                             world.disk);
 }

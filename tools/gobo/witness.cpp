@@ -26,6 +26,7 @@ Result<verify::WitnessScene> make_scene(const World& world, const Family& family
     verify::WitnessScene scene;
     scene.objects = demo_objects(std::move(*teapot));
     scene.values = family.render;
+    scene.family = &family;
     scene.view.camera = demo_camera();
     scene.view.width = scene.view.height = kSide;
     return scene;

@@ -81,11 +81,11 @@ struct Scene {
     std::vector<DirectionalLight> directional;
     std::vector<PointLight> point;
     std::vector<SpotLight> spot;
-    std::vector<Shadow> shadows;  ///< of the first directional lights, then spot lights, then point lights
-    DepthMaps maps;
     int toon_levels = 1;
     FogParameters fog;
-    double depth_offset = 0;  ///< in window depth
+    double depth_offset = 0;        ///< in window depth
+    std::vector<Shadow> shadows{};  ///< of the first directional lights, then spot lights, then point lights
+    DepthMaps maps{};
 };
 
 }  // namespace gobo::oracle

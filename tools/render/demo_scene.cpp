@@ -33,8 +33,8 @@ glm::dmat4 placed(const Mesh& mesh) {
 std::vector<Object> demo_objects(Mesh mesh) {
     const glm::dmat4 model = placed(mesh);
     // Fine enough for light computed at the vertices to show its cones.
-    return {{std::move(mesh), model, {}},
-            {make_plane(12, 96), glm::translate(glm::dmat4(1), glm::dvec3(0, ground, 0)), {}}};
+    return {{std::move(mesh), model, {}, false, true},
+            {make_plane(12, 96), glm::translate(glm::dmat4(1), glm::dvec3(0, ground, 0)), {}, false, false}};
 }
 
 Camera demo_camera() {

@@ -169,9 +169,14 @@ Result<void> DrawList::add(const Interface& interface, const Object& object,
     return {};
 }
 
-void DrawList::add_textures(const Interface& interface, const std::vector<RenderValue>& values) {
+void DrawList::add_textures(const Interface& interface, const std::vector<RenderValue>& values,
+                            const GivenTextures& given) {
     const Bindings bindings = bindings_of(interface);
     for (const Sampler& sampler : interface.samplers) {
+        if (const auto found = given.find(sampler.name); found != given.end()) {
+            units_.push_back({static_cast<GLuint>(bindings.samplers.at(sampler.name)), found->second});
+            continue;
+        }
         const RenderValue* value = find_value(values, sampler.name);
         const std::string source = value != nullptr ? value->source : usual_texture(sampler.name);
         const auto texture = make_texture(resources_.context(), sampler.type, source,
@@ -226,7 +231,7 @@ void DrawList::draw() const {
 
 Result<DrawList> make_draw_list(const Context& context, const Program& program, const Interface& interface,
                                 const std::vector<Object>& objects, const std::vector<RenderValue>& values,
-                                const ViewedObject& view) {
+                                const ViewedObject& view, const GivenTextures& textures) {
     context.make_current();
     for (const Sampler& sampler : interface.samplers) {
         const RenderValue* value = find_value(values, sampler.name);
@@ -236,7 +241,7 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
             return unknown_source(*value, known);
     }
     DrawList list(context, program);
-    list.add_textures(interface, values);
+    list.add_textures(interface, values, textures);
     for (const Object& object : objects)
         if (const auto added = list.add(interface, object, values, view); !added)
             return tl::unexpected(added.error());

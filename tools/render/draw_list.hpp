@@ -2,6 +2,8 @@
 // timed.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "render/mesh.hpp"
@@ -16,10 +18,14 @@ struct Object {
     glm::dmat4 model{1};              ///< object to world space
     std::vector<RenderValue> values;  ///< uniforms and attributes that differ from those of other objects
     bool culls_back_faces = false;    ///< the model matrix may mirror: a front face stays one
+    bool casts_shadow = true;         ///< shadow maps are fitted to the objects that do
 
     /// Whether the model matrix turns counter-clockwise faces into clockwise ones.
     [[nodiscard]] bool is_mirrored() const;
 };
+
+/// Textures that are there already, by the name of their sampler; whoever made them deletes them.
+using GivenTextures = std::map<std::string, Texture>;
 
 /// Buffers, arrays and textures of OpenGL, deleted together.
 class GlResources {
@@ -53,7 +59,8 @@ class DrawList {
   private:
     friend Result<DrawList> make_draw_list(const Context& context, const Program& program,
                                            const Interface& interface, const std::vector<Object>& objects,
-                                           const std::vector<RenderValue>& values, const ViewedObject& view);
+                                           const std::vector<RenderValue>& values, const ViewedObject& view,
+                                           const GivenTextures& textures);
     /// An attribute that is the same for all vertices.
     struct Constant {
         GLuint location;
@@ -81,7 +88,8 @@ class DrawList {
                      ViewedObject view);
     Result<void> add_attributes(Item& item, const Interface& interface, const Object& object,
                                 const std::vector<RenderValue>& values);
-    void add_textures(const Interface& interface, const std::vector<RenderValue>& values);
+    void add_textures(const Interface& interface, const std::vector<RenderValue>& values,
+                      const GivenTextures& given);
     void warn(Diagnostic warning);
 
     GlResources resources_;
@@ -91,12 +99,12 @@ class DrawList {
     Diagnostics warnings_;
 };
 
-/// Uploads the objects. `values` are the family's, an object's own come after them; `view` is the camera's
-/// part (its model matrix is replaced by each object's). Errors as of resolve_uniforms(), and unknown
-/// attribute or texture sources.
+/// Uploads the objects. Samplers that `textures` names get those, others what `values` say. `values` are the
+/// family's, an object's own come after them; `view` is the camera's part (its model matrix is replaced by
+/// each object's). Errors as of resolve_uniforms(), and unknown attribute or texture sources.
 [[nodiscard]] Result<DrawList> make_draw_list(const Context& context, const Program& program,
                                               const Interface& interface, const std::vector<Object>& objects,
                                               const std::vector<RenderValue>& values,
-                                              const ViewedObject& view);
+                                              const ViewedObject& view, const GivenTextures& textures = {});
 
 }  // namespace gobo

@@ -6,7 +6,8 @@ namespace gobo {
 
 Result<Picture> render_permutation(const Context& context, const std::vector<StageText>& stages,
                                    const Interface& interface, const std::vector<Object>& objects,
-                                   const std::vector<RenderValue>& values, const View& view) {
+                                   const std::vector<RenderValue>& values, const View& view,
+                                   const GivenTextures& textures) {
     const auto framebuffer = make_framebuffer(context, view.width, view.height, view.depth);
     if (!framebuffer) return tl::unexpected(framebuffer.error());
     const auto program = link_program(context, stages);
@@ -16,7 +17,7 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     viewed.view = view.camera.view();
     viewed.projection = view.camera.projection(static_cast<double>(view.width) / view.height);
     viewed.viewport = {view.width, view.height};
-    const auto list = make_draw_list(context, *program, interface, objects, values, viewed);
+    const auto list = make_draw_list(context, *program, interface, objects, values, viewed, textures);
     if (!list) return tl::unexpected(list.error());
     framebuffer->bind();
     framebuffer->clear(view.background);

@@ -26,11 +26,12 @@ struct Picture {
 };
 
 /// Links the two stages, supplies their uniforms and attributes, draws the objects once and reads the result.
-/// `values` are those of the family's [render] table. Errors: of the driver, at the piece and its own line;
-/// of the values (see resolve_uniforms()); of the size.
+/// `values` are those of the family's [render] table; samplers that `textures` names get those. Errors: of
+/// the driver, at the piece and its own line; of the values (see resolve_uniforms()); of the size.
 [[nodiscard]] Result<Picture> render_permutation(const Context& context, const std::vector<StageText>& stages,
                                                  const Interface& interface,
                                                  const std::vector<Object>& objects,
-                                                 const std::vector<RenderValue>& values, const View& view);
+                                                 const std::vector<RenderValue>& values, const View& view,
+                                                 const GivenTextures& textures = {});
 
 }  // namespace gobo

@@ -1,11 +1,14 @@
 #include "render/render_selection.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 #define XXH_INLINE_ALL  // one hash is no reason to link a library
 #include <xxhash.h>
 
 #include "family/diagnostic_groups.hpp"
 #include "family/key.hpp"
+#include "render/lit_shadows.hpp"
 
 namespace gobo {
 namespace {
@@ -15,9 +18,19 @@ constexpr std::size_t longest_name = 200;
 /// Draws one permutation and writes its picture. The result are warnings.
 Result<Diagnostics> render_one(const Context& context, const std::vector<StageText>& stages,
                                const Interface& interface, const std::vector<Object>& objects,
-                               const std::vector<RenderValue>& values, const PictureOptions& options,
-                               FileSystem& files, const std::string& path) {
-    const auto picture = render_permutation(context, stages, interface, objects, values, options.view);
+                               std::vector<RenderValue> values, const std::vector<ShadowLight>& shadows,
+                               const PictureOptions& options, FileSystem& files, const std::string& path) {
+    GivenTextures textures;
+    std::optional<Result<ShadowMaps>> maps;
+    if (!shadows.empty() && options.depth_pass != nullptr) {
+        maps.emplace(
+            draw_shadow_maps(context, *options.depth_pass, shadows, objects, options.view.camera.view()));
+        if (!*maps) return tl::unexpected(maps->error());
+        textures["shadowMaps"] = (*maps)->texture();
+        values.insert(values.end(), (*maps)->values().begin(), (*maps)->values().end());
+    }
+    const auto picture =
+        render_permutation(context, stages, interface, objects, values, options.view, textures);
     if (!picture) return tl::unexpected(picture.error());
     if (const auto written = write_image(files, path, picture->color); !written)
         return tl::unexpected(written.error());
@@ -40,7 +53,8 @@ RenderedSelection render_selection(const Context& context, const Family& family,
         const auto warnings = render_one(
             context,
             {stage_text(composition, permutation.vertex), stage_text(composition, permutation.fragment)},
-            interfaces[i], objects, family.render, options, files, path);
+            interfaces[i], objects, family.render, shadow_lights(family, permutation.key), options, files,
+            path);
         if (warnings) rendered.files.push_back(path);
         for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
             groups.add(diagnostic, permutation.key);

@@ -9,6 +9,7 @@
 #include "compose/composition.hpp"
 #include "render/image_file.hpp"
 #include "render/render.hpp"
+#include "render/shadow_maps.hpp"
 
 namespace gobo {
 
@@ -17,6 +18,8 @@ struct PictureOptions {
     View view;
     ImageFormat format = ImageFormat::png;
     std::string folder;
+    const DepthPass* depth_pass =
+        nullptr;  ///< draws the maps of keys with shadows; without it there are none
 };
 
 /// The files written, in the order of the permutations, and what there was to say, once for all keys that

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "render/lit_shadows.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
 #include "verify/parallel.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 /// Depths this near to one another may be ordered either way: some twenty roundings of a depth near 1.
 constexpr double kDepthError = 2e-6;
+/// Of the maps that with_shadows() plans.
+constexpr int kShadowSide = 64;
+constexpr double kShadowDepth = 0.75;
 /// As far as inputs are moved to find what lies at a discontinuity, as for the oracle's edges.
 constexpr double kNudge = 1e-5;
 /// Each nudged evaluation decides a question at its edge at random: 16 miss an answer once in 65,536.
@@ -203,6 +207,18 @@ bool computes(const evaluate::Program& program, std::initializer_list<evaluate::
     return false;
 }
 
+/// The scene with what this key's shadows need: matrices as for the renderer's own maps, and in place of
+/// these one depth everywhere, half way through each map: some of the scene lies before it, some behind.
+WitnessScene with_shadows(WitnessScene scene, const Key& key) {
+    if (scene.family == nullptr) return scene;
+    const std::vector<ShadowLight> lights = shadow_lights(*scene.family, key);
+    if (lights.empty()) return scene;
+    const ShadowPlan plan = shadow_plan(lights, scene.objects, scene.view.camera.view(), kShadowSide);
+    scene.values.insert(scene.values.end(), plan.values.begin(), plan.values.end());
+    scene.values.push_back({"shadowMaps", "", {kShadowDepth}, {}});
+    return scene;
+}
+
 PictureReport without_picture(Diagnostics why) {
     PictureReport report;
     report.diagnostics = std::move(why);
@@ -262,7 +278,8 @@ std::vector<PictureReport> witness(const Context& context, const Composition& co
     std::vector<Interface> interfaces;
     for (const Permutation& permutation : permutations) {  // a context is used by one thread
         interfaces.push_back(interface_of(validated, permutation));
-        drawn.push_back(draw(context, composition, permutation, interfaces.back(), scene));
+        drawn.push_back(
+            draw(context, composition, permutation, interfaces.back(), with_shadows(scene, permutation.key)));
     }
     std::vector<PictureReport> reports(permutations.size());
     for_each_index(permutations.size(), jobs, [&](std::size_t i) {
@@ -271,7 +288,7 @@ std::vector<PictureReport> witness(const Context& context, const Composition& co
             drawn[i] ? compare_picture(*drawn[i],
                                        validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv,
                                        validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv,
-                                       interfaces[i], scene)
+                                       interfaces[i], with_shadows(scene, permutation.key))
                      : without_picture(drawn[i].error());
         reports[i].key = permutation.key;
     });

@@ -70,6 +70,7 @@ struct WitnessScene {
     std::vector<Object> objects;
     std::vector<RenderValue> values;  ///< the family's [render] table
     View view;
+    const Family* family = nullptr;  ///< of which the keys are; without it there are no shadows
 };
 
 /// Holds a picture drawn by the renderer against the evaluation of the same scene. A pixel that is out of its
