@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         // The published constants have six digits: 2e-6 of 4 pi. The midpoint rule over 128 rows adds 1e-4.
         Coefficients{"constant",
-                     environment(64, [](const glm::dvec3&) { return 2.0; }),
+                     environment(128, [](const glm::dvec3&) { return 2.0; }),
                      {2 * std::sqrt(4 * kPi), 0, 0, 0, 0, 0, 0, 0, 0},
                      1e-3},
         Coefficients{"half", kUpperHalf, {std::sqrt(kPi), std::sqrt(3 * kPi) / 2, 0, 0, 0, 0, 0, 0, 0}, 1e-3},
@@ -227,9 +227,10 @@ TEST(Probe, ShippedEnvironmentsKeepTheirEnergy) {
                 squares += weight * std::pow(irradiance(harmonics, n).g / kPi - green, 2);
                 area += weight;
             }
-        // 384 directions stand for all: 1 %. The nine coefficients are within a few per cent of the mean.
+        // 384 directions stand for all: 1 %. The nine coefficients come within 8 % of the mean in a
+        // studio, whose softboxes are small.
         EXPECT_NEAR(scattered.g / area, mean.g, 0.01 * mean.g);
-        EXPECT_LT(std::sqrt(squares / area), 0.06 * mean.g);
+        EXPECT_LT(std::sqrt(squares / area), 0.1 * mean.g);
     }
 }
 
@@ -237,6 +238,17 @@ TEST(Probe, IsTheSameForAnyNumberOfThreads) {
     const Lobe lobe(kLobe, 20);
     const auto around = [&](const glm::dvec3& direction) { return lobe.around(direction); };
     EXPECT_EQ(make_cube_map(8, 1, around), make_cube_map(8, 3, around));
+}
+
+TEST(Probe, TakesNegativeRadiancesAsNone) {
+    Image image(8, 4, 3);
+    image.at(2, 1, 0) = -0.25F;
+    image.at(3, 1, 2) = -0.5F;
+    const auto environment = environment_of(image, "map.exr");
+    ASSERT_TRUE(environment);
+    EXPECT_EQ(environment->at(2, 1), glm::dvec3(0));
+    EXPECT_EQ(environment->negatives, 2);
+    EXPECT_EQ(environment->most_negative, -0.5);
 }
 
 struct BadMap {
@@ -282,21 +294,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadMap{"not_a_number", with_texel(std::numeric_limits<float>::quiet_NaN()),
                "map.exr: error: the texel in column 5, row 2 (from the upper left, counted from 0) has the "
                "radiance nan "
-               "in channel G\n  remedy: radiance is finite and not negative: mend the map, or clamp it where "
+               "in channel G\n  remedy: radiance is finite: mend the map, or clamp it where "
                "it was "
                "exported\n"},
         BadMap{"infinite", with_texel(std::numeric_limits<float>::infinity()),
                "map.exr: error: the texel in column 5, row 2 (from the upper left, counted from 0) has the "
                "radiance inf "
-               "in channel G\n  remedy: radiance is finite and not negative: mend the map, or clamp it where "
+               "in channel G\n  remedy: radiance is finite: mend the map, or clamp it where "
                "it was "
-               "exported\n"},
-        BadMap{"negative", with_texel(-0.5F),
-               "map.exr: error: the texel in column 5, row 2 (from the upper left, counted from 0) has the "
-               "radiance "
-               "-0.5 in channel G\n  remedy: radiance is finite and not negative: mend the map, or clamp it "
-               "where it "
-               "was exported\n"}),
+               "exported\n"}),
     [](const auto& row) { return row.param.name; });
 
 }  // namespace

@@ -59,6 +59,14 @@ Outcome run(const ProbeOptions& options, const World& world) {
     };
     add_cube("diffuse.exr", 1, options.diffuse_size);
     add_cube("specular.exr", options.shininess, options.specular_size);
+    if (environment->negatives > 0) {
+        Diagnostic note;
+        note.severity = Severity::note;
+        note.place.file = options.map;
+        note.message = fmt::format("{} negative radiances, down to {:.3g}, are taken as 0",
+                                   environment->negatives, environment->most_negative);
+        outcome.diagnostics.push_back(std::move(note));
+    }
     const std::string csv = probe::to_csv(probe::project(*environment), stem_of(options.map));
     add("harmonics.csv", world.disk.write(options.folder + "/harmonics.csv", csv));
     outcome.summary = fmt::format("{} x {} texels: diffuse {} and specular (shininess {}) {} texels a side",

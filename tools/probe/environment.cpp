@@ -1,5 +1,6 @@
 #include "probe/environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +20,15 @@ tl::unexpected<Diagnostics> fault(const std::string& path, std::string message, 
 /// The latitude of the border above a row, in radians.
 double latitude(const Environment& environment, double row) {
     return std::numbers::pi * (0.5 - row / environment.height);
+}
+
+tl::unexpected<Diagnostics> no_number(const std::string& path, int column, int row, int channel,
+                                      double value) {
+    return fault(path,
+                 fmt::format("the texel in column {}, row {} (from the upper left, counted from 0) has the "
+                             "radiance {} in channel {}",
+                             column, row, value, "RGB"[channel]),
+                 "radiance is finite: mend the map, or clamp it where it was exported");
 }
 
 }  // namespace
@@ -53,14 +63,11 @@ Result<Environment> environment_of(const Image& image, const std::string& path) 
             glm::dvec3 texel(0);
             for (int channel = 0; channel < 3; ++channel) {
                 const double value = image.at(column, row, channel);
-                texel[channel] = value;
-                if (std::isfinite(value) && value >= 0) continue;
-                return fault(
-                    path,
-                    fmt::format("the texel in column {}, row {} (from the upper left, counted from 0) has "
-                                "the radiance {} in channel {}",
-                                column, row, value, "RGB"[channel]),
-                    "radiance is finite and not negative: mend the map, or clamp it where it was exported");
+                if (!std::isfinite(value)) return no_number(path, column, row, channel, value);
+                texel[channel] = std::max(value, 0.0);
+                if (value >= 0) continue;
+                ++environment.negatives;
+                environment.most_negative = std::min(environment.most_negative, value);
             }
             environment.texels.push_back(texel);
         }

@@ -17,6 +17,8 @@ struct Environment {
     int width = 0;
     int height = 0;
     std::vector<glm::dvec3> texels;  ///< rows from the top
+    int negatives = 0;               ///< channels of texels that were negative in the picture, and are 0
+    double most_negative = 0;        ///< the least of them
 
     [[nodiscard]] const glm::dvec3& at(int column, int row) const {
         return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -32,7 +34,8 @@ struct Environment {
 [[nodiscard]] double solid_angle(const Environment& environment, int row);
 
 /// A picture with at least three channels as an environment. Errors, at `path`: another shape than 2 : 1,
-/// less than 4 x 2 texels, texels that are no numbers, infinite or negative, with the first one's place.
+/// less than 4 x 2 texels, texels that are no numbers or infinite (negative ones, which lossy compression
+/// leaves in dark places, count as 0), with the first one's place.
 [[nodiscard]] Result<Environment> environment_of(const Image& image, const std::string& path);
 
 /// The same environment with half as many texels each way, each the mean of four weighted by solid angle.
