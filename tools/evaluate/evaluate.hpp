@@ -79,6 +79,8 @@ enum class Errors {
 struct Options {
     bool flush_denormals = false;  ///< fp32 only: denormal operands and results are taken as 0
     Errors errors = Errors::none;
+    /// fp64 only: of each operation, the one invocation in which its results are rounded to floats, or -1.
+    const std::vector<std::int64_t>* rounded_in = nullptr;
     bool count = false;  ///< fill Outputs::counts
     /// A loop whose head is passed more often than this, by any of the kLanes invocations that run together,
     /// is an error.

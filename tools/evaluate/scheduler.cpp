@@ -34,7 +34,7 @@ std::optional<Diagnostic> Scheduler<T>::run() {
                 program_.places[block.place],
                 fmt::format("the loop is not left after {} iterations", options_.iteration_limit));
         if (!lane_visits_.empty()) count_visit(current_);
-        if (observer_ == nullptr)
+        if (observer_ == nullptr && options_.rounded_in == nullptr)
             run_quickly(block);
         else
             run_observed(block);
@@ -65,13 +65,28 @@ void Scheduler<T>::run_observed(const Block& block) {
     for (std::uint32_t at = block.first; at < block.first + block.count; ++at) {
         const Operation& operation = program_.operations[at];
         const Step<T> step{program_, at, lanes, machine_.first_invocation, machine_.reals(0)};
-        const bool is_shown = lanes != 0 && !step.name().empty();
+        const bool is_shown = observer_ != nullptr && lanes != 0 && !step.name().empty();
         if (is_shown) {
             observer_->before(step);
             observe_indices(step, operation, lanes);
         }
         execute(operation);
+        if (options_.rounded_in != nullptr) round_result(at);
         if (is_shown) observer_->after(step);
+    }
+}
+
+/// Where the operation's result is to be a float's, makes it one.
+template <class T>
+void Scheduler<T>::round_result(std::uint32_t operation) {
+    const std::int64_t lane =
+        (*options_.rounded_in)[operation] - static_cast<std::int64_t>(machine_.first_invocation);
+    const Slice& result = program_.infos[operation].result;
+    if (lane < 0 || lane >= static_cast<std::int64_t>(kLanes) || result.scalar != Scalar::real) return;
+    if (!machine_.is_active(static_cast<std::size_t>(lane))) return;
+    for (std::uint32_t component = 0; component < result.count; ++component) {
+        T& cell = machine_.reals(result.slot + component)[lane];
+        cell = static_cast<T>(static_cast<float>(cell));
     }
 }
 

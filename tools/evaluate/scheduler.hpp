@@ -28,6 +28,7 @@ class Scheduler {
     void run_quickly(const Block& block);
     void execute(const Operation& operation);
     void run_observed(const Block& block);
+    void round_result(std::uint32_t operation);
     void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes);
     void count_visit(std::uint32_t block);
     void run_copies(const Edge& edge);

@@ -8,6 +8,7 @@
 
 #include "common/text.hpp"
 #include "family/key.hpp"
+#include "family/read_domains.hpp"
 #include "family/read_features.hpp"
 #include "family/toml_reader.hpp"
 
@@ -85,37 +86,6 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) 
                      [](const Varying& a, const Varying& b) { return a.location < b.location; });
     refuse_shared_locations(reader, varyings);
     return varyings;
-}
-
-Domain read_domain(TomlReader& reader, std::string name, const toml::node& node) {
-    Domain domain;
-    domain.name = std::move(name);
-    domain.place = reader.place_of(node);
-    std::vector<double> range;
-    if (const toml::table* table = node.as_table()) {
-        reader.only(*table, fmt::format("the domain of '{}'", domain.name), {"range", "length", "also"});
-        domain.of_length = table->contains("length");
-        range = reader.numbers(*table, domain.of_length ? "length" : "range");
-        domain.also = reader.numbers(*table, "also");
-    } else {
-        range = reader.numbers_of(node, domain.name);
-    }
-    if (range.size() != 2 || range[0] > range[1]) {
-        reader.error(node, fmt::format("the domain of '{}' is no range", domain.name), "write [low, high]");
-        return domain;
-    }
-    domain.low = range[0];
-    domain.high = range[1];
-    return domain;
-}
-
-std::vector<Domain> read_domains(TomlReader& reader, const toml::table& root) {
-    std::vector<Domain> domains;
-    const toml::table* table = reader.table(root, "domain");
-    if (table == nullptr) return domains;
-    for (const auto& [key, node] : *table)
-        domains.push_back(read_domain(reader, std::string(key.str()), node));
-    return domains;
 }
 
 std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root) {

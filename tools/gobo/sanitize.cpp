@@ -9,7 +9,9 @@
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
 #include "family/key.hpp"
+#include "family/read_domains.hpp"
 #include "gobo/commands.hpp"
+#include "sanitize/precision_report.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -21,8 +23,13 @@ struct SanitizeCommandOptions {
     std::vector<std::string> names;  ///< FAMILY, or files
     std::string folder = "failed_points";
     std::size_t points = 2048;
+    std::size_t total = 0;
     std::uint64_t seed = 1;
+    std::size_t guided = 0;
     double minutes = 0;
+    std::string inputs;  ///< a file of domains
+    bool rounding = false;
+    bool json = false;
     std::vector<std::string> machines = {"ieee", "flushed"};
 };
 
@@ -103,9 +110,9 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
     return diagnostics;
 }
 
-std::string counts_text(const Subject& subject, const sanitize::SanitizeReport& found) {
-    return fmt::format("{} permutations, {} stages, {} points, {} findings\n",
-                       subject.composition.permutations.size(), found.stages, found.points,
+std::string counts_text(const Subject& subject, std::size_t machines, const sanitize::SanitizeReport& found) {
+    return fmt::format("{} permutations, {} stages, {} points on {} machines, {} findings\n",
+                       subject.composition.permutations.size(), found.stages, found.points, machines,
                        found.findings.size());
 }
 
@@ -117,21 +124,55 @@ std::vector<sanitize::Machine> machines_of(const SanitizeCommandOptions& options
     return machines;
 }
 
+/// Domains of the file named with --inputs.
+Result<std::vector<Domain>> narrower_domains(const SanitizeCommandOptions& options, const World& world) {
+    if (options.inputs.empty()) return std::vector<Domain>{};
+    const Result<std::string> text = read_input(world, options.inputs);
+    if (!text) return tl::unexpected(text.error());
+    return read_domain_file(*text, options.inputs);
+}
+
+/// They stand ahead of the family's own.
+void put_first(const std::vector<Domain>& domains, Family& family) {
+    family.domains.insert(family.domains.begin(), domains.begin(), domains.end());
+}
+
+sanitize::SanitizeOptions options_of(const SanitizeCommandOptions& options) {
+    sanitize::SanitizeOptions result;
+    result.jobs = options.common.jobs;
+    result.points = options.points;
+    result.total = options.total;
+    result.seed = options.seed;
+    result.guided = options.guided;
+    result.minutes = options.minutes;
+    result.machines = machines_of(options);
+    return result;
+}
+
+Outcome report_rounding(const SanitizeCommandOptions& options, const Subject& subject,
+                        const Validated& validated) {
+    const auto stages =
+        sanitize::measure_precision(subject.family, subject.composition, validated, options_of(options));
+    if (!stages) return failed(stages.error());
+    return {options.json ? sanitize::precision_json(*stages) : sanitize::precision_text(*stages), {}, {}};
+}
+
 Outcome run(const SanitizeCommandOptions& options, const World& world) {
-    const Result<Subject> subject = subject_of(options, world);
+    Result<Subject> subject = subject_of(options, world);
     if (!subject) return failed(subject.error());
+    const Result<std::vector<Domain>> narrower = narrower_domains(options, world);
+    if (!narrower) return failed(narrower.error());
+    put_first(*narrower, subject->family);
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.keep_spirv = true;
     validate_options.debug_information = true;
     Validated validated = validate(subject->family, subject->composition, validate_options);
     if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
-    sanitize::SanitizeOptions sanitize_options;
-    sanitize_options.jobs = options.common.jobs;
-    sanitize_options.points = options.points;
-    sanitize_options.seed = options.seed;
-    sanitize_options.minutes = options.minutes;
-    sanitize_options.machines = machines_of(options);
+    if (Diagnostics errors = sanitize::domains_of_nothing(*narrower, validated); !errors.empty())
+        return failed(std::move(errors));
+    if (options.rounding) return report_rounding(options, *subject, validated);
+    const sanitize::SanitizeOptions sanitize_options = options_of(options);
     const sanitize::SanitizeReport found =
         sanitize::sanitize(subject->family, subject->composition, validated, sanitize_options);
     Diagnostics diagnostics = found.diagnostics;
@@ -139,7 +180,7 @@ Outcome run(const SanitizeCommandOptions& options, const World& world) {
         const Diagnostics more = report(world, options, *subject, found.findings[i], i + 1);
         diagnostics.insert(diagnostics.end(), more.begin(), more.end());
     }
-    return {counts_text(*subject, found), std::move(diagnostics), {}};
+    return {counts_text(*subject, sanitize_options.machines.size(), found), std::move(diagnostics), {}};
 }
 
 }  // namespace
@@ -154,8 +195,12 @@ Command sanitize_command(CLI::App& gobo) {
         ->type_name("FAMILY|FILES...");
     add_selection_options(*app, options->selection);
     app->add_option("--points", options->points, "Hard inputs of each distinct stage")->capture_default_str();
+    app->add_option("--total", options->total, "Instead, at least so many over all stages");
     app->add_option("--seed", options->seed, "Another seed tries other inputs")->capture_default_str();
-    app->add_option("--minutes", options->minutes, "Go on with fresh inputs until so long has passed")
+    app->add_option("--guided", options->guided,
+                    "Then so many inputs made of those that reached a new branch or came nearest to a trap")
+        ->capture_default_str();
+    app->add_option("--minutes", options->minutes, "Go on with such inputs until so long has passed")
         ->check(CLI::NonNegativeNumber);
     app->add_option("--machine", options->machines,
                     "What to run on: ieee, flushed (denormals are 0), errors_up, errors_down (pow, exp, log, "
@@ -164,6 +209,13 @@ Command sanitize_command(CLI::App& gobo) {
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"ieee", "flushed", "errors_up", "errors_down"}))
         ->default_str("ieee and flushed");
+    app->add_option(
+           "--inputs", options->inputs,
+           "A file whose [domain] says what inputs and uniforms hold, beside the family's or instead")
+        ->type_name("FILE");
+    app->add_flag("--rounding", options->rounding,
+                  "Instead, the largest difference between fp32 and fp64 of every output, and what makes it");
+    app->add_flag("--json", options->json, "With --rounding: as JSON, with every contribution");
     app->add_option("-o,--output", options->folder,
                     "Folder for the inputs of what is found, as input files of gobo eval")
         ->type_name("FOLDER")
@@ -175,9 +227,10 @@ Command sanitize_command(CLI::App& gobo) {
         "Each is run on all the machines.\n\n"
         "Examples:\n"
         "  gobo sanitize lit                           the family's default set\n"
-        "  gobo sanitize lit --cover 3 --points 16384\n"
+        "  gobo sanitize lit --cover 3 --total 10000000\n"
         "  gobo sanitize lit --machine errors_up --machine errors_down --minutes 10\n"
-        "  gobo sanitize game.vert game.frag");
+        "  gobo sanitize lit --rounding                where each output loses most precision\n"
+        "  gobo sanitize game.vert game.frag --inputs ranges.toml");
     return {app, [options](const World& world) { return run(*options, world); }};
 }
 

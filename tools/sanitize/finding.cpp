@@ -23,14 +23,21 @@ std::map<std::string, std::vector<double>> values_of(const std::vector<evaluate:
     return result;
 }
 
+/// As short as reads back as the same float, where it is one.
+std::string number_text(double number) {
+    const auto as_float = static_cast<float>(number);
+    return static_cast<double>(as_float) == number ? fmt::format("{}", as_float) : fmt::format("{}", number);
+}
+
 std::string toml_table(std::string_view name, const std::map<std::string, std::vector<double>>& values) {
     if (values.empty()) return {};
     std::string text = fmt::format("\n[{}]\n", name);
     for (const auto& [key, numbers] : values) {
-        if (numbers.size() == 1)
-            text += fmt::format("\"{}\" = {}\n", key, numbers.front());
-        else
-            text += fmt::format("\"{}\" = [{}]\n", key, fmt::join(numbers, ", "));
+        std::vector<std::string> texts;
+        for (const double number : numbers) texts.push_back(number_text(number));
+        const std::string list = fmt::format("{}", fmt::join(texts, ", "));
+        text += numbers.size() == 1 ? fmt::format("\"{}\" = {}\n", key, list)
+                                    : fmt::format("\"{}\" = [{}]\n", key, list);
     }
     return text;
 }

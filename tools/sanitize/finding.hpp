@@ -36,7 +36,7 @@ struct Finding {
                              std::size_t index);
 
 /// The point as an input file of `gobo eval`: `stage`, `[inputs]`, `[uniforms]` and `[samplers]` by
-/// reflected name, numbers that read back as they were. `heading` becomes comment lines.
+/// reflected name, numbers that read back as the same floats. `heading` becomes comment lines.
 [[nodiscard]] std::string eval_input(const Finding& finding, const std::string& heading);
 
 /// The finding's message with the operation's values.

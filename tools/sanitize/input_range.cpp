@@ -6,18 +6,6 @@
 namespace gobo::sanitize {
 namespace {
 
-/// "PointLights.lights[2].color" as domains name it: "PointLights.lights[].color".
-std::string without_subscripts(const std::string& name) {
-    std::string result;
-    bool is_inside = false;
-    for (const char character : name) {
-        if (character == ']') is_inside = false;
-        if (!is_inside) result += character;
-        if (character == '[') is_inside = true;
-    }
-    return result;
-}
-
 Domain plain_domain(const std::string& name, double low, double high) {
     Domain domain;
     domain.name = name;
@@ -31,8 +19,19 @@ constexpr double kBelowOne = 0.99999994;
 
 }  // namespace
 
+std::string name_of_domain(const std::string& name) {
+    std::string result;
+    bool is_inside = false;
+    for (const char character : name) {
+        if (character == ']') is_inside = false;
+        if (!is_inside) result += character;
+        if (character == '[') is_inside = true;
+    }
+    return result;
+}
+
 Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
-    const std::string name = without_subscripts(port.name);
+    const std::string name = name_of_domain(port.name);
     const auto declared =
         std::find_if(domains.begin(), domains.end(), [&](const Domain& d) { return d.name == name; });
     if (declared != domains.end()) return *declared;
@@ -70,8 +69,9 @@ double ordinary_number(const Domain& domain, Random& random) {
     return std::clamp(number, domain.low, domain.high);
 }
 
-std::vector<double> hard_direction(std::size_t components, Random& random) {
-    std::vector<double> direction(components, 0.0);
+void hard_direction(std::span<double> direction, Random& random) {
+    const std::size_t components = direction.size();
+    std::fill(direction.begin(), direction.end(), 0.0);
     switch (random.index(4)) {
         case 0:
             direction[random.index(components)] = random.one_in(2) ? 1 : -1;
@@ -90,7 +90,6 @@ std::vector<double> hard_direction(std::size_t components, Random& random) {
     double square = 0;
     for (const double component : direction) square += component * component;
     for (double& component : direction) component /= std::sqrt(square);
-    return direction;
 }
 
 }  // namespace gobo::sanitize

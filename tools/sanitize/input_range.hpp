@@ -1,6 +1,7 @@
 // What an input or uniform may hold, and hard values within it.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ inline constexpr double kSmallest = 1e-6;
 /// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
 [[nodiscard]] Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains);
 
+/// "PointLights.lights[2].color" as domains name it: "PointLights.lights[].color".
+[[nodiscard]] std::string name_of_domain(const std::string& name);
+
 /// Whether a component may hold the number. Not for domains of a length.
 [[nodiscard]] bool holds(const Domain& domain, double number);
 
@@ -28,7 +32,7 @@ inline constexpr double kSmallest = 1e-6;
 /// A number of the domain: evenly spread, or every power of ten as likely as any other.
 [[nodiscard]] double ordinary_number(const Domain& domain, Random& random);
 
-/// A direction of `components` components: along an axis, a diagonal, nearly along an axis, or any.
-[[nodiscard]] std::vector<double> hard_direction(std::size_t components, Random& random);
+/// Fills in a unit vector: along an axis, a diagonal, nearly along an axis, or any.
+void hard_direction(std::span<double> direction, Random& random);
 
 }  // namespace gobo::sanitize

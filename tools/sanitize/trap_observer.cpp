@@ -158,9 +158,18 @@ void TrapObserver::add(const Step& step, std::string_view message, Lanes lanes) 
         hit.operation = operation_text(step, lane);
     }
     hit.invocations += static_cast<std::uint64_t>(std::popcount(lanes));
+    mark_trapped(lanes);
+}
+
+void TrapObserver::mark_trapped(Lanes lanes) {
+    const std::size_t batch = batch_ / kLanes;
+    if (batch >= trapped_.size()) trapped_.resize(batch + 1);
+    trapped_[batch] |= lanes;
 }
 
 void TrapObserver::clamped(const Step& step, std::size_t lane, std::int64_t index, std::uint32_t extent) {
+    if (!is_in_batch_ || step.first_invocation != batch_) begin_batch(step.first_invocation);
+    mark_trapped(Lanes{1} << lane);
     Hit& hit = hits_[{step.operation, "array index out of bounds"}];
     if (hit.invocations++ > 0) return;
     hit.first = step.first_invocation + lane;

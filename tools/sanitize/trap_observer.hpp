@@ -37,6 +37,11 @@ class TrapObserver final : public evaluate::Observer<float> {
     /// To be called when the run is over.
     void finish();
 
+    /// Whether the invocation met a trap.
+    [[nodiscard]] bool trapped(std::size_t invocation) const {
+        const std::size_t batch = invocation / evaluate::kLanes;
+        return batch < trapped_.size() && (trapped_[batch] >> invocation % evaluate::kLanes & 1U) != 0;
+    }
     /// By operation and message.
     [[nodiscard]] const std::map<std::pair<std::uint32_t, std::string_view>, Hit>& hits() const {
         return hits_;
@@ -58,6 +63,7 @@ class TrapObserver final : public evaluate::Observer<float> {
     void judge(const evaluate::Step<float>& step, const Watch& watch);
     void judge_result(const evaluate::Step<float>& step, const Watch& watch, Lanes lanes);
     void add(const evaluate::Step<float>& step, std::string_view message, Lanes lanes);
+    void mark_trapped(Lanes lanes);
 
     const evaluate::Program& program_;
     std::vector<Watch> watches_;  ///< of each operation
@@ -66,6 +72,7 @@ class TrapObserver final : public evaluate::Observer<float> {
     std::size_t batch_ = 0;  ///< its first invocation
     std::map<std::pair<std::uint32_t, std::string_view>, Hit> hits_;
     std::vector<Unwritten> unwritten_;
+    std::vector<Lanes> trapped_;  ///< of each batch up to the last in which anything trapped
 };
 
 }  // namespace gobo::sanitize

@@ -84,6 +84,21 @@ Lanes whole_two(const Step& step) {
     return lanes_of(hits, step);
 }
 
+/// The last two operands of all three or four, offset and number of bits: each one number for all components.
+Lanes beyond_word(const Step& step) {
+    const auto& operands = step.info().operands;
+    const std::int32_t* offset = whole_row(step, operands[operands.size() - 2], 0);
+    const std::int32_t* bits = whole_row(step, operands[operands.size() - 1], 0);
+    Hits hits{};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        // As unsigned numbers, those below 0 are far beyond; neither sum of two overflows 64 bits.
+        const std::uint64_t end =
+            std::uint64_t{static_cast<std::uint32_t>(offset[lane])} + static_cast<std::uint32_t>(bits[lane]);
+        hits[lane] = static_cast<std::int32_t>(end > 32);
+    }
+    return lanes_of(hits, step);
+}
+
 /// A vector as the formulas of length() and normalize() see it.
 struct Extent {
     float largest;  ///< absolute component
@@ -122,6 +137,7 @@ constexpr auto kIsNotPositive = [](float a) { return a <= 0; };
 constexpr auto kIsBeyondOne = [](float a) { return std::fabs(a) > 1; };
 constexpr auto kAnyIsNaN = [](float a, float b) { return (a != a) | (b != b); };
 constexpr auto kNoDivisor = [](std::int32_t, std::int32_t b) { return b == 0; };
+constexpr auto kEitherIsNegative = [](std::int32_t a, std::int32_t b) { return (a < 0) | (b < 0); };
 constexpr auto kShiftsTooFar = [](std::int32_t, std::int32_t by) { return (by < 0) | (by > 31); };
 
 #define GOBO_STD450(name) evaluate::kExtended + GLSLstd450##name
@@ -133,11 +149,15 @@ constexpr TrapRule kRules[] = {
     {spv::OpSDiv, "integer division by zero", true, &whole_two<kNoDivisor>},
     {spv::OpUDiv, "integer division by zero", true, &whole_two<kNoDivisor>},
     {spv::OpSMod, "integer remainder by zero", true, &whole_two<kNoDivisor>},
+    {spv::OpSMod, "integer remainder of a negative number", true, &whole_two<kEitherIsNegative>},
     {spv::OpSRem, "integer remainder by zero", true, &whole_two<kNoDivisor>},
     {spv::OpUMod, "integer remainder by zero", true, &whole_two<kNoDivisor>},
     {spv::OpShiftLeftLogical, "shift by more than 31 bits", true, &whole_two<kShiftsTooFar>},
     {spv::OpShiftRightLogical, "shift by more than 31 bits", true, &whole_two<kShiftsTooFar>},
     {spv::OpShiftRightArithmetic, "shift by more than 31 bits", true, &whole_two<kShiftsTooFar>},
+    {spv::OpBitFieldInsert, "bit field beyond 32 bits", true, &beyond_word},
+    {spv::OpBitFieldSExtract, "bit field beyond 32 bits", true, &beyond_word},
+    {spv::OpBitFieldUExtract, "bit field beyond 32 bits", true, &beyond_word},
     {GOBO_STD450(Pow), "pow() of a negative number", false, &two<[](float x, float) { return x < 0; }>},
     {GOBO_STD450(Pow), "pow(0, y) with y not above 0", false,
      &two<[](float x, float y) { return (x == 0) & (y <= 0); }>},

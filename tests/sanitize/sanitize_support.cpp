@@ -1,0 +1,108 @@
+#include "sanitize_support.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/file_system.hpp"
+#include "common/text.hpp"
+#include "compose/compose.hpp"
+#include "compose/loose_files.hpp"
+#include "evaluate/program.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+using OneFile = std::map<std::string, std::string, std::less<>>;
+
+/// A file as a family, with its SPIR-V.
+struct Loaded {
+    Family family;
+    Composition composition;
+    Validated validated;
+};
+
+Loaded load(const std::string& path, const FileSystem& files) {
+    SearchPath search;
+    const Result<Family> family = family_of_files({path}, files, search);
+    EXPECT_TRUE(family) << path;
+    const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
+    EXPECT_TRUE(composition) << path;
+    ValidateOptions options;
+    options.keep_spirv = true;
+    options.debug_information = true;
+    Loaded loaded{*family, *composition, validate(*family, *composition, options)};
+    for (const Diagnostic& error : loaded.validated.diagnostics) ADD_FAILURE() << to_text(error);
+    return loaded;
+}
+
+sanitize::SanitizeReport sanitized(const Loaded& loaded, const sanitize::SanitizeOptions& options) {
+    sanitize::SanitizeReport report =
+        sanitize::sanitize(loaded.family, loaded.composition, loaded.validated, options);
+    for (const Diagnostic& error : report.diagnostics) ADD_FAILURE() << to_text(error);
+    return report;
+}
+
+}  // namespace
+
+Lines marked_lines(const std::string& path) {
+    constexpr std::string_view kMark = "// trap: ";
+    const Result<std::string> source = DiskFileSystem().read(path);
+    EXPECT_TRUE(source) << path;
+    Lines lines;
+    const auto count = std::count(source->begin(), source->end(), '\n');
+    for (int number = 1; number <= count; ++number) {
+        const std::string_view line = line_of(*source, number);
+        const auto mark = line.find(kMark);
+        if (mark != std::string_view::npos)
+            lines.insert(fmt::format("{}: {}", number, line.substr(mark + kMark.size())));
+    }
+    return lines;
+}
+
+Lines found_lines(const sanitize::SanitizeReport& report) {
+    Lines lines;
+    for (const sanitize::SharedFinding& shared : report.findings)
+        lines.insert(fmt::format("{}: {}", shared.finding.place.line, shared.finding.message));
+    return lines;
+}
+
+std::vector<std::string> shader_files(const std::string& folder) {
+    std::vector<std::string> paths;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(GOBO_SOURCE_DIR "/tests/") + folder))
+        paths.push_back(entry.path().string());
+    std::sort(paths.begin(), paths.end());
+    EXPECT_FALSE(paths.empty()) << folder;
+    return paths;
+}
+
+std::string file_test_name(const testing::TestParamInfo<std::string>& info) {
+    std::string name = std::filesystem::path(info.param).filename().string();
+    std::replace(name.begin(), name.end(), '.', '_');
+    return name;
+}
+
+sanitize::SanitizeReport sanitized_file(const std::string& path, const sanitize::SanitizeOptions& options) {
+    return sanitized(load(path, DiskFileSystem()), options);
+}
+
+sanitize::SanitizeReport sanitized_text(const std::string& name, const std::string& text,
+                                        const sanitize::SanitizeOptions& options,
+                                        const std::vector<Domain>& domains) {
+    Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
+    loaded.family.domains = domains;
+    return sanitized(loaded, options);
+}
+
+evaluate::Program program_of(const std::string& name, const std::string& text) {
+    const Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
+    Result<evaluate::Program> program = evaluate::decode(loaded.validated.stages.front().spirv);
+    EXPECT_TRUE(program);
+    return std::move(*program);
+}
+
+}  // namespace gobo

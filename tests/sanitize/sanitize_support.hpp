@@ -1,0 +1,37 @@
+// Shader files that say in comments what is to be found in them.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "sanitize/sanitize.hpp"
+
+namespace gobo {
+
+/// "7: division by zero".
+using Lines = std::set<std::string>;
+
+/// Of the lines that end in "// trap: message".
+[[nodiscard]] Lines marked_lines(const std::string& path);
+/// Of the report's findings.
+[[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
+
+/// The files of a folder of tests/, sorted; failing to read it fails the test.
+[[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
+/// "linear_fog_frag".
+[[nodiscard]] std::string file_test_name(const testing::TestParamInfo<std::string>& info);
+
+/// What sanitizing the file gives; failing any step fails the test.
+[[nodiscard]] sanitize::SanitizeReport sanitized_file(const std::string& path,
+                                                      const sanitize::SanitizeOptions& options);
+/// The same for a shader's text; `name` tells its stage: "planted.frag".
+[[nodiscard]] sanitize::SanitizeReport sanitized_text(const std::string& name, const std::string& text,
+                                                      const sanitize::SanitizeOptions& options,
+                                                      const std::vector<Domain>& domains = {});
+/// The stage of that text, decoded.
+[[nodiscard]] evaluate::Program program_of(const std::string& name, const std::string& text);
+
+}  // namespace gobo

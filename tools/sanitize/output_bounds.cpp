@@ -1,0 +1,46 @@
+#include "sanitize/output_bounds.hpp"
+
+#include <algorithm>
+
+#include "sanitize/lit_bounds.hpp"
+
+namespace gobo::sanitize {
+namespace {
+
+/// Of a length, each component is within it.
+Interval interval_of(const Domain& domain) {
+    Interval interval{domain.of_length ? -domain.high : domain.low, domain.high};
+    for (const double also : domain.also) {
+        interval.low = std::min(interval.low, also);
+        interval.high = std::max(interval.high, also);
+    }
+    return interval;
+}
+
+}  // namespace
+
+OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage,
+                           const evaluate::Program& program, const InputSpace& space)
+    : model_(lit_bounds(family, key, stage, program, space)) {
+    for (const evaluate::Port& output : program.outputs) {
+        Interval interval;
+        const auto domain = std::find_if(family.domains.begin(), family.domains.end(),
+                                         [&](const Domain& one) { return one.name == output.name; });
+        // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
+        // within theirs can be anything.
+        if (stage == StageKind::fragment && domain != family.domains.end()) interval = interval_of(*domain);
+        declared_.insert(declared_.end(), output.components, interval);
+    }
+}
+
+std::vector<Interval> OutputBounds::at(const PointSet& points) {
+    std::vector<Interval> intervals;
+    intervals.reserve(points.count() * declared_.size());
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        intervals.insert(intervals.end(), declared_.begin(), declared_.end());
+        if (model_) model_->narrow(points[i], std::span(intervals).last(declared_.size()));
+    }
+    return intervals;
+}
+
+}  // namespace gobo::sanitize
