@@ -44,6 +44,7 @@ class LitBounds final : public ModelBounds {
         : model_(model), stage_(stage), program_(program) {}
 
     [[nodiscard]] bool add(const InputField& field) {
+        if (field.is_texture) return field.name == "shadowMaps";
         const auto known = verify::field_of(field.name);
         if (known) fields_.push_back({*known, field.first, field.components});
         return known.has_value() || field.name.starts_with("gl_");
@@ -104,8 +105,10 @@ class LitBounds final : public ModelBounds {
 
 std::unique_ptr<ModelBounds> lit_bounds(const Family& family, const Key& key, StageKind stage,
                                         const evaluate::Program& program, const InputSpace& space) {
-    const auto model = oracle::model_of(family, key);
+    auto model = oracle::model_of(family, key);
     if (!model) return nullptr;
+    // A shadow only takes light away.
+    model->directional_shadows = model->point_shadows = model->spot_shadows = 0;
     auto bounds = std::make_unique<LitBounds>(*model, stage, program);
     for (const InputField& field : space.fields)
         if (!bounds->add(field)) return nullptr;
