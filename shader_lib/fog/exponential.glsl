@@ -9,6 +9,4 @@
 #include "fog/blend.glsl"
 
 /// The radiance that is seen.
-vec3 throughFog(vec3 radiance) {
-    return blendFog(radiance, min(exp(-fog.density * fogDistance()), 1.0));
-}
+vec3 throughFog(vec3 radiance) { return blendFog(radiance, min(exp(-fog.density * fogDistance()), 1.0)); }
