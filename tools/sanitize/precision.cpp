@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include <spirv/unified1/spirv.hpp>
+
 #include "evaluate/instruction_table.hpp"
 #include "sanitize/decision_observer.hpp"
 #include "sanitize/hard_inputs.hpp"
@@ -25,10 +27,13 @@ PointSet repeated(std::span<const double> point, std::size_t count) {
     return points;
 }
 
-/// Whether the operation makes new numbers, rather than moving others'.
+/// Whether the operation has something to round: not where it moves, chooses or negates numbers, or cuts off
+/// their digits.
 bool rounds(const evaluate::Operation& operation) {
-    const evaluate::Kind kind = evaluate::instruction_table()[operation.row].kind;
-    return kind <= evaluate::Kind::matrix || kind == evaluate::Kind::convert;
+    using evaluate::Kind;
+    const evaluate::Row& row = evaluate::instruction_table()[operation.row];
+    if (row.code == spv::OpFNegate || row.kind == Kind::round || row.kind == Kind::min_max) return false;
+    return row.kind <= Kind::matrix || row.kind == Kind::convert;
 }
 
 /// What an output's values at one invocation differ by.

@@ -17,8 +17,9 @@ namespace gobo::sanitize {
 using Signature = std::tuple<std::string, int, std::string>;
 [[nodiscard]] Signature signature_of(const Finding& finding);
 
-/// Points are made and run in portions, so that they stay in the cache.
-inline constexpr std::size_t kPortion = 1024;
+/// Points are made and run in portions, so that they stay in the cache and their rows are not mapped anew
+/// each time.
+inline constexpr std::size_t kPortion = 256;
 
 class StageSearch {
   public:
