@@ -2,7 +2,8 @@
 //
 // Model:  n.s where it is positive.
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Implementing Diffuse Shading.
-// Range:  cosine above 0, result the same.
+// Range:  cosine above 0, result the same times the light.
+#include "diffuse/unlimited.glsl"
 
-/// The scattered share of a light that arrives at an angle of the given cosine to the normal.
-float diffuseFactor(float cosine) { return cosine; }
+/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+vec3 diffuseTerm(float cosine, vec3 light) { return cosine * light; }

@@ -24,6 +24,7 @@ void addDirectionalLights() {
 #if DIRECTIONAL_SHADOWS > 0
         if (i < DIRECTIONAL_SHADOWS) color *= directionalVisibility(i);
 #endif
+        addLightAmbient(1.0);
         addLight(directionalLights.lights[i].direction, color);
     }
 }

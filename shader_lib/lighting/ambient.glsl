@@ -1,14 +1,11 @@
-// Light that comes from everywhere alike (L2).
+// The ambient light that the surface scatters (L2).
 //
-// Model:  K_a A.
+// Model:  K_a A, with A as the feature `ambient` has it.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Ambient Light.
-// Ranges: A 0 to 1e5 (radiance); result linear and unclamped.
-#include "material/uniform.glsl"
+// Range:  linear and unclamped, not negative.
+#include <ambient>
+#include <material>
+#include <vertex_color>
 
-/// The global ambient light A.
-BLOCK(2, Ambient) {
-    vec3 color;
-} ambient;
-
-/// The radiance that the surface reflects of the ambient light.
-vec3 ambientRadiance() { return material.ambient * ambient.color; }
+/// The radiance that the surface scatters of the ambient light.
+vec3 ambientRadiance() { return tinted(material.ambient) * ambientLight(); }

@@ -1,18 +1,20 @@
 // The whole lighting model at one point of the surface, in whichever stage it is evaluated (L7).
 //
-// Model:  emission + K_a A + the response to exactly the lights that the key counts.
+// Model:  emission + the ambient light + the response to exactly the lights that the key counts.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
 // Space:  eye. Range: linear radiance, unclamped, not negative.
 #include <directional>
+#include <homogeneous>
+#include <material>
 #include <point>
 #include <spot>
 #include "lighting/ambient.glsl"
-#include "material/uniform.glsl"
 
 /// The radiance that leaves the surface towards the viewer, before fog.
 vec3 litSurface() {
+    chooseMaterial();
     vec3 radiance = material.emission + ambientRadiance();
-#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS > 0
     beginResponse();
 #endif
 #if DIRECTIONAL_LIGHTS > 0
@@ -24,7 +26,10 @@ vec3 litSurface() {
 #if SPOT_LIGHTS > 0
     addSpotLights();
 #endif
-#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
+#if HOMOGENEOUS_LIGHTS > 0
+    addHomogeneousLights();
+#endif
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS > 0
     radiance += responseRadiance();
 #endif
     return radiance;

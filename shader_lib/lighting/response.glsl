@@ -1,15 +1,17 @@
 // The surface's response to its lights: scattered (diffuse) and reflected (specular) light, summed apart.
 //
 // Model:  K_d sum f_d(n.s) L + K_s sum f_s L, L after attenuation; f_d is chosen by `diffuse`, f_s by
-//         `specular`.
+//         `specular`; and what `light_ambient` makes of the lights' ambient terms (L9).
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour (S5).
 // Space:  eye. Ranges: n and s unit or zero; result linear and unclamped.
 // Edges:  a light gives exactly nothing unless n.s > 0 (S1, S4, H-S4), nor where s or n is zero (H-N1, H-L1).
 #include <diffuse>
+#include <light_ambient>
+#include <material>
+#include <sides>
 #include <specular>
+#include <vertex_color>
 #include "light_sum/plain.glsl"
-#include "material/uniform.glsl"
-#include "surface/normal.glsl"
 
 /// The normal that the lights are weighed against, and the scattered light so far.
 vec3 litNormal;
@@ -17,8 +19,10 @@ LightSum scattered;
 
 /// Prepares what all lights share. To be called before the first light.
 void beginResponse() {
-    litNormal = surfaceNormal();
+    litNormal = visibleNormal();
     scattered = emptySum();
+    beginDiffuse();
+    beginLightAmbient();
     beginHighlights();
 }
 
@@ -26,10 +30,13 @@ void beginResponse() {
 void addLight(vec3 toLight, vec3 light) {
     float cosine = dot(litNormal, toLight);
     if (cosine > 0.0) {  // H-S4; NaN does not pass
-        addTerm(scattered, diffuseFactor(cosine) * light);
+        addTerm(scattered, diffuseTerm(cosine, light));
         addHighlight(litNormal, toLight, light);
     }
 }
 
 /// The radiance that the surface gives back of all lights added.
-vec3 responseRadiance() { return material.diffuse * totalOf(scattered) + highlightRadiance(); }
+vec3 responseRadiance() {
+    vec3 diffuse = tinted(material.diffuse) * limitedDiffuse(totalOf(scattered));
+    return diffuse + highlightRadiance() + lightAmbientRadiance();
+}

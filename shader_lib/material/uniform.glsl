@@ -12,3 +12,6 @@ BLOCK(1, Material) {
     vec3 diffuse;
     vec3 specular;
 } material;
+
+/// Makes `material` that of the surface point: it always is. To be called first.
+void chooseMaterial() {}

@@ -26,10 +26,12 @@ void addPointLights() {
     for (int i = 0; i < POINT_LIGHTS; ++i) {
         PointLight light = pointLights.lights[i];
         vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
-        float share = attenuation(light.attenuation, ray.w);
+        float fading = attenuation(light.attenuation, ray.w);
+        float share = fading;
 #if POINT_SHADOWS > 0
         if (i < POINT_SHADOWS) share *= pointVisibility(i);
 #endif
-        addLight(ray.xyz, light.color * share);
+        addLightAmbient(fading);
+        addLight(ray.xyz, share * light.color);
     }
 }

@@ -3,6 +3,7 @@
 //
 // Source: Gouraud, Continuous Shading of Curved Surfaces, IEEE Transactions on Computers 20 (1971).
 // Edges:  interpolation may leave its range by a rounding; radiance is not negative (H-I1).
+#include <sides/radiance>
 
 /// The radiance that leaves the surface towards the viewer, before fog.
-vec3 surfaceRadiance() { return max(litRadiance, vec3(0.0)); }  // H-I1
+vec3 surfaceRadiance() { return max(interpolatedRadiance(), vec3(0.0)); }  // H-I1

@@ -3,8 +3,8 @@
 // Model:  strength K_s sum f_s L (S5), not modulated by the surface's colour.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Specular Highlights.
 // Space:  eye. Ranges: as the material's; result linear and unclamped.
+#include <material>
 #include "light_sum/plain.glsl"
-#include "material/uniform.glsl"
 #include "viewer/local.glsl"
 
 /// The unit vector to the viewer, and the reflected light so far.

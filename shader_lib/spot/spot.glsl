@@ -33,11 +33,13 @@ void addSpotLights() {
     for (int i = 0; i < SPOT_LIGHTS; ++i) {
         SpotLight light = spotLights.lights[i];
         vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
+        float fading = attenuation(light.attenuation, ray.w);
         float cone = coneFactor(light.axis, -ray.xyz, light.innerVersine, light.outerVersine, light.exponent);
-        float share = cone * attenuation(light.attenuation, ray.w);
+        float share = cone * fading;
 #if SPOT_SHADOWS > 0
         if (i < SPOT_SHADOWS) share *= spotVisibility(i);
 #endif
-        addLight(ray.xyz, light.color * share);
+        addLightAmbient(fading);  // L9: outside the cone too
+        addLight(ray.xyz, share * light.color);
     }
 }

@@ -266,7 +266,12 @@ std::vector<std::string> general_faults(const Shaded& shaded) {
 }  // namespace
 
 const std::vector<Case>& lit_cases() {
-    return kCases;
+    static const std::vector<Case> all = [] {
+        std::vector<Case> cases = kCases;
+        for (Case& tested : surface_cases()) cases.push_back(std::move(tested));
+        return cases;
+    }();
+    return all;
 }
 
 std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {

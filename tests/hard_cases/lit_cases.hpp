@@ -25,6 +25,10 @@ inline void PrintTo(const Case& tested, std::ostream* out) {
 
 [[nodiscard]] const std::vector<Case>& lit_cases();
 
+/// The part of them that is about the surface's own models: tones, sides, tables of materials, holes,
+/// colours, and the light around it.
+[[nodiscard]] std::vector<Case> surface_cases();
+
 /// What is wrong with the permutations that the case concerns, at each of its points, with denormal numbers
 /// and without; at most `most` faults. `overlay` replaces pieces by include path.
 [[nodiscard]] std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay = {},

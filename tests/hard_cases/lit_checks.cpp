@@ -53,6 +53,33 @@ std::string is_neighbouring_band(const Trial& trial) {
     return fmt::format("the tone {} is none of the two bands at a cosine of {}", tone, cosine);
 }
 
+std::string is_neighbouring_band_of_ceil(const Trial& trial) {
+    const double cosine = trial.inputs.at("DirectionalLights.lights[].direction")[2];
+    const double lower = std::round(cosine * 4) / 4;
+    const double tone = trial.shaded.color[0];
+    if (tone == lower || tone == std::min(lower + 0.25, 1.0)) return {};
+    return fmt::format("the tone {} is none of the two bands at a cosine of {}", tone, cosine);
+}
+
+std::string is_neighbouring_tone(const Trial& trial) {
+    // From below: no tone, then those of ordinary inputs, each above its threshold.
+    constexpr std::array<double, 3> kThresholds = {0.25, 0.5, 0.95};
+    constexpr std::array<double, 4> kTones = {0, 0.375, 0.625, 1};
+    const double cosine = trial.inputs.at("DirectionalLights.lights[].direction")[2];
+    const double tone = trial.shaded.color[0];
+    for (std::size_t i = 0; i < kThresholds.size(); ++i)
+        if (std::abs(cosine - kThresholds[i]) < 1e-6 && (tone == kTones[i] || tone == kTones[i + 1]))
+            return {};
+    return fmt::format("the tone {} is none of the two at a cosine of {}", tone, cosine);
+}
+
+Check is_there(bool expected) {
+    return [=](const Trial& trial) {
+        if (trial.shaded.is_discarded != expected) return std::string();
+        return std::string(expected ? "the fragment is discarded" : "the fragment is not discarded");
+    };
+}
+
 /// What rounding the directions alone costs: 2 sqrt(m) 2^-24 / |s + v| of a white highlight, |s + v| being 2
 /// here. The angle to a mirrored ray is twice that to a half vector, so Phong's m counts four times.
 std::string is_sharp_to_rounding(const Trial& trial) {

@@ -32,6 +32,12 @@ using Check = std::function<std::string(const Trial&)>;
 [[nodiscard]] Check near_double(double tolerance);
 /// One of the two tones beside a cosine of k / 4, the light coming from that cosine.
 [[nodiscard]] std::string is_neighbouring_band(const Trial& trial);
+/// The same for bands by ceil: the tones are k / 4 and (k + 1) / 4.
+[[nodiscard]] std::string is_neighbouring_band_of_ceil(const Trial& trial);
+/// One of the two tones beside the threshold (0.25, 0.5 or 0.95) that the light's cosine is nearest to.
+[[nodiscard]] std::string is_neighbouring_tone(const Trial& trial);
+/// Whether the fragment is there, or discarded.
+[[nodiscard]] Check is_there(bool expected);
 /// As sharp as the rounding of the directions lets a highlight be.
 [[nodiscard]] std::string is_sharp_to_rounding(const Trial& trial);
 /// The written depth lies in [0, 1] and on the side of the surface's own that the qualifier promises.

@@ -57,6 +57,27 @@ const Inputs& ordinary_inputs() {
         {"Shadows.shadows[].depthShift", {0}},
         {"Shadows.shadows[].spread", {0.5}},
         {"shadowMaps", {1}},
+        {"color", {1, 1, 1, 1}},
+        {"opacityMap", {1}},
+        {"Cutout.threshold", {0.5}},
+        {"gl_FrontFacing", {1}},
+        {"ToonThresholds.thresholds", {0.95, 0.5, 0.25}},
+        {"ToonThresholds.tones", {1, 0.625, 0.375}},
+        {"HomogeneousLights.lights[].position", {0, 0, 1, 0}},
+        {"HomogeneousLights.lights[].color", {1, 1, 1}},
+        {"HomogeneousLights.lights[].attenuation", {1, 0, 0}},
+        {"LightAmbients.colors[]", {0.25, 0.25, 0.25}},
+        {"Hemisphere.up", {0, 1, 0}},
+        {"Hemisphere.sky", {0.5, 0.5, 0.5}},
+        {"Hemisphere.ground", {0.25, 0.25, 0.25}},
+        {"Harmonics.toProbe", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+        {"Harmonics.coefficients[]", {0, 0, 0}},
+        {"Harmonics.scale", {1}},
+        {"Materials.rows[].ambient", {1, 1, 1}},
+        {"Materials.rows[].diffuse", {1, 1, 1}},
+        {"Materials.rows[].specular", {1, 1, 1}},
+        {"Materials.rows[].shininess", {8}},
+        {"Materials.rows[].strength", {1}},
     };
     return inputs;
 }
@@ -81,13 +102,15 @@ evaluate::Invocations invocation(const evaluate::Program& program, const Inputs&
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports)
             for (const Inputs* source : {&ordinary_inputs(), &handed_on, &inputs})
-                if (const auto found = source->find(without_number(port.name)); found != source->end())
-                    invocations.values[port.name] = as_floats(found->second);
+                for (const std::string& name : {without_number(port.name), port.name})
+                    if (const auto found = source->find(name); found != source->end())
+                        invocations.values[port.name] = as_floats(found->second);
     for (const evaluate::ImagePort& image : program.images)
         for (const Inputs* source : {&ordinary_inputs(), &inputs})
             if (const auto found = source->find(image.name); found != source->end())
-                invocations.images[image.name] = [depth = found->second.front()](const auto& request) {
-                    return evaluate::answer({depth, depth, depth, depth}, request);
+                invocations.images[image.name] = [one =
+                                                      as_floats(found->second).front()](const auto& request) {
+                    return evaluate::answer({one, one, one, one}, request);
                 };
     return invocations;
 }
@@ -170,6 +193,7 @@ Shaded LitUnderTest::shade(std::size_t permutation, const Inputs& inputs, Mode m
     shaded.traps = traps_of(vertex, first, mode);
     const std::vector<std::string> more = traps_of(fragment, second, mode);
     shaded.traps.insert(shaded.traps.end(), more.begin(), more.end());
+    shaded.is_discarded = outputs.discarded.front();
     const auto color = outputs.values.find("fragmentColor");
     EXPECT_NE(color, outputs.values.end());
     for (std::size_t i = 0; i < 4 && color != outputs.values.end(); ++i) shaded.color[i] = color->second[i];

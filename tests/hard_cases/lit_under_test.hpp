@@ -13,7 +13,8 @@
 
 namespace gobo {
 
-/// Numbers by reflected name; "PointLights.lights[].color" is of every light.
+/// Numbers by reflected name; "PointLights.lights[].color" is of every light, overruled
+/// by "PointLights.lights[2].color".
 using Inputs = std::map<std::string, std::vector<double>, std::less<>>;
 
 /// Pieces that take the place of the shipped ones, by include path: "fog/linear.glsl".
@@ -26,6 +27,7 @@ enum class Mode { fp32, flushed, fp64 };
 struct Shaded {
     std::array<double, 4> color{};
     std::optional<double> depth;  ///< where the permutation writes one
+    bool is_discarded = false;
     std::vector<std::string> traps;
 };
 

@@ -85,7 +85,7 @@ Result<std::optional<int>> PieceLibrary::find_value(const Include& include, cons
     const bool is_count = feature.kind == FeatureKind::count;
     if (is_count && value == 0) return std::nullopt;
     const std::string& value_name = is_count ? feature.name : feature.values[static_cast<std::size_t>(value)];
-    const std::string path = fmt::format("{}/{}.glsl", feature.name, value_name);
+    const std::string path = fmt::format("{}/{}.glsl", include.target, value_name);
     for (const std::string& candidate : {with_infix(path, stage), path}) {
         Result<std::optional<int>> piece = load(candidate);
         if (!piece || *piece) return piece;
@@ -97,19 +97,20 @@ Result<std::optional<int>> PieceLibrary::find_value(const Include& include, cons
 }
 
 Result<std::optional<int>> PieceLibrary::chosen(const Include& include, const Key& key, StageKind stage) {
-    const auto index = family_.index_of(include.target);
+    const std::string wanted = include.target.substr(0, include.target.find('/'));
+    const auto index = family_.index_of(wanted);
     if (!index) {
         std::vector<std::string> names = {"varyings"};
         for (const Feature& feature : family_.features) names.push_back(feature.name);
         Diagnostic diagnostic;
         diagnostic.place = include.place;
         diagnostic.quoted_line = include.line;
-        diagnostic.message = fmt::format("family '{}' has no feature '{}'", family_.name, include.target);
-        diagnostic.remedy = suggestion(include.target, names);
+        diagnostic.message = fmt::format("family '{}' has no feature '{}'", family_.name, wanted);
+        diagnostic.remedy = suggestion(wanted, names);
         return fail(std::move(diagnostic));
     }
     const int value = key[static_cast<std::size_t>(*index)];
-    const auto choice = std::tuple(*index, value, stage);
+    const auto choice = std::tuple(include.target, value, stage);
     if (const auto known = by_choice_.find(choice); known != by_choice_.end()) return known->second;
     Result<std::optional<int>> piece =
         find_value(include, family_.features[static_cast<std::size_t>(*index)], value, stage);

@@ -57,7 +57,8 @@ class PieceLibrary {
     Diagnostics warnings_;
     std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
     std::map<std::string, int, std::less<>> by_generated_text_;
-    std::map<std::tuple<int, int, StageKind>, std::optional<int>> by_choice_;  ///< feature, value, stage
+    /// Target of the include, value, stage.
+    std::map<std::tuple<std::string, int, StageKind>, std::optional<int>, std::less<>> by_choice_;
 };
 
 }  // namespace gobo

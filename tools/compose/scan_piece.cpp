@@ -97,6 +97,13 @@ Diagnostics unstated_layouts(const std::string& bare, std::string_view text, con
     return warnings;
 }
 
+/// "fog" or "guards/unit_vector".
+bool is_feature_or_part(std::string_view target) {
+    const auto slash = target.find('/');
+    return is_identifier(target.substr(0, slash)) &&
+           (slash == std::string_view::npos || is_identifier(target.substr(slash + 1)));
+}
+
 /// The word after `#`, and what follows it, where the line is a directive.
 struct Directive {
     std::string_view name;
@@ -168,7 +175,7 @@ class Scanner {
         const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
         const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
         const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
-        if (target.empty() || (angle && !is_identifier(target))) {
+        if (target.empty() || (angle && !is_feature_or_part(target))) {
             return error_at(place, shown, "malformed #include",
                             "write #include <feature> or #include \"folder/piece.glsl\"");
         }

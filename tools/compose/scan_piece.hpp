@@ -12,7 +12,7 @@
 
 namespace gobo {
 
-/// `#include <feature>` or `#include "path"`.
+/// `#include <feature>`, `#include <feature/part>` or `#include "path"`.
 struct Include {
     bool of_feature = false;
     std::string target;

@@ -13,7 +13,8 @@ Arrival arrival_of(const PointLight& light, const glm::dvec3& position) {
     Arrival arrival;
     arrival.to_light = direction_of(ray);
     arrival.distance = glm::length(ray);
-    arrival.unshaped = light.color * attenuation(light.attenuation, arrival.distance);
+    arrival.fading = attenuation(light.attenuation, arrival.distance);
+    arrival.unshaped = light.color * arrival.fading;
     arrival.radiance = arrival.unshaped;
     return arrival;
 }
@@ -23,6 +24,27 @@ Arrival arrival_of(const SpotLight& light, const glm::dvec3& position, Decisions
     arrival.spot = &light;
     arrival.cone_angle = angle_between(light.axis, -arrival.to_light);
     arrival.radiance *= cone_share(light, arrival.cone_angle, decisions);
+    return arrival;
+}
+
+Arrival arrival_of(const DirectionalLight& light) {
+    Arrival arrival;
+    arrival.to_light = light.direction;
+    arrival.radiance = arrival.unshaped = light.color;
+    arrival.is_given = true;
+    return arrival;
+}
+
+Arrival arrival_of(const HomogeneousLight& light, const glm::dvec3& position) {
+    const glm::dvec3 place(light.position);
+    if (std::abs(light.position.w) < 1e-6) {
+        Arrival arrival = arrival_of(DirectionalLight{direction_of(place), light.color});
+        arrival.is_given = false;
+        return arrival;
+    }
+    const PointLight local{place / light.position.w, light.color, light.attenuation};
+    Arrival arrival = arrival_of(local, position);
+    arrival.place_size = light.position.w == 1 ? 0 : glm::length(local.position);
     return arrival;
 }
 
@@ -66,11 +88,10 @@ double cone_share(const SpotLight& light, double angle, Decisions& decisions) {
 
 std::vector<Arrival> arrivals(const Scene& scene, const glm::dvec3& position, Decisions& decisions) {
     std::vector<Arrival> result;
-    result.reserve(scene.directional.size() + scene.point.size() + scene.spot.size());
-    for (const DirectionalLight& light : scene.directional)
-        result.push_back({light.direction, light.color, light.color, 0, 0, nullptr, false, 0, 0});
+    for (const DirectionalLight& light : scene.directional) result.push_back(arrival_of(light));
     for (const PointLight& light : scene.point) result.push_back(arrival_of(light, position));
     for (const SpotLight& light : scene.spot) result.push_back(arrival_of(light, position, decisions));
+    for (const HomogeneousLight& light : scene.homogeneous) result.push_back(arrival_of(light, position));
     return result;
 }
 

@@ -27,6 +27,9 @@ struct Arrival {
     glm::dvec3 radiance{0};  ///< after attenuation and cone
     glm::dvec3 unshaped{0};  ///< after attenuation alone: an upper bound, by which errors are measured
     double distance = 0;     ///< 0 for a directional light
+    double fading = 1;       ///< the attenuation alone
+    bool is_given = false;   ///< `to_light` is an input, made unit by the application
+    double place_size = 0;   ///< |P| of a position that is divided by its w, and so rounded
     double cone_angle = 0;   ///< between the ray and a spot light's axis
     const SpotLight* spot = nullptr;
     bool is_shadowed = false;        ///< a shadow map was asked
@@ -34,7 +37,7 @@ struct Arrival {
     double shadow_per_length = 0;
 };
 
-/// All lights at a point: directional, point, spot, each in the scene's order.
+/// All lights at a point: directional, point, spot, homogeneous, each in the scene's order.
 [[nodiscard]] std::vector<Arrival> arrivals(const Scene& scene, const glm::dvec3& position,
                                             Decisions& decisions);
 

@@ -9,13 +9,22 @@
 
 namespace gobo::oracle {
 
-enum class Diffuse { lambert, toon };
+enum class Diffuse { lambert, toon, toon_ceil, toon_thresholds };
 enum class Specular { none, phong, blinn };
 enum class Fog { none, linear, exponential, exponential_squared };
 enum class FogDistance { radial, planar };
 enum class Shading { fragment, vertex };
 enum class ShadowFilter { bilinear, sampler, nearest };
 enum class Depth { untouched, any, greater, less, unchanged };
+enum class Lighting { lit, unlit };
+enum class LightAmbient { none, each };
+enum class Ambient { global, hemisphere, spherical_harmonics };
+enum class Hemisphere { sine, cosine };
+enum class Harmonics { second, first, zeroth };
+enum class MaterialChoice { uniform, array };
+enum class Sides { one, two, two_materials };
+enum class Cutout { none, threshold };
+enum class VertexColor { none, modulate };
 
 /// One model: everything about a key that the radiance and the depth depend on.
 struct Model {
@@ -32,8 +41,18 @@ struct Model {
     int point_shadows = 0;
     int spot_shadows = 0;
     ShadowFilter shadow_filter = ShadowFilter::bilinear;
+    Lighting lighting = Lighting::lit;
+    int homogeneous = 0;
+    LightAmbient light_ambient = LightAmbient::none;
+    Ambient ambient = Ambient::global;
+    Hemisphere hemisphere = Hemisphere::sine;
+    Harmonics harmonics = Harmonics::second;
+    MaterialChoice material = MaterialChoice::uniform;
+    Sides sides = Sides::one;
+    Cutout cutout = Cutout::none;
+    VertexColor vertex_color = VertexColor::none;
 
-    [[nodiscard]] int lights() const { return directional + point + spot; }
+    [[nodiscard]] int lights() const { return directional + point + spot + homogeneous; }
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 

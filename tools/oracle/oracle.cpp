@@ -8,25 +8,86 @@
 
 namespace gobo::oracle {
 
+namespace {
+
+/// The material as the point's colour tints it.
+Material tinted(const Model& model, const Material& material, const glm::dvec4& color) {
+    if (model.vertex_color == VertexColor::none) return material;
+    Material result = material;
+    result.ambient *= glm::dvec3(color);
+    result.diffuse *= glm::dvec3(color);
+    return result;
+}
+
+AmbientLight ambient_light(const Model& model, const Scene& scene, const glm::dvec3& normal) {
+    if (model.ambient == Ambient::hemisphere)
+        return hemisphere_light(model.hemisphere, scene.hemisphere, normal);
+    if (model.ambient == Ambient::spherical_harmonics)
+        return harmonics_light(model.harmonics, scene.harmonics, normal);
+    return {scene.ambient, scene.ambient, glm::dvec3(0)};
+}
+
+/// What remains of the scattered light of all terms: tones by thresholds are limited by the brightest.
+glm::dvec3 limited(const Model& model, const Scene& scene, const std::vector<LightTerm>& terms) {
+    glm::dvec3 total{0};
+    glm::dvec3 brightest{0};
+    for (const LightTerm& term : terms) {
+        total += term.diffuse * term.arrival.radiance;
+        if (term.diffuse > 0) brightest = glm::max(brightest, term.arrival.radiance);
+    }
+    if (model.diffuse != Diffuse::toon_thresholds) return total;
+    return glm::min(total, *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end()) * brightest);
+}
+
+}  // namespace
+
+const Material& material_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
+    if (model.material == MaterialChoice::uniform) return scene.material;
+    const int rows = static_cast<int>(scene.materials.size());
+    const bool has_pairs = model.sides == Sides::two_materials;
+    const int index = std::clamp(point.material, 0, (has_pairs ? rows / 2 : rows) - 1);
+    const int row = has_pairs ? 2 * index + (point.is_back ? 1 : 0) : index;
+    return scene.materials[static_cast<std::size_t>(row)];
+}
+
 Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
                       Decisions& decisions) {
-    const Material& material = scene.material;
-    const glm::dvec3 normal = direction_of(point.normal);
+    Radiance radiance;
+    radiance.material = tinted(model, material_of(model, scene, point), point.color);
+    const Material& material = radiance.material;
+    if (model.lighting == Lighting::unlit) {
+        radiance.value = radiance.largest = material.diffuse;
+        return radiance;
+    }
+    const bool is_flipped = model.sides != Sides::one && point.is_back;
+    const glm::dvec3 normal = direction_of(is_flipped ? -point.normal : point.normal);
     const glm::dvec3 to_viewer = direction_of(-point.position);
     const glm::dvec3 highlight = material.strength * material.specular;
-    Radiance radiance;
-    radiance.value = material.emission + material.ambient * scene.ambient;
-    radiance.largest = radiance.value;
+    radiance.ambient = ambient_light(model, scene, normal);
+    radiance.value = material.emission + material.ambient * radiance.ambient.value;
+    radiance.largest = material.emission + material.ambient * radiance.ambient.largest;
     std::vector<Arrival> lights = arrivals(scene, point.position, decisions);
     cast_shadows(model, scene, point.position, lights, decisions);
     for (const Arrival& arrival : lights) {
-        const LightTerm term = respond(model, scene, normal, to_viewer, arrival, decisions);
-        radiance.value += (material.diffuse * term.diffuse + highlight * term.specular) * arrival.radiance;
-        radiance.largest += material.diffuse * arrival.unshaped;
+        LightTerm term = respond(model, scene, material.shininess, normal, to_viewer, arrival, decisions);
+        if (model.light_ambient == LightAmbient::each)
+            term.ambient = arrival.fading * scene.light_ambients.at(radiance.terms.size());
+        radiance.value += highlight * term.specular * arrival.radiance + material.ambient * term.ambient;
+        radiance.largest += material.diffuse * arrival.unshaped + material.ambient * term.ambient;
         if (model.specular != Specular::none) radiance.largest += highlight * arrival.unshaped;
         radiance.terms.push_back(term);
     }
+    radiance.value += material.diffuse * limited(model, scene, radiance.terms);
     return radiance;
+}
+
+double alpha_of(const Model& model, const SurfacePoint& point) {
+    return model.vertex_color == VertexColor::modulate ? point.color.a : 1;
+}
+
+bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& point, Decisions& decisions) {
+    return model.cutout == Cutout::threshold &&
+           decisions.above(scene.cutout_threshold, point.opacity * alpha_of(model, point));
 }
 
 Seen seen_through_fog(const Model& model, const Scene& scene, const glm::dvec3& position,

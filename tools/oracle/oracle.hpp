@@ -20,9 +20,18 @@ struct Radiance {
     /// error is measured by. Zero only where no light reaches the point at all.
     glm::dvec3 largest{0};
     std::vector<LightTerm> terms;  ///< one for each light
+    Material material;             ///< that of the side that is seen, tinted by the vertices' colour
+    AmbientLight ambient;          ///< without the lights' own
 };
 
-/// emission + K_a A + K_d sum f_d L + strength K_s sum f_s L, over exactly the lights of the scene.
+/// The material of the point: the one there is, or row i of the table, with two materials row 2 i in front
+/// and 2 i + 1 at the back; where the index is beyond the table, of the nearest row or pair.
+[[nodiscard]] const Material& material_of(const Model& model, const Scene& scene, const SurfacePoint& point);
+
+/// emission + K_a (A + sum A_l fading) + K_d sum f_d L + strength K_s sum f_s L, over exactly the lights of
+/// the scene, with K_a and K_d tinted and the normal flipped on the back where the model says so; unlit, K_d
+/// alone. Toon tones by thresholds add up to no more than the brightest tone of the brightest light that
+/// gives one.
 [[nodiscard]] Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
                                     Decisions& decisions);
 
@@ -36,6 +45,14 @@ struct Seen {
 [[nodiscard]] Seen seen_through_fog(const Model& model, const Scene& scene, const glm::dvec3& position,
                                     const glm::dvec3& radiance, const glm::dvec3& largest,
                                     Decisions& decisions);
+
+/// Whether the point is cut out: the alpha of the opacity map times that of the vertices is below the
+/// threshold.
+[[nodiscard]] bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& point,
+                              Decisions& decisions);
+
+/// How opaque the point is.
+[[nodiscard]] double alpha_of(const Model& model, const SurfacePoint& point);
 
 /// The depth that the fragment writes, of its own window depth in [0, 1]; nothing where it writes none. The
 /// offset counts only towards the side that the key promises, and the result stays within [0, 1].

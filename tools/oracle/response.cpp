@@ -7,14 +7,37 @@
 
 namespace gobo::oracle {
 
-double diffuse_share(const Model& model, int toon_levels, double cosine, Decisions& decisions) {
+namespace {
+
+/// The edge k / N nearest to the cosine decides between the bands on its two sides. There is none at 0 and 1.
+double banded_share(Diffuse diffuse, int levels, double cosine, Decisions& decisions) {
+    const int edge = std::clamp(static_cast<int>(std::lround(cosine * levels)), 0, levels);
+    const double at = static_cast<double>(edge) / levels;
+    const bool is_inner = edge > 0 && edge < levels;
+    int band = edge == levels ? levels - 1 : 0;  // counted from the darkest
+    if (is_inner && diffuse == Diffuse::toon) band = decisions.above(at, cosine) ? edge - 1 : edge;
+    if (is_inner && diffuse == Diffuse::toon_ceil) band = decisions.above(cosine, at) ? edge : edge - 1;
+    return static_cast<double>(diffuse == Diffuse::toon ? band : band + 1) / levels;
+}
+
+double tone(const Scene& scene, double cosine, Decisions& decisions) {
+    for (std::size_t i = 0; i < scene.toon_thresholds.size(); ++i)
+        if (decisions.above(cosine, scene.toon_thresholds[i])) return scene.toon_tones[i];
+    return 0;
+}
+
+/// Whether the radiance jumps where a light rises over the surface's horizon.
+bool jumps_at_horizon(const Model& model) {
+    return model.specular != Specular::none || model.diffuse == Diffuse::toon_ceil ||
+           model.diffuse == Diffuse::toon_thresholds;
+}
+
+}  // namespace
+
+double diffuse_share(const Model& model, const Scene& scene, double cosine, Decisions& decisions) {
     if (model.diffuse == Diffuse::lambert) return cosine;
-    // The edge k / N nearest to the cosine: the band begins at its lower edge. There is none at 0 and at 1.
-    const int edge = static_cast<int>(std::lround(cosine * toon_levels));
-    if (edge < 1) return 0;
-    if (edge >= toon_levels) return (toon_levels - 1.0) / toon_levels;
-    const bool is_below = decisions.above(static_cast<double>(edge) / toon_levels, cosine);
-    return static_cast<double>(is_below ? edge - 1 : edge) / toon_levels;
+    if (model.diffuse == Diffuse::toon_thresholds) return tone(scene, cosine, decisions);
+    return banded_share(model.diffuse, scene.toon_levels, cosine, decisions);
 }
 
 double highlight_angle(Specular specular, const glm::dvec3& normal, const glm::dvec3& to_light,
@@ -28,19 +51,19 @@ double lobe(double angle, double shininess) {
     return std::pow(std::max(std::cos(angle), 0.0), shininess);
 }
 
-LightTerm respond(const Model& model, const Scene& scene, const glm::dvec3& normal,
+LightTerm respond(const Model& model, const Scene& scene, double shininess, const glm::dvec3& normal,
                   const glm::dvec3& to_viewer, const Arrival& arrival, Decisions& decisions) {
     LightTerm term;
     term.arrival = arrival;
     term.cosine = glm::dot(normal, arrival.to_light);
     const bool has_highlight = model.specular != Specular::none;
-    // Without highlights the radiance is continuous at the horizon: nothing is decided there.
-    term.is_lit = has_highlight ? decisions.above(term.cosine, 0) : term.cosine > 0;
+    // Where the radiance is continuous at the horizon, nothing is decided there.
+    term.is_lit = jumps_at_horizon(model) ? decisions.above(term.cosine, 0) : term.cosine > 0;
     if (!term.is_lit) return term;
-    term.diffuse = diffuse_share(model, scene.toon_levels, std::max(term.cosine, 0.0), decisions);
+    term.diffuse = diffuse_share(model, scene, std::max(term.cosine, 0.0), decisions);
     if (!has_highlight) return term;
     term.highlight_angle = highlight_angle(model.specular, normal, arrival.to_light, to_viewer);
-    term.specular = lobe(term.highlight_angle, scene.material.shininess);
+    term.specular = lobe(term.highlight_angle, shininess);
     term.half_length = glm::length(arrival.to_light + to_viewer);
     return term;
 }

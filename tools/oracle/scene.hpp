@@ -2,10 +2,14 @@
 // meaning. Points and directions are in eye space, where the viewer stands at the origin and looks along -z.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "oracle/surroundings.hpp"
 
 namespace gobo::oracle {
 
@@ -13,6 +17,10 @@ namespace gobo::oracle {
 struct SurfacePoint {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};  ///< of any length; zero where there is none
+    glm::dvec4 color{1};   ///< of the vertices, and their alpha
+    double opacity = 1;    ///< the alpha of the opacity map there
+    int material = 0;      ///< index into the table of materials, or of its pairs
+    bool is_back = false;  ///< which side is seen
 };
 
 /// Reflectivities per colour channel, 0 to 1; emission in radiance.
@@ -66,6 +74,13 @@ struct DepthMaps {
     std::vector<double> depths = {1};
 };
 
+/// A light that is directional or local, as w has it.
+struct HomogeneousLight {
+    glm::dvec4 position{0};     ///< a direction where w is 0 (below 1e-6), else a point times its w
+    glm::dvec3 color{0};        ///< radiance where the attenuation is 1
+    glm::dvec3 attenuation{0};  ///< as a point light's; a direction has none
+};
+
 /// Distances along the view. Each kind of fog reads what it needs.
 struct FogParameters {
     glm::dvec3 color{0};
@@ -86,6 +101,14 @@ struct Scene {
     double depth_offset = 0;        ///< in window depth
     std::vector<Shadow> shadows{};  ///< of the first directional lights, then spot lights, then point lights
     DepthMaps maps{};
+    std::vector<HomogeneousLight> homogeneous;
+    std::vector<glm::dvec3> light_ambients;  ///< of each light: directional, point, spot, homogeneous
+    HemisphereLight hemisphere;
+    HarmonicsLight harmonics;
+    std::array<double, 3> toon_thresholds{0.95, 0.5, 0.25};  ///< cosines, the highest first
+    std::array<double, 3> toon_tones{1, 0.6, 0.4};           ///< above each
+    std::array<Material, 14> materials;
+    double cutout_threshold = 0;  ///< alpha below it is cut
 };
 
 }  // namespace gobo::oracle

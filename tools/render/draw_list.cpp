@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "common/text.hpp"
+#include "render/vertex_values.hpp"
 
 namespace gobo {
 namespace {
@@ -55,6 +56,15 @@ void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::stri
         gl.VertexAttribPointer(location, static_cast<GLint>(sizeof values[0] / sizeof(float)), GL_FLOAT,
                                GL_FALSE, 0, nullptr);
     };
+    const auto attach_integers = [&](const std::vector<std::int32_t>& values) {
+        static_cast<void>(
+            resources.make_buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof values[0]));
+        gl.EnableVertexAttribArray(location);
+        gl.VertexAttribIPointer(location, 1, GL_INT, 0, nullptr);
+    };
+    if (source == "tile") attach(tiled_texcoords(mesh));
+    if (source == "tint") attach(vertex_tints(mesh));
+    if (source == "material_number") attach_integers(material_numbers(mesh));
     if (source == "position") attach(mesh.positions);
     if (source == "normal") attach(mesh.normals);
     if (source == "texcoord") attach(mesh.texcoords);

@@ -136,13 +136,14 @@ const std::vector<std::string>& uniform_sources() {
 }
 
 const std::vector<std::string>& attribute_sources() {
-    static const std::vector<std::string> sources = {"position", "normal", "texcoord", "color"};
+    static const std::vector<std::string> sources = {"position", "normal",          "texcoord", "color",
+                                                     "tint",     "material_number", "tile"};
     return sources;
 }
 
 const std::vector<std::string>& texture_sources() {
     static const std::vector<std::string> sources = {"texture_checker", "texture_white", "texture_ramp",
-                                                     "texture_normal"};
+                                                     "texture_normal", "texture_lattice"};
     return sources;
 }
 

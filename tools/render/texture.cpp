@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace gobo {
 namespace {
@@ -26,6 +27,11 @@ constexpr auto targets = std::to_array<TargetRow>({
 Texel texel(const std::string& source, const std::vector<double>& numbers, int x, int y) {
     if (source == "texture_white") return {1, 1, 1, 1};
     if (source == "texture_normal") return {0.5F, 0.5F, 1, 1};
+    if (source == "texture_lattice") {  // opaque but for one round hole
+        const float across = (static_cast<float>(x) + 0.5F) / side - 0.5F;
+        const float up = (static_cast<float>(y) + 0.5F) / side - 0.5F;
+        return {1, 1, 1, std::clamp(4 * std::hypot(across, up) - 0.7F, 0.0F, 1.0F)};
+    }
     if (source == "texture_ramp") {
         const float value = (static_cast<float>(x) + 0.5F) / side;
         return {value, value, value, 1};

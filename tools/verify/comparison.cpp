@@ -46,6 +46,11 @@ Deviation deviation(const std::vector<Expected>& all, const evaluate::Outputs& o
                     Precision precision) {
     Deviation worst;
     for (const Expected& expected : all) {
+        if (expected.output == kDiscard) {
+            const double is_discarded = outputs.discarded[index] ? 1 : 0;
+            compare(expected, {is_discarded}, 1, 0, precision, worst);
+            continue;
+        }
         const auto found = outputs.values.find(expected.output);
         if (found != outputs.values.end())
             compare(expected, found->second, outputs.count, index, precision, worst);

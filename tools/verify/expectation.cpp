@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "verify/rounding.hpp"
 
@@ -71,6 +72,25 @@ EyeNormal eye_normal(const Sample& sample) {
     return {oracle::direction_of(normal), length > 0 ? 3 * kUnitRoundoff * glm::length(largest) / length : 0};
 }
 
+/// What the vertex stage hands on as it is.
+void add_handed_on(const Sample& sample, std::vector<Expected>& outputs) {
+    const glm::dvec4& color = sample.surface.color;
+    const glm::dvec2& uv = sample.texture_coordinate;
+    outputs.push_back({"vertexColor", 4, {color.r, color.g, color.b, color.a}, {}, {}});
+    outputs.push_back({"textureCoordinate", 2, {uv.x, uv.y}, {}, {}});
+    outputs.push_back({"flatMaterialIndex", 1, {static_cast<double>(sample.surface.material)}, {}, {}, true});
+    outputs.push_back(
+        {"handedness", 1, {glm::determinant(glm::dmat3(sample.model_view)) < 0 ? -1.0 : 1.0}, {}, {}, true});
+}
+
+/// The point as the fragment stage has it: no colour is negative.
+oracle::SurfacePoint seen_point(const Sample& sample) {
+    oracle::SurfacePoint point = sample.surface;
+    point.color = glm::max(point.color, glm::dvec4(0));
+    point.is_back = sample.is_front_facing != (sample.handedness > 0);
+    return point;
+}
+
 std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sample,
                                     oracle::Decisions& decisions) {
     const Placed placed = place(sample);
@@ -80,38 +100,49 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expect_clip_position(sample, placed),
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
+    add_handed_on(sample, outputs);
     if (model.shading != oracle::Shading::vertex) return outputs;
-    const oracle::SurfacePoint point{placed.value, normal.value};
-    const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
+    oracle::SurfacePoint point = sample.surface;
+    point.position = placed.value;
+    point.normal = normal.value;
     const PointErrors errors{glm::length(position_error), normal.error};
-    outputs.push_back(expected("litRadiance", radiance.value, radiance.largest,
-                               radiance_error(model, sample.scene, point, radiance, errors)));
+    for (const bool is_back : {false, true}) {
+        if (is_back && model.sides == oracle::Sides::one) break;
+        point.is_back = is_back;
+        const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
+        outputs.push_back(expected(is_back ? "backRadiance" : "litRadiance", radiance.value, radiance.largest,
+                                   radiance_error(model, sample.scene, point, radiance, errors)));
+    }
     return outputs;
 }
 
 Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::Decisions& decisions) {
-    glm::dvec3 value = glm::max(sample.lit_radiance, glm::dvec3(0));
+    const oracle::SurfacePoint point = seen_point(sample);
+    const bool is_back = model.sides != oracle::Sides::one && point.is_back;
+    glm::dvec3 value = glm::max(is_back ? sample.back_radiance : sample.lit_radiance, glm::dvec3(0));
     glm::dvec3 largest = value;
     glm::dvec3 error{0};
     if (model.shading == oracle::Shading::fragment) {
-        const oracle::Radiance radiance =
-            oracle::lit_radiance(model, sample.scene, sample.surface, decisions);
+        const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
         value = radiance.value;
         largest = radiance.largest;
-        error = radiance_error(model, sample.scene, sample.surface, radiance, {});
+        error = radiance_error(model, sample.scene, point, radiance, {});
     }
     const oracle::Seen seen =
         oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);
     Expected color = expected("fragmentColor", seen.value, seen.largest,
                               fog_error(model, sample.scene, seen, value, error, 0));
     color.components = 4;
-    color.value[3] = 1;
+    color.value[3] = oracle::alpha_of(model, point);
     return color;
 }
 
 std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,
                                       oracle::Decisions& decisions) {
-    std::vector<Expected> outputs = {expect_color(model, sample, decisions)};
+    const bool is_cut = oracle::is_cut_out(model, sample.scene, seen_point(sample), decisions);
+    std::vector<Expected> outputs = {{kDiscard, 1, {is_cut ? 1.0 : 0.0}, {}, {}}};
+    if (is_cut) return outputs;
+    outputs.push_back(expect_color(model, sample, decisions));
     if (const auto depth = oracle::written_depth(model, sample.scene, sample.depth)) {
         // One sum of two numbers of at most 1 each.
         outputs.push_back({"gl_FragDepth", 1, {*depth}, {2}, {2 * kUnitRoundoff}});

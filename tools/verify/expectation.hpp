@@ -28,7 +28,11 @@ struct Expected {
 /// the library's series leave out on purpose.
 inline constexpr double kDoubleTolerance = 1e-9;
 
-/// The outputs that the stage may have; those it does not have are of no concern.
+/// The name under which a fragment stage is expected to discard (1) or not (0): no output's.
+inline constexpr std::string_view kDiscard = "discard";
+
+/// The outputs that the stage may have, and kDiscard, alone where the fragment is discarded; those it does
+/// not have are of no concern.
 [[nodiscard]] std::vector<Expected> expect(const oracle::Model& model, StageKind stage, const Sample& sample,
                                            oracle::Decisions& decisions);
 

@@ -1,52 +1,17 @@
 #include "verify/feed.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string_view>
-#include <type_traits>
 
 #include <fmt/format.h>
-#include <glm/gtc/type_ptr.hpp>
 
+#include "verify/feed_surface.hpp"
+#include "verify/field_access.hpp"
 #include "verify/shadow_feed.hpp"
 
 namespace gobo::verify {
 namespace {
-
-std::vector<double> numbers(double value) {
-    return {value};
-}
-std::vector<double> numbers(int value) {
-    return {static_cast<double>(value)};
-}
-std::vector<double> numbers(const glm::dvec3& value) {
-    return {value.x, value.y, value.z};
-}
-template <class Matrix>
-std::vector<double> numbers(const Matrix& value) {
-    const auto* first = glm::value_ptr(value);
-    return {first, first + Matrix::length() * Matrix::col_type::length()};
-}
-
-template <class Number>
-void assign(Number& target, const std::vector<double>& values) requires std::is_arithmetic_v<Number> {
-    target = static_cast<Number>(values.at(0));
-}
-template <class Vector>
-void assign(Vector& target, const std::vector<double>& values) {
-    auto* first = glm::value_ptr(target);
-    std::copy_n(values.begin(), std::min(values.size(), numbers(target).size()), first);
-}
-
-/// The field that `access` gives a reference to.
-template <class Access>
-Field field(Access access) {
-    return {[access](const Sample& sample) { return numbers(access(sample)); },
-            [access](Sample& sample, const std::vector<double>& values) { assign(access(sample), values); }};
-}
-
-using Fields = std::map<std::string, Field, std::less<>>;
 
 Fields plain_fields() {
     return {
@@ -79,24 +44,6 @@ Fields plain_fields() {
     };
 }
 
-/// "PointLights.lights[2].color" after its block's name: 2 and "color".
-struct LightName {
-    std::size_t index = 0;
-    std::string_view member;
-};
-
-std::optional<LightName> light_name(std::string_view name, std::string_view block) {
-    const std::string prefix = fmt::format("{}.lights[", block);
-    if (!name.starts_with(prefix)) return std::nullopt;
-    name.remove_prefix(prefix.size());
-    LightName result;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), result.index);
-    name.remove_prefix(static_cast<std::size_t>(end - name.data()));
-    if (error != std::errc() || !name.starts_with("].")) return std::nullopt;
-    result.member = name.substr(2);
-    return result;
-}
-
 /// A member of one light. Setting it makes the light, and those before it, where there are fewer.
 template <class Light, class Access>
 Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, Access access) {
@@ -108,7 +55,7 @@ Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, 
             }};
 }
 
-std::optional<Field> directional_field(const LightName& name) {
+std::optional<Field> directional_field(const ElementName& name) {
     const auto of = [&](auto access) { return light_field(&oracle::Scene::directional, name.index, access); };
     if (name.member == "direction") return of([](auto& light) -> auto& { return light.direction; });
     if (name.member == "color") return of([](auto& light) -> auto& { return light.color; });
@@ -116,7 +63,7 @@ std::optional<Field> directional_field(const LightName& name) {
 }
 
 template <class Light>
-std::optional<Field> point_field(std::vector<Light> oracle::Scene::*lights, const LightName& name) {
+std::optional<Field> point_field(std::vector<Light> oracle::Scene::*lights, const ElementName& name) {
     const auto of = [&](auto access) { return light_field(lights, name.index, access); };
     if (name.member == "color") return of([](auto& light) -> auto& { return light.color; });
     if (name.member == "attenuation") return of([](auto& light) -> auto& { return light.attenuation; });
@@ -130,7 +77,7 @@ std::optional<Field> point_field(std::vector<Light> oracle::Scene::*lights, cons
     return position;
 }
 
-std::optional<Field> spot_field(const LightName& name) {
+std::optional<Field> spot_field(const ElementName& name) {
     const auto of = [&](auto access) { return light_field(&oracle::Scene::spot, name.index, access); };
     if (name.member == "axis") return of([](auto& light) -> auto& { return light.axis; });
     if (name.member == "exponent") return of([](auto& light) -> auto& { return light.exponent; });
@@ -162,9 +109,11 @@ Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> sampl
 std::optional<Field> field_of(const std::string& name) {
     static const Fields plain = plain_fields();
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
-    if (const auto light = light_name(name, "DirectionalLights")) return directional_field(*light);
-    if (const auto light = light_name(name, "PointLights")) return point_field(&oracle::Scene::point, *light);
-    if (const auto light = light_name(name, "SpotLights")) return spot_field(*light);
+    if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
+    if (const auto light = element_name(name, "PointLights.lights"))
+        return point_field(&oracle::Scene::point, *light);
+    if (const auto light = element_name(name, "SpotLights.lights")) return spot_field(*light);
+    if (auto surface = surface_field_of(name)) return surface;
     return shadow_field(name);
 }
 
@@ -177,6 +126,7 @@ Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<c
                 return tl::unexpected(fed.error());
     for (const evaluate::ImagePort& image : program.images)
         if (image.name == "shadowMaps") invocations.images[image.name] = shadow_maps_of(samples);
+    feed_images(program, samples, invocations);
     return invocations;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "evaluate/images.hpp"
+#include "render/vertex_values.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -125,6 +126,13 @@ void add_attributes(const evaluate::Program& program, const Mesh& mesh,
             numbers = by_component(mesh.normals, port.components);
         } else if (source == "texcoord") {
             numbers = by_component(mesh.texcoords, port.components);
+        } else if (source == "tile") {
+            numbers = by_component(tiled_texcoords(mesh), port.components);
+        } else if (source == "tint") {
+            numbers = by_component(vertex_tints(mesh), port.components);
+        } else if (source == "material_number") {
+            const std::vector<std::int32_t> indices = material_numbers(mesh);
+            numbers.assign(indices.begin(), indices.end());
         } else {
             numbers.assign(port.components, source == "color" ? 1 : 0);
         }

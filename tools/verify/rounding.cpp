@@ -73,6 +73,7 @@ double shadow_error(const oracle::Arrival& arrival, double position_error) {
 /// What the light's arrival is known to.
 struct ArrivalErrors {
     double direction = 0;
+    double fading = 0;  ///< relative
     glm::dvec3 radiance{0};
 };
 
@@ -81,12 +82,13 @@ struct ArrivalErrors {
 /// at most twice as much, with seven roundings of positive terms.
 ArrivalErrors arrival_errors(const oracle::Arrival& arrival, double position_error) {
     const glm::dvec3 shadow = arrival.unshaped * shadow_error(arrival, position_error);
-    if (arrival.distance == 0) return {2 * kU, shadow};
-    const double ray = kU + position_error / arrival.distance;
+    if (arrival.is_given) return {2 * kU, 0, shadow};
+    if (arrival.distance == 0) return {kDirectionError, 0, glm::dvec3(0)};
+    const double ray = kU + (position_error + kU * arrival.place_size) / arrival.distance;
     const double direction = ray + kDirectionError;
     const double fading = 2 * direction + 7 * kU;
     const double cone = arrival.spot != nullptr ? cone_error(arrival, direction) : 0;
-    return {direction, arrival.radiance * fading + arrival.unshaped * cone + shadow};
+    return {direction, fading, arrival.radiance * fading + arrival.unshaped * cone + shadow};
 }
 
 /// The sum of the errors of the two directions between which the highlight's angle lies.
@@ -100,24 +102,38 @@ double highlight_directions(const oracle::Model& model, const oracle::LightTerm&
 
 /// A light's parts of the error, without the material.
 struct TermErrors {
+    glm::dvec3 ambient{0};
     glm::dvec3 scattered{0};
     glm::dvec3 reflected{0};
 };
 
+/// The share that a light's error counts with: the brightest tone where that limits the sum.
+double largest_share(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term) {
+    if (model.diffuse != oracle::Diffuse::toon_thresholds) return term.diffuse;
+    return *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end());
+}
+
+/// Ambient light at a normal known to within `normal`: its slope times that error (turning the normal to the
+/// probe's axes rounds three products more), and ten roundings of its terms.
+glm::dvec3 ambient_error(const oracle::AmbientLight& ambient, double normal) {
+    return ambient.slope * (normal + 6 * kU) + ambient.largest * (10 * kU);
+}
+
 TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term,
-                       const PointErrors& errors, double normal, double to_viewer) {
+                       double shininess, const PointErrors& errors, double normal, double to_viewer) {
     const ArrivalErrors arrival = arrival_errors(term.arrival, errors.position);
     const glm::dvec3& light = term.arrival.radiance;
     TermErrors result;
+    result.ambient = term.ambient * (arrival.fading + 2 * kU);
     // The gate is decided; where it is open, the cosine is off by both directions and a dot product.
     const double cosine = normal + arrival.direction + 3 * kU;
     const bool may_be_lit = term.is_lit || std::abs(term.cosine) <= cosine;
     if (!may_be_lit) return result;
-    const double diffuse = model.diffuse == oracle::Diffuse::toon ? 2 * kU : cosine;
-    result.scattered = light * (diffuse + kU) + arrival.radiance * term.diffuse;
+    const double diffuse = model.diffuse == oracle::Diffuse::lambert ? cosine : 2 * kU;
+    result.scattered = light * (diffuse + kU) + arrival.radiance * largest_share(model, scene, term);
     if (model.specular == oracle::Specular::none) return result;
     const double directions = highlight_directions(model, term, normal, arrival.direction, to_viewer);
-    const double share = power_error(versine(term.highlight_angle, directions), scene.material.shininess);
+    const double share = power_error(versine(term.highlight_angle, directions), shininess);
     result.reflected = light * (share + kU) + arrival.radiance * term.specular;
     return result;
 }
@@ -130,14 +146,16 @@ glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene
     const double normal = errors.normal + kDirectionError;
     const double distance = glm::length(point.position);
     const double to_viewer = distance > 0 ? errors.position / distance + kDirectionError : 0;
-    const oracle::Material& material = scene.material;
-    glm::dvec3 error{0};
+    const oracle::Material& material = radiance.material;
+    glm::dvec3 error = material.ambient * ambient_error(radiance.ambient, normal);
     for (const oracle::LightTerm& term : radiance.terms) {
-        const TermErrors one = term_errors(model, scene, term, errors, normal, to_viewer);
-        error += material.diffuse * one.scattered + material.strength * material.specular * one.reflected;
+        const TermErrors one = term_errors(model, scene, term, material.shininess, errors, normal, to_viewer);
+        error += material.ambient * one.ambient + material.diffuse * one.scattered +
+                 material.strength * material.specular * one.reflected;
     }
-    // Sums of n terms that are not negative, three products with the material, three sums of the parts.
-    const double roundings = static_cast<double>(radiance.terms.size()) + 6;
+    // Sums of n terms that are not negative, three products with the material and two with the vertices'
+    // colour, four sums of the parts.
+    const double roundings = static_cast<double>(radiance.terms.size()) + 9;
     return error + radiance.value * (roundings * kU);
 }
 

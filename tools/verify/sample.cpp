@@ -7,7 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include "oracle/oracle.hpp"
 #include "verify/random.hpp"
+#include "verify/sample_surface.hpp"
 #include "verify/shadow_sample.hpp"
 
 namespace gobo::verify {
@@ -17,7 +19,7 @@ namespace {
 class SampleMaker {
   public:
     SampleMaker(const oracle::Model& model, StageKind stage, std::uint64_t seed)
-        : model_(model), is_vertex_(stage == StageKind::vertex), random_(seed) {}
+        : model_(model), stage_(stage), is_vertex_(stage == StageKind::vertex), random_(seed) {}
 
     Sample make() {
         Sample sample;
@@ -39,16 +41,19 @@ class SampleMaker {
   private:
     /// All that is the same for every point of a draw.
     void furnish(Sample& sample) {
-        normal_ = glm::normalize(sample.surface.normal);
+        choose_side(model_, stage_, random_, sample);
+        fill_surface(model_, stage_, random_, sample);
+        normal_ = glm::normalize(sample.surface.is_back ? -sample.surface.normal : sample.surface.normal);
         const glm::dvec3 to_viewer = -glm::normalize(sample.surface.position);
         mirrored_ = 2 * glm::dot(normal_, to_viewer) * normal_ - to_viewer;
-        fill_material(sample.scene.material);
+        fill_materials(sample);
         sample.scene.ambient = random_.components(0, 1);
         add_lights(sample);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
         add_shadows(model_, random_, sample);
+        fill_surroundings(model_, random_, sample.scene);
     }
 
     void place_fragment(Sample& sample) {
@@ -104,6 +109,15 @@ class SampleMaker {
         return random_.one_in(4) || glm::dot(normal, position) < 0 ? normal : -normal;
     }
 
+    void fill_materials(Sample& sample) {
+        if (model_.material == oracle::MaterialChoice::array)
+            for (oracle::Material& material : sample.scene.materials) fill_material(material);
+        else
+            fill_material(sample.scene.material);
+        const double shininess = oracle::material_of(model_, sample.scene, sample.surface).shininess;
+        lobe_width_ = 1 / std::sqrt(std::max(shininess, 1.0));
+    }
+
     void fill_material(oracle::Material& material) {
         material.emission = random_.one_in(2) ? glm::dvec3(0) : random_.components(0, 1);
         material.ambient = random_.components(0, 1);
@@ -111,7 +125,6 @@ class SampleMaker {
         material.specular = random_.components(0, 1);
         material.strength = random_.across(0.1, 4);
         material.shininess = random_.one_in(16) ? 0 : random_.across(0.1, 1e3);
-        lobe_width_ = 1 / std::sqrt(std::max(material.shininess, 1.0));
     }
 
     /// The direction of a light: anywhere, in front of the surface, behind it, or where the highlight is.
@@ -161,6 +174,19 @@ class SampleMaker {
         }
     }
 
+    /// A direction of any length, a point, or a point times some w: a power of two, so that a float holds the
+    /// same place.
+    oracle::HomogeneousLight either_kind(const glm::dvec3& surface) {
+        oracle::PointLight local;
+        const glm::dvec3 direction = place(local, surface);
+        if (random_.one_in(2)) {
+            const glm::dvec3 color = random_.components(0, 2);
+            return {glm::dvec4(direction * random_.across(0.1, 10), 0), color, local.attenuation};
+        }
+        const double w = std::ldexp(random_.one_in(4) ? -1 : 1, random_.one_in(2) ? 0 : random_.whole(-3, 3));
+        return {glm::dvec4(local.position * w, w), local.color, local.attenuation};
+    }
+
     void add_lights(Sample& sample) {
         for (int i = 0; i < model_.directional; ++i) {
             const bool is_straight = is_along_axis_ && random_.one_in(2);  // a cosine of exactly 1
@@ -173,6 +199,8 @@ class SampleMaker {
             oracle::SpotLight& light = sample.scene.spot.emplace_back();
             aim(light, place(light, sample.surface.position));
         }
+        for (int i = 0; i < model_.homogeneous; ++i)
+            sample.scene.homogeneous.push_back(either_kind(sample.surface.position));
     }
 
     /// Fog that is thin, thick or in between at the point's distance.
@@ -184,6 +212,7 @@ class SampleMaker {
     }
 
     const oracle::Model& model_;
+    StageKind stage_;
     bool is_vertex_;
     bool is_along_axis_ = false;
     Random random_;
@@ -252,6 +281,7 @@ Sample at_vertex(const Sample& draw, const Mesh& mesh, std::size_t vertex) {
     Sample sample = draw;
     sample.object_position = glm::dvec3(mesh.positions[vertex]);
     sample.object_normal = glm::dvec3(mesh.normals[vertex]);
+    vary_surface(vertex, sample);
     return sample;
 }
 
@@ -267,6 +297,7 @@ Sample rounded_to_float(Sample sample) {
             if (column < 3 && row < 3) to_float(sample.normal_matrix[column][row]);
         }
     to_float(sample.depth);
+    round_surface(sample);
     return sample;
 }
 

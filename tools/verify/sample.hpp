@@ -7,6 +7,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 
 #include "compose/composition.hpp"
 #include "oracle/model.hpp"
@@ -30,6 +31,10 @@ struct Sample {
     oracle::SurfacePoint surface;  ///< interpolated: the normal is shorter than 1
     glm::dvec3 lit_radiance{0};    ///< of shading per vertex
     double depth = 0;              ///< in the window, 0 to 1
+    glm::dvec3 back_radiance{0};   ///< of the other side, of shading per vertex
+    bool is_front_facing = true;   ///< as the triangle runs on the screen
+    double handedness = 1;         ///< -1 where the model is mirrored
+    glm::dvec2 texture_coordinate{0};
 };
 
 /// Ordinary inputs: coordinates to 1e3, local lights from 1e-2 to 1e3 away (in a vertex stage, where the eye

@@ -1,0 +1,11 @@
+// The whole lighting model at a vertex of the surface's back (S11, E2).
+#include "lighting/radiance.glsl"
+#include "surface/side.glsl"
+
+/// The radiance that leaves the back towards the viewer, before fog.
+vec3 litBack() {
+    backIsAsked = true;
+    vec3 radiance = litSurface();
+    backIsAsked = false;
+    return radiance;
+}

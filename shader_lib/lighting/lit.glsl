@@ -1,0 +1,2 @@
+// The surface is lit: litSurface() is the whole lighting model (L7).
+#include "lighting/radiance.glsl"

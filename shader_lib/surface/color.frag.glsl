@@ -1,0 +1,6 @@
+// The surface's colour in the fragment stage: interpolated between vertices (S17).
+//
+// Edges:  interpolation may leave its range by a rounding; a colour is not negative (H-I1).
+
+/// The colour, linear, and its alpha, 0 to 1.
+vec4 surfaceColor() { return max(vertexColor, vec4(0.0)); }  // H-I1

@@ -1,0 +1,251 @@
+// The hard cases of the surface's own models.
+#include <cmath>
+
+#include "lit_cases.hpp"
+
+namespace gobo {
+namespace {
+
+const Inputs kOnlyLights = {{"Material.emission", {0, 0, 0}}, {"Ambient.color", {0, 0, 0}}};
+const Inputs kBlackBack = {{"Materials.rows[1].diffuse", {0, 0, 0}},
+                           {"Materials.rows[1].ambient", {0, 0, 0}}};
+const Inputs kMirrored = {{"Transform.modelView", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                          {"Transform.normalMatrix", {-1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+const Inputs kUnmirrored = {{"Transform.modelView", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                            {"Transform.normalMatrix", {1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+
+Inputs faces_front(bool is_front) {
+    return {{"gl_FrontFacing", {is_front ? 1.0 : 0.0}}};
+}
+
+Inputs light_from(double x, double y, double z) {
+    return {{"DirectionalLights.lights[].direction", {x, y, z}}};
+}
+
+Inputs either_light(double x, double y, double z, double w) {
+    return {{"HomogeneousLights.lights[].position", {x, y, z, w}},
+            {"HomogeneousLights.lights[].attenuation", {0, 0, 1}}};
+}
+
+Inputs index(double material) {
+    return {{"materialIndex", {material}}};
+}
+
+/// A table whose ends are told apart from what lies between.
+Inputs table(const Inputs& changes) {
+    return with({{"Materials.rows[0].diffuse", {0.25, 0.25, 0.25}},
+                 {"Materials.rows[12].diffuse", {0.5, 0.5, 0.5}},
+                 {"Materials.rows[13].diffuse", {0.75, 0.75, 0.75}}},
+                changes);
+}
+
+Inputs opacity(double alpha, double threshold) {
+    return {{"opacityMap", {alpha}}, {"Cutout.threshold", {threshold}}};
+}
+
+/// Lights at the cosines and a rounding to either side.
+std::vector<Inputs> beside(const std::vector<double>& cosines) {
+    std::vector<Inputs> points;
+    for (const double edge : cosines)
+        for (const int ulps : {-1, 0, 1}) {
+            const double cosine = edge + ulps * 0x1p-24;
+            points.push_back(
+                with(kOnlyLights, light_from(std::sqrt(std::max(1 - cosine * cosine, 0.0)), 0, cosine)));
+        }
+    return points;
+}
+
+std::vector<Case> toon_cases() {
+    const std::vector<std::string> features = {"directional", "diffuse", "shading"};
+    return {
+        {"H_T1_cosine_of_one_at_full_tone",
+         "directional > 0 && (diffuse == toon_ceil || diffuse == toon_thresholds)",
+         {with(kOnlyLights, light_from(0, 0, 1)), with(kOnlyLights, light_from(0, 0, 1.0000001))},
+         is_color({1, 1, 1, 1}),
+         features},
+        {"H_T2_beside_a_band_edge_of_ceil", "directional > 0 && diffuse == toon_ceil",
+         beside({0.25, 0.5, 0.75}), is_neighbouring_band_of_ceil, features},
+        {"H_T2_beside_a_threshold", "directional > 0 && diffuse == toon_thresholds",
+         beside({0.25, 0.5, 0.95}), is_neighbouring_tone, features},
+        {"H_T2_thresholds_of_zero",
+         "directional > 0 && diffuse == toon_thresholds",
+         {with(with(kOnlyLights, light_from(1, 0, 1e-6)), {{"ToonThresholds.thresholds", {0, 0, 0}}})},
+         is_color({1, 1, 1, 1}),
+         features},
+        {"H_T2_no_tone_at_all",
+         "directional > 0 && diffuse == toon_thresholds",
+         {with(kOnlyLights, {{"ToonThresholds.tones", {0, 0, 0}}})},
+         is_color({0, 0, 0, 1}),
+         features},
+    };
+}
+
+std::vector<Case> side_cases() {
+    const std::vector<std::string> features = {"directional", "sides",    "material",
+                                               "shading",     "specular", "ambient"};
+    return {
+        {"H_G2_front_of_a_mirrored_model",
+         "sides != one",
+         {with(with(with(kMirrored, faces_front(false)), kBlackBack), light_from(0.6, 0, 0.8))},
+         same_as(with(kUnmirrored, faces_front(true))),
+         features},
+        {"H_G2_back_of_a_mirrored_model",
+         "sides != one",
+         {with(with(with(kMirrored, faces_front(true)), kBlackBack), light_from(0.6, 0, -0.8))},
+         same_as(with(kUnmirrored, faces_front(false))),
+         features},
+        {"H_G2_back_under_a_light_from_behind",
+         "sides == two && directional > 0 && ambient == global",
+         {with(faces_front(false), light_from(0.6, 0, -0.8)),
+          with(with(faces_front(false), light_from(0.6, 0, -0.8)), {{"position", {0, 0, 5}}})},
+         same_as(with(faces_front(true), {{"normal", {0, 0, -1}}})),
+         features},
+        {"H_G2_back_with_a_material_of_its_own",
+         "sides == two_materials && ambient == global && specular == none",
+         {with(faces_front(false), kBlackBack)},
+         is_color({0, 0, 0, 1}),
+         features},
+        {"H_G1_no_side_of_a_flattened_model",
+         "sides != one",
+         {{{"position", {1, 2, 3}},
+           {"Transform.modelView", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
+           {"Transform.normalMatrix", {0, 0, 0, 0, 0, 0, 0, 0, 1}}}},
+         robust(),
+         features},
+    };
+}
+
+std::vector<Case> material_cases() {
+    const std::vector<std::string> features = {"directional", "sides", "material", "shading", "lighting"};
+    return {
+        {"S10_index_before_the_table",
+         "material == array",
+         {table(index(-1)), table(index(-2147483648.0))},
+         same_as(index(0)),
+         features},
+        {"S10_index_behind_the_table",
+         "material == array && sides != two_materials",
+         {table(index(14)), table(index(2147483647))},
+         same_as(index(13)),
+         features},
+        {"S10_index_behind_the_pairs",
+         "sides == two_materials",
+         {table(index(7)), table(index(2147483647)), table(with(index(7), faces_front(false)))},
+         same_as(index(6)),
+         features},
+        {"S10_last_row",
+         "material == array && sides != two_materials && lighting == unlit",
+         {table(index(13))},
+         is_color({0.75, 0.75, 0.75, 1}),
+         features},
+        {"S10_last_pair",
+         "sides == two_materials && lighting == unlit",
+         {table(with(index(6), faces_front(true)))},
+         is_color({0.5, 0.5, 0.5, 1}),
+         features},
+    };
+}
+
+std::vector<Case> colour_cases() {
+    const std::vector<std::string> features = {"cutout", "vertex_color", "directional", "shading", "fog"};
+    return {
+        {"S16_alpha_at_the_threshold",
+         "cutout == threshold",
+         {opacity(0.5, 0.5), opacity(0, 0), opacity(1, 1)},
+         is_there(true),
+         features},
+        {"S16_alpha_below_the_threshold",
+         "cutout == threshold",
+         {opacity(0.5 - 0x1p-25, 0.5), opacity(0, 1e-30), opacity(1 - 0x1p-24, 1)},
+         is_there(false),
+         features},
+        {"S17_alpha_of_the_vertices_counts",
+         "cutout == threshold && vertex_color == modulate",
+         {with(opacity(1, 0.5), {{"color", {1, 1, 1, 0.25}}})},
+         is_there(false),
+         features},
+        {"H_I1_color_below_zero",
+         "vertex_color == modulate",
+         {{{"vertexColor", {-1e-7, -1e-7, -1e-7, -1e-7}}}},
+         same_as({{"vertexColor", {0, 0, 0, 0}}}),
+         features},
+    };
+}
+
+std::vector<Case> light_cases() {
+    const std::vector<std::string> features = {"homogeneous", "diffuse", "specular", "shading",
+                                               "light_ambient"};
+    const Inputs dark = {{"HomogeneousLights.lights[].color", {0, 0, 0}}};
+    return {
+        {"H_L1_either_kind_at_the_surface",
+         "homogeneous == 1 && light_ambient == none",
+         {either_light(0, 0, -5, 1), either_light(0, 0, -10, 2), either_light(0, 0, 0, 0)},
+         same_as(dark),
+         features},
+        {"L6_hardly_any_w",
+         "homogeneous == 1",
+         {either_light(0, 0, 1, 1e-7), either_light(0, 0, 1, -1e-7), either_light(0, 0, 1e6, 1e-40)},
+         same_as(either_light(0, 0, 1, 0)),
+         features},
+        {"L6_position_times_w",
+         "homogeneous == 1",
+         {either_light(0, 0, -4, 4), either_light(0, 0, 4, -4)},
+         same_as(either_light(0, 0, -1, 1)),
+         features},
+        {"L9_ambient_without_a_normal",
+         "directional == 1 && light_ambient == each",
+         {{{"normal", {0, 0, 0}}}, light_from(0, 0, 0)},
+         is_color({0.5, 0.5, 0.5, 1}),
+         {"directional", "light_ambient", "shading", "specular"}},
+        {"L9_ambient_outside_the_cone",
+         "spot == 1 && light_ambient == each",
+         {{{"position", {9, 0, -5}}}},
+         is_color({0.5, 0.5, 0.5, 1}),
+         {"spot", "light_ambient", "shading", "specular"}},
+    };
+}
+
+std::vector<Case> surroundings_cases() {
+    const std::vector<std::string> features = {"ambient", "hemisphere", "harmonics", "sides", "shading"};
+    return {
+        {"H_N1_no_normal_under_a_sky",
+         "ambient == hemisphere",
+         {{{"normal", {0, 0, 0}}}, {{"Hemisphere.up", {0, 0, 0}}}},
+         is_color({0.5, 0.5, 0.5, 1}),
+         features},
+        {"H_I1_normal_longer_than_one_under_a_sky",
+         "ambient == hemisphere && sides == one",
+         {{{"Hemisphere.up", {0, 0, 1.000001}},
+           {"Hemisphere.sky", {0, 0, 0}},
+           {"Hemisphere.ground", {1, 1, 1}}}},
+         is_color({0.125, 0.125, 0.125, 1}),
+         features},
+        {"H_B1_negative_irradiance",
+         "ambient == spherical_harmonics",
+         {{{"Harmonics.coefficients[]", {-1, -1, -1}}}},
+         is_color({0.125, 0.125, 0.125, 1}),
+         features},
+        // A small light straight ahead, its coefficients the basis functions there; seen at 122 degrees from
+        // it, where second order rings lowest.
+        {"H_B1_one_bright_small_light",
+         "ambient == spherical_harmonics && harmonics == second && sides == one",
+         {{{"Harmonics.coefficients[0]", {0.282095e5, 0.282095e5, 0.282095e5}},
+           {"Harmonics.coefficients[2]", {0.488603e5, 0.488603e5, 0.488603e5}},
+           {"Harmonics.coefficients[6]", {0.630783e5, 0.630783e5, 0.630783e5}},
+           {"normal", {0.8459, 0, -0.5333}}}},
+         is_color({0.125, 0.125, 0.125, 1}),
+         features},
+    };
+}
+
+}  // namespace
+
+std::vector<Case> surface_cases() {
+    std::vector<Case> all;
+    for (const auto& part :
+         {toon_cases(), side_cases(), material_cases(), colour_cases(), light_cases(), surroundings_cases()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace gobo
