@@ -1,9 +1,9 @@
 // The fragment stage of every lit surface: its radiance, seen through the fog, its alpha and its depth.
 #include <cutout>
-#include <depth>
-#include <fog>
-#include <shading>
 #include <vertex_color/alpha>
+#include <shading>
+#include <fog>
+#include <depth>
 
 /// Linear radiance, unclamped; how opaque.
 OUTPUT(0) vec4 fragmentColor;
