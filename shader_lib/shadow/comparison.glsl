@@ -10,6 +10,3 @@
 float compareDepth(vec3 place, float layer) {
     return textureGrad(shadowMaps, vec4(place.xy, layer, place.z), vec2(0.0), vec2(0.0));
 }
-
-/// Texels along each side of the maps.
-vec2 shadowMapSize() { return vec2(textureSize(shadowMaps, 0).xy); }

@@ -6,6 +6,7 @@
 // Edges:  continuous from texel to texel; weights are floats, where a sampler's own have 8 bits; texels beyond
 //         the border are those at the border.
 #include "shadow/comparison.glsl"
+#include "shadow/map_size.glsl"
 
 /// The share of the light that gets through.
 float filteredVisibility(vec3 place, float layer) {

@@ -5,6 +5,7 @@
 // Space:  window space of the light. Range: 0 to 1; result 0 or 1.
 // Edges:  the far border belongs to the last texel.
 #include "shadow/comparison.glsl"
+#include "shadow/map_size.glsl"
 
 /// The share of the light that gets through: all or nothing.
 float filteredVisibility(vec3 place, float layer) {
