@@ -224,6 +224,7 @@ Operation& Decoder::emit_row(std::uint32_t row, const Instruction& instruction, 
 
     OperationInfo info;
     info.place = instruction.place;
+    info.is_precise = module_.decorations_of(instruction.result).no_contraction;
     info.result = {result, types_[instruction.type].slots, types_[instruction.type].scalar, 0};
     if (instruction.type != 0)
         info.result = slice({instruction.type, result, -1, -1, intern(module_.name_of(instruction.result))});

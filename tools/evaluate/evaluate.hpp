@@ -76,9 +76,27 @@ enum class Errors {
     largest_down,  ///< too small by as much
 };
 
+/// Which of the sums that the real numbers cannot tell apart a machine computes. Operations that the shader
+/// marks `precise` (NoContraction) are computed as written on every machine.
+enum class Sums {
+    as_written,
+    fused,      ///< a * b + c is rounded once, in functions such as dot() and mix() too
+    regrouped,  ///< (a + b) + c as a + (b + c), what cancels is gone; dot products from their last term on
+    reordered,  ///< (a + b) + c as (a + c) + b, and so on as regrouped
+};
+
+/// What min(), max() and clamp() make of a NaN, which GLSL leaves open.
+enum class NaNs {
+    by_comparison,  ///< as GLSL's text has it: what the comparison being false gives
+    kept,           ///< a NaN wherever one is given
+    dropped,        ///< a number wherever one is given
+};
+
 struct Options {
     bool flush_denormals = false;  ///< fp32 only: denormal operands and results are taken as 0
     Errors errors = Errors::none;
+    Sums sums = Sums::as_written;
+    NaNs nans = NaNs::by_comparison;
     /// fp64 only: of each operation, the one invocation in which its results are rounded to floats, or -1.
     const std::vector<std::int64_t>* rounded_in = nullptr;
     bool count = false;  ///< fill Outputs::counts

@@ -30,6 +30,14 @@ struct Execution {
     }
 };
 
+/// How a row runs on machines that take the liberties GLSL allows; where a member is empty, as everywhere.
+struct Liberties {
+    Execution fused = {};        ///< products and their sum rounded once
+    Execution backwards = {};    ///< sums from the last term to the first
+    Execution nan_kept = {};     ///< the NaN among two operands is the result
+    Execution nan_dropped = {};  ///< the other operand is
+};
+
 /// One instruction. `signature` is what it gives and takes, as "f:ff": f real, i integer, b boolean; lower
 /// case for values of n components (any n, the same throughout; n as a last digit demands it), upper case for
 /// scalars, * for anything of the result's type. Rows with an empty signature are placed by the decoder's own
@@ -40,6 +48,7 @@ struct Row {
     Kind kind;
     std::string_view signature;
     Execution execution;
+    Liberties liberties = {};
 };
 
 inline constexpr std::uint32_t kExtended = 0x10000;

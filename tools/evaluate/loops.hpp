@@ -1,6 +1,7 @@
 // Makes rows' executions out of one-line functions of a component. Internal to evaluation.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 #include "evaluate/instruction_table.hpp"
@@ -112,5 +113,28 @@ template <auto F>
 inline constexpr Execution kTest1 = kMap1<F, WholeRows, RealRows>;
 template <auto F>
 inline constexpr Execution kTest2 = kMap2<F, WholeRows, RealRows, RealRows>;
+
+// How an operation adds up the products it consists of: the parameter `Sums` of such rows.
+struct AsWritten {
+    static constexpr bool kBackwards = false;
+    template <class T>
+    static T add_product(T sum, T a, T b) {
+        return sum + a * b;
+    }
+};
+struct Fused {
+    static constexpr bool kBackwards = false;
+    template <class T>
+    static T add_product(T sum, T a, T b) {
+        return std::fma(a, b, sum);
+    }
+};
+struct Backwards {
+    static constexpr bool kBackwards = true;
+    template <class T>
+    static T add_product(T sum, T a, T b) {
+        return sum + a * b;
+    }
+};
 
 }  // namespace gobo::evaluate

@@ -140,6 +140,9 @@ class Reader {
             case spv::DecorationRowMajor:
                 decorations.row_major = true;
                 break;
+            case spv::DecorationNoContraction:
+                decorations.no_contraction = true;
+                break;
             default:
                 break;  // the others say nothing about values
         }

@@ -33,6 +33,7 @@ struct Instruction {
 struct Decorations {
     std::optional<std::uint32_t> location, builtin, offset, array_stride, matrix_stride, spec_id;
     bool row_major = false;
+    bool no_contraction = false;
 };
 
 /// A basic block: instructions [first, terminator] of Module::instructions, after its label.

@@ -37,6 +37,7 @@ struct OperationInfo {
     std::uint32_t place = 0;  ///< index into Program::places
     Slice result;             ///< a store's is the variable
     std::vector<Slice> operands;
+    bool is_precise = false;  ///< NoContraction: to be computed as written
 };
 
 /// A way from one block to another, with the copies (phi) made by those who take it.

@@ -30,6 +30,14 @@ constexpr auto kMax = [](auto x, auto y) { return x < y ? y : x; };
 constexpr auto kNumberMin = [](auto x, auto y) { return std::isnan(x) ? y : y < x ? y : x; };
 constexpr auto kNumberMax = [](auto x, auto y) { return std::isnan(x) ? y : x < y ? y : x; };
 
+// Machines that keep a NaN, whichever operand it is.
+constexpr auto kNaNMin = [](auto x, auto y) { return std::isnan(y) ? y : kMin(x, y); };
+constexpr auto kNaNMax = [](auto x, auto y) { return std::isnan(y) ? y : kMax(x, y); };
+
+template <auto Min, auto Max>
+inline constexpr Execution kClamp =
+    kReal3<[](auto x, auto low, auto high) { return Min(Max(x, low), high); }>;
+
 template <auto Function>
 inline constexpr Execution kSlow = kCostly1<Function>;
 
@@ -62,18 +70,31 @@ constexpr Row kRows[] = {
     {GOBO_EXTENDED(FAbs), Kind::min_max, "f:f", kReal1<[](auto x) { return std::fabs(x); }>},
     {GOBO_EXTENDED(FSign), Kind::min_max, "f:f",
      kReal1<[](auto x) { return static_cast<decltype(x)>((x > 0) - (x < 0)); }>},
-    {GOBO_EXTENDED(FMin), Kind::min_max, "f:ff", kReal2<kMin>},
-    {GOBO_EXTENDED(FMax), Kind::min_max, "f:ff", kReal2<kMax>},
-    {GOBO_EXTENDED(FClamp), Kind::min_max, "f:fff",
-     kReal3<[](auto x, auto low, auto high) { return kMin(kMax(x, low), high); }>},
+    {GOBO_EXTENDED(FMin),
+     Kind::min_max,
+     "f:ff",
+     kReal2<kMin>,
+     {.nan_kept = kReal2<kNaNMin>, .nan_dropped = kReal2<kNumberMin>}},
+    {GOBO_EXTENDED(FMax),
+     Kind::min_max,
+     "f:ff",
+     kReal2<kMax>,
+     {.nan_kept = kReal2<kNaNMax>, .nan_dropped = kReal2<kNumberMax>}},
+    {GOBO_EXTENDED(FClamp),
+     Kind::min_max,
+     "f:fff",
+     kClamp<kMin, kMax>,
+     {.nan_kept = kClamp<kNaNMin, kNaNMax>, .nan_dropped = kClamp<kNumberMin, kNumberMax>}},
     {GOBO_EXTENDED(NMin), Kind::min_max, "f:ff", kReal2<kNumberMin>},
     {GOBO_EXTENDED(NMax), Kind::min_max, "f:ff", kReal2<kNumberMax>},
-    {GOBO_EXTENDED(NClamp), Kind::min_max, "f:fff",
-     kReal3<[](auto x, auto low, auto high) { return kNumberMin(kNumberMax(x, low), high); }>},
+    {GOBO_EXTENDED(NClamp), Kind::min_max, "f:fff", kClamp<kNumberMin, kNumberMax>},
     {GOBO_EXTENDED(Step), Kind::min_max, "f:ff",
      kReal2<[](auto edge, auto x) { return x < edge ? decltype(x)(0) : decltype(x)(1); }>},
-    {GOBO_EXTENDED(FMix), Kind::mix, "f:fff",
-     kReal3<[](auto x, auto y, auto a) { return x * (decltype(a)(1) - a) + y * a; }>},
+    {GOBO_EXTENDED(FMix),
+     Kind::mix,
+     "f:fff",
+     kReal3<[](auto x, auto y, auto a) { return x * (decltype(a)(1) - a) + y * a; }>,
+     {.fused = kReal3<[](auto x, auto y, auto a) { return std::fma(x, decltype(a)(1) - a, y * a); }>}},
     {GOBO_EXTENDED(SmoothStep), Kind::mix, "f:fff",
      kReal3<[](auto a, auto b, auto x) { return smooth_step(a, b, x); }>},
     {GOBO_EXTENDED(Fma), Kind::fma, "f:fff",

@@ -10,52 +10,52 @@ namespace gobo::evaluate {
 namespace {
 
 /// result = sum over k of a[k] * b[k], where a's rows are `stride_a` apart and b's `stride_b`.
-template <class T>
+template <class Sums, class T>
 void sum_of_products(Machine<T>& machine, std::uint32_t result_slot, std::uint32_t a, std::uint32_t stride_a,
                      std::uint32_t b, std::uint32_t stride_b, std::uint32_t terms) {
     T* __restrict result = machine.reals(result_slot);
-    const T* first_a = machine.reals(a);
-    const T* first_b = machine.reals(b);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) result[lane] = first_a[lane] * first_b[lane];
-    for (std::uint32_t term = 1; term < terms; ++term) {
+    for (std::uint32_t at = 0; at < terms; ++at) {
+        const std::uint32_t term = Sums::kBackwards ? terms - 1 - at : at;
         const T* row_a = machine.reals(a + term * stride_a);
         const T* row_b = machine.reals(b + term * stride_b);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            result[lane] = result[lane] + row_a[lane] * row_b[lane];
+            result[lane] = at == 0 ? row_a[lane] * row_b[lane]
+                                   : Sums::add_product(result[lane], row_a[lane], row_b[lane]);
     }
 }
 
-template <class T>
+template <class Sums, class T>
 void dot(const Operation& operation, Machine<T>& machine) {
-    sum_of_products(machine, operation.result, operation.operands[0], 1, operation.operands[1], 1,
-                    operation.count);
+    sum_of_products<Sums>(machine, operation.result, operation.operands[0], 1, operation.operands[1], 1,
+                          operation.count);
 }
 
 // Words of the products: columns and rows of the result, terms of each sum.
-template <class T>
+template <class Sums, class T>
 void matrix_times_matrix(const Operation& operation, Machine<T>& machine) {
     const std::uint32_t* words = machine.words(operation);
     for (std::uint32_t column = 0; column < words[0]; ++column)
         for (std::uint32_t row = 0; row < words[1]; ++row)
-            sum_of_products(machine, operation.result + column * words[1] + row, operation.operands[0] + row,
-                            words[1], operation.operands[1] + column * words[2], 1, words[2]);
+            sum_of_products<Sums>(machine, operation.result + column * words[1] + row,
+                                  operation.operands[0] + row, words[1],
+                                  operation.operands[1] + column * words[2], 1, words[2]);
 }
 
-template <class T>
+template <class Sums, class T>
 void vector_times_matrix(const Operation& operation, Machine<T>& machine) {
     const std::uint32_t* words = machine.words(operation);
     for (std::uint32_t column = 0; column < words[0]; ++column)
-        sum_of_products(machine, operation.result + column, operation.operands[0], 1,
-                        operation.operands[1] + column * words[2], 1, words[2]);
+        sum_of_products<Sums>(machine, operation.result + column, operation.operands[0], 1,
+                              operation.operands[1] + column * words[2], 1, words[2]);
 }
 
-template <class T>
+template <class Sums, class T>
 void outer_product(const Operation& operation, Machine<T>& machine) {
     const std::uint32_t* words = machine.words(operation);
     for (std::uint32_t column = 0; column < words[0]; ++column)
         for (std::uint32_t row = 0; row < words[1]; ++row)
-            sum_of_products(machine, operation.result + column * words[1] + row, operation.operands[0] + row,
-                            1, operation.operands[1] + column, 1, 1);
+            sum_of_products<Sums>(machine, operation.result + column * words[1] + row,
+                                  operation.operands[0] + row, 1, operation.operands[1] + column, 1, 1);
 }
 
 template <class T>
@@ -123,24 +123,21 @@ void inverse(const Operation& operation, Machine<T>& machine) {
     }
 }
 
+#define GOBO_SUM(name, kind, signature, function)                                                           \
+    {                                                                                                       \
+        spv::Op##name, #name, kind, signature, {&function<AsWritten, float>, &function<AsWritten, double>}, \
+        {                                                                                                   \
+            .fused = {&function<Fused, float>, &function<Fused, double>},                                   \
+            .backwards = {&function<Backwards, float>, &function<Backwards, double>},                       \
+        }                                                                                                   \
+    }
+
 constexpr Row kRows[] = {
-    {spv::OpDot, "Dot", Kind::dot, "F:ff", {&dot<float>, &dot<double>}},
-    {spv::OpMatrixTimesVector,
-     "MatrixTimesVector",
-     Kind::mul,
-     "",
-     {&matrix_times_matrix<float>, &matrix_times_matrix<double>}},
-    {spv::OpVectorTimesMatrix,
-     "VectorTimesMatrix",
-     Kind::mul,
-     "",
-     {&vector_times_matrix<float>, &vector_times_matrix<double>}},
-    {spv::OpMatrixTimesMatrix,
-     "MatrixTimesMatrix",
-     Kind::mul,
-     "",
-     {&matrix_times_matrix<float>, &matrix_times_matrix<double>}},
-    {spv::OpOuterProduct, "OuterProduct", Kind::mul, "", {&outer_product<float>, &outer_product<double>}},
+    GOBO_SUM(Dot, Kind::dot, "F:ff", dot),
+    GOBO_SUM(MatrixTimesVector, Kind::mul, "", matrix_times_matrix),
+    GOBO_SUM(VectorTimesMatrix, Kind::mul, "", vector_times_matrix),
+    GOBO_SUM(MatrixTimesMatrix, Kind::mul, "", matrix_times_matrix),
+    GOBO_SUM(OuterProduct, Kind::mul, "", outer_product),
     {spv::OpTranspose, "Transpose", Kind::matrix, "", {&transpose<float>, &transpose<double>}},
     {kExtended + GLSLstd450Determinant,
      "Determinant",
@@ -153,6 +150,8 @@ constexpr Row kRows[] = {
      "",
      {&inverse<float>, &inverse<double>}},
 };
+
+#undef GOBO_SUM
 
 }  // namespace
 

@@ -8,12 +8,29 @@
 #include "evaluate/loops.hpp"
 
 namespace gobo::evaluate {
+namespace {
+
+/// How the row runs on the machine of these options.
+const Execution& execution_of(const Row& row, const Options& options) {
+    const Liberties& other = row.liberties;
+    const auto chosen = [&](const Execution& execution) -> const Execution& {
+        return execution.in_float != nullptr ? execution : row.execution;
+    };
+    if (options.sums == Sums::fused && other.fused.in_float != nullptr) return other.fused;
+    if (options.sums > Sums::fused && other.backwards.in_float != nullptr) return other.backwards;
+    if (options.nans == NaNs::kept) return chosen(other.nan_kept);
+    if (options.nans == NaNs::dropped) return chosen(other.nan_dropped);
+    return row.execution;
+}
+
+}  // namespace
 
 template <class T>
 Scheduler<T>::Scheduler(const Program& program, Machine<T>& machine, const Options& options,
                         Observer<T>* observer)
     : program_(program), machine_(machine), options_(options), observer_(observer) {
-    for (const Row& row : instruction_table()) rows_.push_back(row.execution.in<T>());
+    for (const Row& row : instruction_table()) rows_.push_back(execution_of(row, options).in<T>());
+    if (options.sums != Sums::as_written) regrouping_.emplace(program, machine, options.sums);
     loop_visits_.resize(program.blocks.size());
     if (options.count) lane_visits_.resize(program.blocks.size());
 }
@@ -22,6 +39,7 @@ template <class T>
 std::optional<Diagnostic> Scheduler<T>::run() {
     std::fill(loop_visits_.begin(), loop_visits_.end(), 0);
     for (auto& visits : lane_visits_) visits.fill(0);
+    if (regrouping_) regrouping_->begin();
     discarded_ = 0;
     waiting_ = 0;
     earliest_ = Program::kEnd;
@@ -34,10 +52,12 @@ std::optional<Diagnostic> Scheduler<T>::run() {
                 program_.places[block.place],
                 fmt::format("the loop is not left after {} iterations", options_.iteration_limit));
         if (!lane_visits_.empty()) count_visit(current_);
-        if (observer_ == nullptr && options_.rounded_in == nullptr)
-            run_quickly(block);
-        else
+        if (observer_ != nullptr || options_.rounded_in != nullptr)
             run_observed(block);
+        else if (regrouping_)
+            run_regrouped(block);
+        else
+            run_quickly(block);
         leave(block);
     }
     return std::nullopt;
@@ -48,6 +68,18 @@ void Scheduler<T>::run_quickly(const Block& block) {
     const Operation* operation = program_.quick.data() + block.quick_first;
     for (const Operation* end = operation + block.quick_count; operation != end; ++operation)
         execute(*operation);
+}
+
+template <class T>
+void Scheduler<T>::run_regrouped(const Block& block) {
+    for (std::uint32_t at = block.first; at < block.first + block.count; ++at) execute_at(at);
+}
+
+template <class T>
+void Scheduler<T>::execute_at(std::uint32_t at) {
+    if (regrouping_ && regrouping_->takes_over(at)) return;
+    execute(program_.operations[at]);
+    if (regrouping_) regrouping_->after(at);
 }
 
 template <class T>
@@ -70,7 +102,7 @@ void Scheduler<T>::run_observed(const Block& block) {
             observer_->before(step);
             observe_indices(step, operation, lanes);
         }
-        execute(operation);
+        execute_at(at);
         if (options_.rounded_in != nullptr) round_result(at);
         if (is_shown) observer_->after(step);
     }
@@ -133,8 +165,10 @@ void Scheduler<T>::add_counts(std::size_t lane, Counts& counts) const {
 
 template <class T>
 void Scheduler<T>::run_copies(const Edge& edge) {
-    for (std::uint32_t at = edge.first_copy; at < edge.first_copy + edge.copies; ++at)
+    for (std::uint32_t at = edge.first_copy; at < edge.first_copy + edge.copies; ++at) {
         rows_[program_.copies[at].row](program_.copies[at], machine_);
+        if (regrouping_) regrouping_->keep(program_.copies[at]);
+    }
 }
 
 template <class T>

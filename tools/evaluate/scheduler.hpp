@@ -8,6 +8,7 @@
 
 #include "evaluate/instruction_table.hpp"
 #include "evaluate/machine.hpp"
+#include "evaluate/regrouping.hpp"
 
 namespace gobo::evaluate {
 
@@ -26,7 +27,9 @@ class Scheduler {
 
   private:
     void run_quickly(const Block& block);
+    void run_regrouped(const Block& block);
     void execute(const Operation& operation);
+    void execute_at(std::uint32_t at);
     void run_observed(const Block& block);
     void round_result(std::uint32_t operation);
     void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes);
@@ -45,7 +48,8 @@ class Scheduler {
     const Options& options_;
     Observer<T>* observer_;
     std::vector<Execute<T>> rows_;
-    std::vector<std::uint64_t> loop_visits_;                      ///< of each block that is a loop's head
+    std::optional<Regrouping<T>> regrouping_;  ///< of machines that do not compute sums as written
+    std::vector<std::uint64_t> loop_visits_;   ///< of each block that is a loop's head
     std::vector<std::array<std::uint32_t, kLanes>> lane_visits_;  ///< of each block, where counts are wanted
     std::array<std::uint32_t, kLanes> waiting_at_{};              ///< block of each lane that does not run
     LaneMask waiting_ = 0;

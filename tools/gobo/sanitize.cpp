@@ -116,11 +116,20 @@ std::string counts_text(const Subject& subject, std::size_t machines, const sani
                        found.findings.size());
 }
 
+std::vector<std::string> machine_names() {
+    std::vector<std::string> names = {"all"};
+    for (const sanitize::Machine machine : sanitize::kMachines) names.emplace_back(name_of(machine));
+    return names;
+}
+
 /// The names have been checked when the command line was read.
 std::vector<sanitize::Machine> machines_of(const SanitizeCommandOptions& options) {
     std::vector<sanitize::Machine> machines;
     for (const std::string& name : options.machines)
-        if (const auto machine = sanitize::machine_named(name)) machines.push_back(*machine);
+        if (name == "all")
+            machines.assign(std::begin(sanitize::kMachines), std::end(sanitize::kMachines));
+        else if (const auto machine = sanitize::machine_named(name))
+            machines.push_back(*machine);
     return machines;
 }
 
@@ -203,11 +212,12 @@ Command sanitize_command(CLI::App& gobo) {
     app->add_option("--minutes", options->minutes, "Go on with such inputs until so long has passed")
         ->check(CLI::NonNegativeNumber);
     app->add_option("--machine", options->machines,
-                    "What to run on: ieee, flushed (denormals are 0), errors_up, errors_down (pow, exp, log, "
-                    "inversesqrt off by all that is allowed); repeatable")
+                    "What to run on, each a liberty of GLSL: ieee; flushed (denormals are 0); nan_kept, "
+                    "nan_dropped (by min, max, clamp); fused (a * b + c); regrouped, reordered (sums); "
+                    "errors_up, errors_down (of pow, exp, log, inversesqrt); all; repeatable")
         ->type_name("NAME")
         ->allow_extra_args(false)
-        ->check(CLI::IsMember({"ieee", "flushed", "errors_up", "errors_down"}))
+        ->check(CLI::IsMember(machine_names()))
         ->default_str("ieee and flushed");
     app->add_option(
            "--inputs", options->inputs,
@@ -228,6 +238,7 @@ Command sanitize_command(CLI::App& gobo) {
         "Examples:\n"
         "  gobo sanitize lit                           the family's default set\n"
         "  gobo sanitize lit --cover 3 --total 10000000\n"
+        "  gobo sanitize lit --machine all\n"
         "  gobo sanitize lit --machine errors_up --machine errors_down --minutes 10\n"
         "  gobo sanitize lit --rounding                where each output loses most precision\n"
         "  gobo sanitize game.vert game.frag --inputs ranges.toml");
