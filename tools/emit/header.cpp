@@ -4,6 +4,7 @@
 
 #include "common/text.hpp"
 #include "compose/dialect.hpp"
+#include "emit/check_section.hpp"
 #include "emit/interface_section.hpp"
 #include "emit/key_section.hpp"
 #include "emit/permutation_section.hpp"
@@ -21,6 +22,7 @@ CppScope header_scope() {
                      "attribute",
                      "attributes",
                      "bits",
+                     "block",
                      "blocks",
                      "canonical",
                      "detail",
@@ -103,10 +105,11 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     const CppKey key = name_key(input.family, scope);
     describe_key(input.family, rules_of(input.family, input.composition.dialect), key, values);
     const Interface interface = with_places(input.interface);
-    Result<std::string> structs =
+    Result<StructSection> structs =
         struct_section(interface.blocks, input.family.domains, templates.structure, scope);
-    if (!structs) return structs;
-    values["structs"] = std::move(*structs);
+    if (!structs) return tl::make_unexpected(structs.error());
+    values["structs"] = std::move(structs->text);
+    values["checks"] = check_section(structs->blocks, input.family.domains);
     describe_interface(interface, input.family.domains, values);
     describe_permutations(input.composition, key, values);
     return fill(templates.header, values);

@@ -33,6 +33,7 @@ struct StructText {
     std::string members;
     std::string assertions;
     CppScope scope;
+    std::vector<NamedMember> named;
     int end = 0;
     int paddings = 0;
 
@@ -43,13 +44,15 @@ struct StructText {
         end = offset;
     }
 
-    void add(const Member& member, const CppMemberType& type, const std::string& comment) {
+    void add(const Member& member, const CppMemberType& type, const std::string& comment,
+             std::vector<NamedMember> parts) {
         pad_to(member.offset);
         const std::string identifier = scope.claim(cpp_identifier(member.name));
         members += fmt::format("    {} {}{};{}\n", type.type, identifier, type.extents, comment);
         assertions +=
             fmt::format("static_assert(offsetof({}, {}) == {});\n", name, identifier, member.offset);
         end += type.size;
+        named.push_back({member, identifier, std::move(parts)});
     }
 
     void close(int size) {
@@ -64,6 +67,7 @@ struct WrittenStruct {
     std::vector<Member> members;
     int size = 0;
     std::string cpp_name;
+    std::vector<NamedMember> named;
 };
 
 class StructWriter {
@@ -72,10 +76,11 @@ class StructWriter {
         : domains_(domains), structure_(structure), scope_(scope) {}
 
     Result<void> write_block(const Block& block);
-    [[nodiscard]] std::string text() && { return std::move(text_); }
+    [[nodiscard]] StructSection section() && { return {std::move(text_), std::move(blocks_)}; }
 
   private:
     Result<CppMemberType> type_of(const Member& member, const std::string& path);
+    [[nodiscard]] const WrittenStruct* written(const Member& member) const;
     Result<WrittenStruct> write_struct(const Member& member, const std::string& path);
     Result<void> add_members(StructText& structure, const std::vector<Member>& members,
                              const std::string& path);
@@ -87,6 +92,7 @@ class StructWriter {
     const TextTemplate& structure_;
     CppScope& scope_;
     std::vector<WrittenStruct> written_;
+    std::vector<NamedBlock> blocks_;
     std::string text_;
 };
 
@@ -120,17 +126,23 @@ Result<void> StructWriter::add_members(StructText& structure, const std::vector<
     }
     for (std::size_t index = 0; index < members.size(); ++index) {
         if (members[index].offset < structure.end) return unsupported(path + "." + members[index].name);
-        structure.add(members[index], types[index], comment_of(members[index], path));
+        const WrittenStruct* inner = written(members[index]);
+        structure.add(members[index], types[index], comment_of(members[index], path),
+                      inner == nullptr ? std::vector<NamedMember>{} : inner->named);
     }
     return {};
 }
 
-Result<WrittenStruct> StructWriter::write_struct(const Member& member, const std::string& path) {
-    const auto same = [&member](const WrittenStruct& other) {
+const WrittenStruct* StructWriter::written(const Member& member) const {
+    if (member.members.empty()) return nullptr;
+    const auto found = std::find_if(written_.begin(), written_.end(), [&member](const WrittenStruct& other) {
         return other.glsl_name == member.type && other.members == member.members;
-    };
-    const auto found = std::find_if(written_.begin(), written_.end(), same);
-    if (found != written_.end()) return *found;
+    });
+    return found == written_.end() ? nullptr : &*found;
+}
+
+Result<WrittenStruct> StructWriter::write_struct(const Member& member, const std::string& path) {
+    if (const WrittenStruct* found = written(member)) return *found;
 
     StructText structure;
     structure.name = scope_.claim(cpp_identifier(member.type), "_struct");
@@ -145,7 +157,7 @@ Result<WrittenStruct> StructWriter::write_struct(const Member& member, const std
     structure.close(size);
     const auto appended = append(structure, fmt::format("The shaders' struct {}.", member.type), {});
     if (!appended) return tl::make_unexpected(appended.error());
-    written_.push_back({member.type, member.members, size, structure.name});
+    written_.push_back({member.type, member.members, size, structure.name, std::move(structure.named)});
     return written_.back();
 }
 
@@ -172,6 +184,7 @@ Result<void> StructWriter::write_block(const Block& block) {
     std::string constants = fmt::format("\n    static constexpr int binding = {};\n", block.binding);
     constants += fmt::format("    static constexpr std::size_t size = {};\n", size);
     constants += bytes_function(block);
+    blocks_.push_back({block.name, structure.name, structure.named});
     return append(structure, fmt::format("The uniform block {}.", block.name), constants);
 }
 
@@ -194,25 +207,30 @@ std::string StructWriter::comment_of(const Member& member, const std::string& pa
 
 }  // namespace
 
-std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
+const Domain* domain_of(const std::vector<Domain>& domains, const std::string& path) {
     const std::string wanted = without_indices(path);
     const auto names_it = [&wanted](const Domain& domain) { return without_indices(domain.name) == wanted; };
     const auto domain = std::find_if(domains.begin(), domains.end(), names_it);
-    if (domain == domains.end()) return {};
+    return domain == domains.end() ? nullptr : &*domain;
+}
+
+std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
+    const Domain* domain = domain_of(domains, path);
+    if (domain == nullptr) return {};
     std::string text =
         fmt::format("{}[{}, {}]", domain->of_length ? "length in " : "", domain->low, domain->high);
     for (const double value : domain->also) text += fmt::format(", or {}", value);
     return text;
 }
 
-Result<std::string> struct_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
-                                   const TextTemplate& structure, CppScope& scope) {
+Result<StructSection> struct_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
+                                     const TextTemplate& structure, CppScope& scope) {
     StructWriter writer(domains, structure, scope);
     for (const Block& block : blocks) {
         const auto written = writer.write_block(block);
         if (!written) return tl::make_unexpected(written.error());
     }
-    return std::move(writer).text();
+    return std::move(writer).section();
 }
 
 }  // namespace gobo

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -225,6 +226,49 @@ void test_uniform_names() {
            "arrays of plain values are one uniform");
 }
 
+void test_check() {
+    lit::Fog_block fog{};
+    expect(lit::check(fog).empty(), "a block within its ranges");
+    fog.near = 1e6F;
+    expect(lit::check(fog).empty(), "the ends of a range are within it");
+    fog.near = -1.0F;
+    expect(lit::check(fog).size() == 1, "a number below its range");
+    expect_text(gobo::to_text(lit::check(fog).front()), "Fog.near is -1, allowed is [0, 1000000]");
+    fog.near = std::numeric_limits<float>::quiet_NaN();
+    expect(lit::check(fog).size() == 1, "a NaN is within no range");
+
+    lit::PointLights lights{};
+    expect(lit::check(lights).empty(), "a number beside the range that is allowed");
+    lights.lights[2].attenuation = glm::vec3(1, 11, 0.0001F);
+    const std::vector<gobo::OutOfRange> found = lit::check(lights);
+    expect(found.size() == 2, "each component counts");
+    expect_text(found.front().member, "PointLights.lights[2].attenuation.y");
+    expect(found.front().value == 11.0, "its value");
+    expect_text(found.front().allowed, "[0.001, 10], or 0");
+    expect_text(found.back().member, "PointLights.lights[2].attenuation.z");
+    expect(lit::check(lights, 2).empty(), "elements that are not used are not looked at");
+    lights.lights[0].attenuation.x = 0.001F;  // not 0.001 exactly
+    expect(lit::check(lights, 1).empty(), "bounds are compared as the member holds them");
+    expect(lit::check(lit::Camera{}).empty(), "a block without ranges");
+    expect(nasty::check(nasty::Lights{}).empty(), "names that were changed");
+
+    nasty::std140_block block{};
+    block.weights[1] = 2.0F;
+    block.outer.inner[1].switch_ = 3.0F;
+    block.rows = glm::mat3x2(0, 0, 0, 9, 0, 0);
+    const std::vector<gobo::OutOfRange> more = nasty::check(block);
+    expect(more.size() == 3, "arrays, structs and matrices");
+    if (more.size() == 3) {
+        expect_text(more[0].member, "std140.weights[1]");
+        expect_text(more[1].member, "std140.rows[3]");
+        expect_text(more[2].member, "std140.outer.inner[1].switch");
+    }
+    block.outer.Inner = glm::vec2(3, 4);
+    expect(nasty::check(block).size() == 4, "a length");
+    expect_text(gobo::to_text(nasty::check(block).back()),
+                "std140.outer.Inner is 5, allowed is a length in [0, 4]");
+}
+
 void test_bare() {
     expect(bare::find(bare::Key{}) == bare::permutations.data(), "a family without features has one key");
     expect_text(bare::key_text(bare::Key{}), "default");
@@ -242,6 +286,7 @@ int main() {
     test_nasty_texts();
     test_nasty_blocks();
     test_uniform_names();
+    test_check();
     test_bare();
     return failures == 0 ? 0 : 1;
 }
