@@ -15,6 +15,7 @@ enum class Fog { none, linear, exponential, exponential_squared };
 enum class FogDistance { radial, planar };
 enum class Shading { fragment, vertex };
 enum class ShadowFilter { bilinear, sampler, nearest };
+enum class OutputRange { unbounded, half_float, display };
 enum class Depth { untouched, any, greater, less, unchanged };
 enum class Lighting { lit, unlit };
 enum class LightAmbient { none, each };
@@ -51,6 +52,7 @@ struct Model {
     Sides sides = Sides::one;
     Cutout cutout = Cutout::none;
     VertexColor vertex_color = VertexColor::none;
+    OutputRange output_range = OutputRange::unbounded;
 
     [[nodiscard]] int lights() const { return directional + point + spot + homogeneous; }
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "oracle/output_range.hpp"
 #include "verify/rounding.hpp"
 
 namespace gobo::verify {
@@ -130,8 +131,10 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
     }
     const oracle::Seen seen =
         oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);
-    Expected color = expected("fragmentColor", seen.value, seen.largest,
-                              fog_error(model, sample.scene, seen, value, error, 0));
+    // What is cut off at a range is no further off than it was before.
+    const glm::dvec3 held = oracle::within_range(model.output_range, seen.value);
+    Expected color =
+        expected("fragmentColor", held, seen.largest, fog_error(model, sample.scene, seen, value, error, 0));
     color.components = 4;
     color.value[3] = oracle::alpha_of(model, point);
     return color;

@@ -54,6 +54,7 @@ class SampleMaker {
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
         add_shadows(model_, random_, sample);
         fill_surroundings(model_, random_, sample.scene);
+        if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4)) brighten(sample);
     }
 
     void place_fragment(Sample& sample) {
@@ -209,6 +210,14 @@ class SampleMaker {
         fog.density = std::min(random_.between(0, 3) / distance, 1e3);
         fog.near = distance * random_.between(0, 1.5);
         fog.far = random_.one_in(8) ? fog.near : fog.near + distance * random_.between(0.1, 2);
+    }
+
+    /// Radiances around the largest that a 16-bit float holds.
+    void brighten(Sample& sample) {
+        const double factor = random_.across(1e4, 1e5);
+        for (glm::dvec3* color :
+             {&sample.lit_radiance, &sample.scene.material.emission, &sample.scene.fog.color})
+            *color *= factor;
     }
 
     const oracle::Model& model_;
