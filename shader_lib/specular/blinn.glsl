@@ -6,13 +6,12 @@
 // Space:  eye. Ranges: n and s unit, shininess 0 to 1e6; factor 0 to 1.
 // Edges:  no highlight from a light exactly behind the viewer's ray (H-N4), except at shininess 0, where the
 //         factor is 1 for every direction (H-S1); only called where n.s > 0 (S4, H-S4).
-#include "angle/versine.glsl"
-#include "guards/unit_vector.glsl"
+#include "angle/halfway.glsl"
 #include "power/exact.glsl"
 #include "specular/highlights.glsl"
 
 /// Adds the highlight of a light from the unit direction `toLight`.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
-    vec3 halfway = unitVector(toLight + toViewer);
-    addTerm(reflected, cosinePower(versineBetween(normal, halfway), material.shininess) * light);
+    float versine = versineToHalfway(normal, toLight, toViewer);
+    addTerm(reflected, cosinePower(versine, material.shininess) * light);
 }
