@@ -82,6 +82,17 @@ std::vector<Inputs> depths() {
     return points;
 }
 
+const std::vector<std::string> kWithRange = {"directional", "point",   "spot",
+                                             "fog",         "shading", "output_range"};
+
+/// Around the largest number that a 16-bit float holds, and from where on it rounds to infinity.
+std::vector<Inputs> bright_surfaces() {
+    std::vector<Inputs> points;
+    for (const double emission : {0.5, 1.5, 65504.0, 65519.0, 65520.0, 1e5, 1e30})
+        points.push_back({{"Material.emission", {emission, 0.25, 0}}, {"Fog.color", {emission, 1, 0}}});
+    return points;
+}
+
 const double kTiny = 1e-4;  // radians
 const double kTinyVersine = 2 * std::sin(kTiny / 2) * std::sin(kTiny / 2);
 
@@ -127,7 +138,7 @@ const std::vector<Case> kCases = {
       with({{"position", {-9, 0, 9}}, {"Material.shininess", {0.5}}}, light_from(0.8, 0, 0.6))},
      same_as(kNoHighlight)},
     {"H_S3_sharp_highlights", "directional > 0 && specular != none && fog == none", sharp_highlights(),
-     is_sharp_to_rounding},
+     is_sharp_to_rounding()},
     {"H_S4_light_from_behind",
      "directional > 0",
      {light_from(0, 0, -1), light_from(1, 0, 0), light_from(0, 0, 0)},
@@ -223,7 +234,7 @@ const std::vector<Case> kCases = {
      "directional > 0 && diffuse == toon && fog == none",
      {band_edge(1, -1), band_edge(1, 0), band_edge(1, 1), band_edge(2, -1), band_edge(2, 0), band_edge(2, 1),
       band_edge(3, -1), band_edge(3, 0), band_edge(3, 1), band_edge(4, -1)},
-     is_neighbouring_band},
+     is_neighbouring_band()},
     {"H_G1_nothing_left",
      "",
      {{{"Transform.modelView", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
@@ -243,15 +254,19 @@ const std::vector<Case> kCases = {
      "directional + point + spot > 0 && shading == fragment",
      {{{"eyeNormal", {0, 0, 1.000001}}}},
      same_as({{"eyeNormal", {0, 0, 1}}})},
+    {"H_X1_half_float", "output_range == half_float", bright_surfaces(), fits_half_float(), kWithRange},
+    {"H_X1_display", "output_range == display", bright_surfaces(), fits_display(), kWithRange},
     {"H_D1_H_D2_depth_offsets",
      "depth != default && depth != early",
      depths(),
-     keeps_depth_promise,
+     keeps_depth_promise(),
      {"depth"}},
 };
 
-std::string mode_name(Mode mode) {
-    return mode == Mode::flushed ? "denormals flushed" : "fp32";
+/// Machines that make the largest errors allowed leave every tolerance: all that is demanded of them is what
+/// is demanded of every case.
+bool has_tolerance(sanitize::Machine machine) {
+    return machine != sanitize::Machine::errors_up && machine != sanitize::Machine::errors_down;
 }
 
 /// What every case demands.
@@ -274,22 +289,30 @@ const std::vector<Case>& lit_cases() {
     return all;
 }
 
-std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
+std::vector<Fault> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
     const LitUnderTest lit(tested.where, tested.features, overlay);
-    if (lit.size() == 0) return {"no key is concerned"};
-    std::vector<std::string> faults;
+    std::vector<Fault> faults;
+    if (lit.size() == 0) faults.push_back({"", 0, 0, sanitize::Machine::ieee, "no key is concerned"});
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
-        for (const Inputs& point : tested.points)
-            for (const Mode mode : {Mode::fp32, Mode::flushed}) {
-                const Shaded shaded = lit.shade(permutation, point, mode);
+        for (std::size_t point = 0; point < tested.points.size(); ++point)
+            for (const sanitize::Machine machine : sanitize::kMachines) {
+                const Shaded shaded = lit.shade(permutation, tested.points[point], machine);
                 std::vector<std::string> found = general_faults(shaded);
-                const std::string failed = tested.check({lit, permutation, point, mode, shaded});
-                if (!failed.empty()) found.push_back(failed);
+                if (has_tolerance(machine)) {
+                    const std::string failed =
+                        tested.check({lit, permutation, tested.points[point], machine, shaded});
+                    if (!failed.empty()) found.push_back(failed);
+                }
                 for (const std::string& fault : found)
-                    faults.push_back(fmt::format("{}, {}: {}", lit.key(permutation), mode_name(mode), fault));
+                    faults.push_back({lit.key(permutation), permutation, point, machine, fault});
                 if (faults.size() >= most) return faults;
             }
     return faults;
+}
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+    *out << fmt::format("{}, point {}, {}: {}", fault.key, fault.point, sanitize::name_of(fault.machine),
+                        fault.text);
 }
 
 }  // namespace gobo

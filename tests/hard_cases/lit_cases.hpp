@@ -29,9 +29,19 @@ inline void PrintTo(const Case& tested, std::ostream* out) {
 /// colours, and the light around it.
 [[nodiscard]] std::vector<Case> surface_cases();
 
-/// What is wrong with the permutations that the case concerns, at each of its points, with denormal numbers
-/// and without; at most `most` faults. `overlay` replaces pieces by include path.
-[[nodiscard]] std::vector<std::string> faults_of(const Case& tested, const Overlay& overlay = {},
-                                                 std::size_t most = 8);
+/// Something wrong with a permutation at one of a case's points.
+struct Fault {
+    std::string key;
+    std::size_t permutation = 0;  ///< index in LitUnderTest
+    std::size_t point = 0;        ///< index in Case::points
+    sanitize::Machine machine = sanitize::Machine::ieee;
+    std::string text;
+};
+void PrintTo(const Fault& fault, std::ostream* out);
+
+/// What is wrong with the permutations that the case concerns, at each of its points, on every
+/// machine that GLSL allows; at most `most` faults. `overlay` replaces pieces by include path.
+[[nodiscard]] std::vector<Fault> faults_of(const Case& tested, const Overlay& overlay = {},
+                                           std::size_t most = 8);
 
 }  // namespace gobo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,28 +25,33 @@ Inputs with(Inputs inputs, const Inputs& changes) {
 }
 
 Check robust() {
-    return [](const Trial&) { return std::string(); };
+    return {[](const Trial&) { return std::string(); }, "finite, not negative"};
 }
 
 Check same_as(const Inputs& changes, double tolerance) {
-    return [=](const Trial& trial) {
-        const Shaded other = trial.lit.shade(trial.permutation, with(trial.inputs, changes), trial.mode);
-        return differs(trial.shaded, other.color, tolerance);
-    };
+    return {[=](const Trial& trial) {
+                const Shaded other =
+                    trial.lit.shade(trial.permutation, with(trial.inputs, changes), trial.mode);
+                return differs(trial.shaded, other.color, tolerance);
+            },
+            tolerance == 0 ? "exact" : fmt::format("{:g} of it", tolerance)};
 }
 
 Check is_color(const std::array<double, 4>& color) {
-    return [=](const Trial& trial) { return differs(trial.shaded, color, 0); };
+    return {[=](const Trial& trial) { return differs(trial.shaded, color, 0); }, "exact"};
 }
 
 Check near_double(double tolerance) {
-    return [=](const Trial& trial) {
-        const Shaded exact = trial.lit.shade(trial.permutation, trial.inputs, Mode::fp64);
-        return differs(trial.shaded, exact.color, tolerance);
-    };
+    return {[=](const Trial& trial) {
+                const Shaded exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble);
+                return differs(trial.shaded, exact.color, tolerance);
+            },
+            fmt::format("{:g} of it", tolerance)};
 }
 
-std::string is_neighbouring_band(const Trial& trial) {
+namespace {
+
+std::string band_fault(const Trial& trial) {
     const double cosine = trial.inputs.at("DirectionalLights.lights[].direction")[2];
     const double upper = std::round(cosine * 4) / 4;
     const double tone = trial.shaded.color[0];
@@ -53,7 +59,7 @@ std::string is_neighbouring_band(const Trial& trial) {
     return fmt::format("the tone {} is none of the two bands at a cosine of {}", tone, cosine);
 }
 
-std::string is_neighbouring_band_of_ceil(const Trial& trial) {
+std::string ceil_band_fault(const Trial& trial) {
     const double cosine = trial.inputs.at("DirectionalLights.lights[].direction")[2];
     const double lower = std::round(cosine * 4) / 4;
     const double tone = trial.shaded.color[0];
@@ -61,7 +67,7 @@ std::string is_neighbouring_band_of_ceil(const Trial& trial) {
     return fmt::format("the tone {} is none of the two bands at a cosine of {}", tone, cosine);
 }
 
-std::string is_neighbouring_tone(const Trial& trial) {
+std::string tone_fault(const Trial& trial) {
     // From below: no tone, then those of ordinary inputs, each above its threshold.
     constexpr std::array<double, 3> kThresholds = {0.25, 0.5, 0.95};
     constexpr std::array<double, 4> kTones = {0, 0.375, 0.625, 1};
@@ -73,17 +79,10 @@ std::string is_neighbouring_tone(const Trial& trial) {
     return fmt::format("the tone {} is none of the two at a cosine of {}", tone, cosine);
 }
 
-Check is_there(bool expected) {
-    return [=](const Trial& trial) {
-        if (trial.shaded.is_discarded != expected) return std::string();
-        return std::string(expected ? "the fragment is discarded" : "the fragment is not discarded");
-    };
-}
-
 /// What rounding the directions alone costs: 2 sqrt(m) 2^-24 / |s + v| of a white highlight, |s + v| being 2
 /// here. The angle to a mirrored ray is twice that to a half vector, so Phong's m counts four times.
-std::string is_sharp_to_rounding(const Trial& trial) {
-    const double exact = trial.lit.shade(trial.permutation, trial.inputs, Mode::fp64).color[0];
+std::string sharpness_fault(const Trial& trial) {
+    const double exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color[0];
     const double shininess = trial.inputs.at("Material.shininess")[0];
     const bool is_phong = trial.lit.key(trial.permutation).find("specular=phong") != std::string::npos;
     const double limit = std::sqrt(shininess * (is_phong ? 4 : 1)) * 0x1p-24;
@@ -92,7 +91,36 @@ std::string is_sharp_to_rounding(const Trial& trial) {
     return fmt::format("the highlight is {}, off by {:.2e}, more than {:.2e}", exact, error, limit);
 }
 
-std::string keeps_depth_promise(const Trial& trial) {
+/// As IEEE 754 converts to binary16, rounding to nearest even: 11 bits, exponents from -14 to 15.
+double half_float(double number) {
+    if (number >= 65520) return std::numeric_limits<double>::infinity();
+    const int exponent = std::max(std::ilogb(number), -14);
+    const double step = std::ldexp(1.0, exponent - 10);
+    return std::nearbyint(number / step) * step;
+}
+
+std::string half_float_fault(const Trial& trial) {
+    const std::array<double, 4> exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double stored = half_float(trial.shaded.color[i]);
+        // Half a step of the 16-bit float, and the roundings on the way there.
+        const double tolerance = exact[i] * (0x1p-11 + 1e-5) + 0x1p-25;
+        if (!(stored <= 65504) || !(std::abs(stored - exact[i]) <= tolerance))
+            return fmt::format("channel {} is {}, stored as {}, should be {}", i, trial.shaded.color[i],
+                               stored, exact[i]);
+    }
+    return {};
+}
+
+std::string display_fault(const Trial& trial) {
+    const std::array<double, 4> exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color;
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!(trial.shaded.color[i] <= 1) || !(std::abs(trial.shaded.color[i] - exact[i]) <= 1e-5))
+            return fmt::format("channel {} is {}, should be {}", i, trial.shaded.color[i], exact[i]);
+    return {};
+}
+
+std::string depth_fault(const Trial& trial) {
     if (!trial.shaded.depth) return "no depth is written";
     const double written = *trial.shaded.depth;
     const double own = static_cast<float>(trial.inputs.at("gl_FragCoord")[2]);
@@ -102,6 +130,44 @@ std::string keeps_depth_promise(const Trial& trial) {
                          (key != "depth=unchanged" || written == own);
     if (is_kept && written >= 0 && written <= 1) return {};
     return fmt::format("the depth {} is written over {}", written, own);
+}
+
+}  // namespace
+
+Check is_neighbouring_band() {
+    return {band_fault, "one of the two bands"};
+}
+
+Check is_neighbouring_band_of_ceil() {
+    return {ceil_band_fault, "one of the two bands"};
+}
+
+Check is_neighbouring_tone() {
+    return {tone_fault, "one of the two tones"};
+}
+
+Check is_there(bool expected) {
+    return {[=](const Trial& trial) {
+                if (trial.shaded.is_discarded != expected) return std::string();
+                return std::string(expected ? "the fragment is discarded" : "the fragment is not discarded");
+            },
+            expected ? "drawn" : "discarded"};
+}
+
+Check is_sharp_to_rounding() {
+    return {sharpness_fault, "2 sqrt(m) 2^-24 / |s + v|"};
+}
+
+Check fits_half_float() {
+    return {half_float_fault, "half a step of the 16-bit float, at most 65504"};
+}
+
+Check fits_display() {
+    return {display_fault, "1e-05, at most 1"};
+}
+
+Check keeps_depth_promise() {
+    return {depth_fault, "in [0, 1], the promised side exactly"};
 }
 
 }  // namespace gobo

@@ -17,8 +17,14 @@ struct Trial {
     const Shaded& shaded;
 };
 
-/// What is wrong; empty where nothing is.
-using Check = std::function<std::string(const Trial&)>;
+/// What a case demands of a trial.
+struct Check {
+    /// What is wrong; empty where nothing is.
+    std::function<std::string(const Trial&)> fault;
+    std::string tolerance;  ///< as documentation has it: "1e-05 of it", "exact"
+
+    [[nodiscard]] std::string operator()(const Trial& trial) const { return fault(trial); }
+};
 
 /// The inputs with some of them changed.
 [[nodiscard]] Inputs with(Inputs inputs, const Inputs& changes);
@@ -31,16 +37,21 @@ using Check = std::function<std::string(const Trial&)>;
 /// What the same stages give in double precision, relative to it.
 [[nodiscard]] Check near_double(double tolerance);
 /// One of the two tones beside a cosine of k / 4, the light coming from that cosine.
-[[nodiscard]] std::string is_neighbouring_band(const Trial& trial);
+[[nodiscard]] Check is_neighbouring_band();
 /// The same for bands by ceil: the tones are k / 4 and (k + 1) / 4.
-[[nodiscard]] std::string is_neighbouring_band_of_ceil(const Trial& trial);
+[[nodiscard]] Check is_neighbouring_band_of_ceil();
 /// One of the two tones beside the threshold (0.25, 0.5 or 0.95) that the light's cosine is nearest to.
-[[nodiscard]] std::string is_neighbouring_tone(const Trial& trial);
+[[nodiscard]] Check is_neighbouring_tone();
 /// Whether the fragment is there, or discarded.
 [[nodiscard]] Check is_there(bool expected);
 /// As sharp as the rounding of the directions lets a highlight be.
-[[nodiscard]] std::string is_sharp_to_rounding(const Trial& trial);
+[[nodiscard]] Check is_sharp_to_rounding();
+/// Each channel is finite after the conversion to a 16-bit float, and its nearest one to what double
+/// precision gives without a bound, or 65504 where that is more.
+[[nodiscard]] Check fits_half_float();
+/// Each channel is what double precision gives, or 1 where that is more.
+[[nodiscard]] Check fits_display();
 /// The written depth lies in [0, 1] and on the side of the surface's own that the qualifier promises.
-[[nodiscard]] std::string keeps_depth_promise(const Trial& trial);
+[[nodiscard]] Check keeps_depth_promise();
 
 }  // namespace gobo

@@ -116,11 +116,9 @@ evaluate::Invocations invocation(const evaluate::Program& program, const Inputs&
 }
 
 evaluate::Outputs run(const evaluate::Program& program, const evaluate::Invocations& invocations, Mode mode) {
-    evaluate::Options options;
-    options.flush_denormals = mode == Mode::flushed;
-    const Result<evaluate::Outputs> outputs = mode == Mode::fp64
-                                                  ? evaluate::run<double>(program, invocations, options)
-                                                  : evaluate::run<float>(program, invocations, options);
+    const Result<evaluate::Outputs> outputs =
+        mode ? evaluate::run<float>(program, invocations, sanitize::options_of(*mode))
+             : evaluate::run<double>(program, invocations);
     EXPECT_TRUE(outputs);
     return outputs ? *outputs : evaluate::Outputs{};
 }
@@ -128,9 +126,8 @@ evaluate::Outputs run(const evaluate::Program& program, const evaluate::Invocati
 std::vector<std::string> traps_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
                                   Mode mode) {
     std::vector<std::string> texts;
-    if (mode == Mode::fp64) return texts;
-    const auto found = sanitize::find_traps(
-        program, invocations, mode == Mode::flushed ? sanitize::Machine::flushed : sanitize::Machine::ieee);
+    if (!mode) return texts;
+    const auto found = sanitize::find_traps(program, invocations, *mode);
     EXPECT_TRUE(found);
     for (const sanitize::Finding& finding : *found)
         texts.push_back(fmt::format("{}:{}: {}", finding.place.file, finding.place.line, to_text(finding)));
@@ -140,7 +137,7 @@ std::vector<std::string> traps_of(const evaluate::Program& program, const evalua
 }  // namespace
 
 LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
-                           const Overlay& overlay) {
+                           const Overlay& overlay, int cover) {
     const DiskFileSystem disk;
     MemoryFileSystem memory;
     for (const auto& [path, text] : overlay) EXPECT_TRUE(memory.write("overlay/" + path, text));
@@ -154,7 +151,8 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     if (!family) return;
     family_ = *family;
     Selection selection;
-    selection.all = true;
+    selection.all = cover == 0;
+    selection.cover = cover;
     selection.over = over;
     selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
     const auto keys = select(family_, selection, "450");
@@ -180,18 +178,29 @@ std::string LitUnderTest::key(std::size_t permutation) const {
     return key_text(family_, composition_.permutations[permutation].key);
 }
 
+const evaluate::Program& LitUnderTest::vertex(std::size_t permutation) const {
+    return programs_[static_cast<std::size_t>(composition_.permutations[permutation].vertex)];
+}
+
+const evaluate::Program& LitUnderTest::fragment(std::size_t permutation) const {
+    return programs_[static_cast<std::size_t>(composition_.permutations[permutation].fragment)];
+}
+
+StageInputs LitUnderTest::inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const {
+    StageInputs both;
+    both.vertex = invocation(vertex(permutation), {}, inputs);
+    const evaluate::Outputs handed_on = run(vertex(permutation), both.vertex, mode);
+    both.fragment =
+        invocation(fragment(permutation), Inputs(handed_on.values.begin(), handed_on.values.end()), inputs);
+    return both;
+}
+
 Shaded LitUnderTest::shade(std::size_t permutation, const Inputs& inputs, Mode mode) const {
-    const Permutation& stages = composition_.permutations[permutation];
-    const evaluate::Program& vertex = programs_[static_cast<std::size_t>(stages.vertex)];
-    const evaluate::Program& fragment = programs_[static_cast<std::size_t>(stages.fragment)];
-    const evaluate::Invocations first = invocation(vertex, {}, inputs);
-    const evaluate::Outputs handed_on = run(vertex, first, mode);
-    const evaluate::Invocations second =
-        invocation(fragment, Inputs(handed_on.values.begin(), handed_on.values.end()), inputs);
-    const evaluate::Outputs outputs = run(fragment, second, mode);
+    const auto [first, second] = inputs_of(permutation, inputs, mode);
+    const evaluate::Outputs outputs = run(fragment(permutation), second, mode);
     Shaded shaded;
-    shaded.traps = traps_of(vertex, first, mode);
-    const std::vector<std::string> more = traps_of(fragment, second, mode);
+    shaded.traps = traps_of(vertex(permutation), first, mode);
+    const std::vector<std::string> more = traps_of(fragment(permutation), second, mode);
     shaded.traps.insert(shaded.traps.end(), more.begin(), more.end());
     shaded.is_discarded = outputs.discarded.front();
     const auto color = outputs.values.find("fragmentColor");

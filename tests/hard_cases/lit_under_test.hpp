@@ -10,6 +10,7 @@
 #include "compose/composition.hpp"
 #include "evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "sanitize/machine.hpp"
 
 namespace gobo {
 
@@ -20,8 +21,9 @@ using Inputs = std::map<std::string, std::vector<double>, std::less<>>;
 /// Pieces that take the place of the shipped ones, by include path: "fog/linear.glsl".
 using Overlay = std::map<std::string, std::string, std::less<>>;
 
-/// How the stages are evaluated.
-enum class Mode { fp32, flushed, fp64 };
+/// How the stages are evaluated: on one of the machines that GLSL allows, or in double precision.
+using Mode = std::optional<sanitize::Machine>;
+inline constexpr Mode kDouble = std::nullopt;
 
 /// What came of a point.
 struct Shaded {
@@ -31,18 +33,32 @@ struct Shaded {
     std::vector<std::string> traps;
 };
 
+/// One invocation of each stage.
+struct StageInputs {
+    evaluate::Invocations vertex;
+    evaluate::Invocations fragment;
+};
+
 /// The stages of the keys that a condition selects, ready to run.
 class LitUnderTest {
   public:
     /// All valid keys for which `where` holds and that have at most one light, ranging over `over`; failing
     /// any step fails the test.
-    LitUnderTest(const std::string& where, const std::vector<std::string>& over, const Overlay& overlay);
+    /// With `cover`, fewer keys that hold every combination of that many feature values.
+    LitUnderTest(const std::string& where, const std::vector<std::string>& over, const Overlay& overlay,
+                 int cover = 0);
 
     [[nodiscard]] std::size_t size() const { return composition_.permutations.size(); }
     [[nodiscard]] std::string key(std::size_t permutation) const;
     /// A white surface at (0, 0, -5) that faces the viewer, lights in front of it; `inputs` overrule that.
     /// The fragment stage is given what the vertex stage hands on, unless `inputs` name it.
     [[nodiscard]] Shaded shade(std::size_t permutation, const Inputs& inputs, Mode mode) const;
+    /// What shade() gives the two stages.
+    [[nodiscard]] StageInputs inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const;
+
+    [[nodiscard]] const Composition& composition() const { return composition_; }
+    [[nodiscard]] const evaluate::Program& vertex(std::size_t permutation) const;
+    [[nodiscard]] const evaluate::Program& fragment(std::size_t permutation) const;
 
   private:
     Family family_;

@@ -1,17 +1,16 @@
 // Shaders as textbooks have them are flagged at the lines that say so ("// trap: message"), and nowhere else;
 // harmless ones are not flagged at all.
+#include "plain_shaders.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
-#include <set>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/file_system.hpp"
-#include "common/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
 #include "evaluate/eval_inputs.hpp"
@@ -20,51 +19,6 @@
 
 namespace gobo {
 namespace {
-
-/// "7: division by zero".
-using Lines = std::set<std::string>;
-
-Lines marked_lines(const std::string& source) {
-    constexpr std::string_view kMark = "// trap: ";
-    Lines lines;
-    const auto count = std::count(source.begin(), source.end(), '\n');
-    for (int number = 1; number <= count; ++number) {
-        const std::string_view line = line_of(source, number);
-        const auto mark = line.find(kMark);
-        if (mark != std::string_view::npos)
-            lines.insert(fmt::format("{}: {}", number, line.substr(mark + kMark.size())));
-    }
-    return lines;
-}
-
-struct ShaderFile {
-    std::string path;
-    std::string source;
-};
-
-sanitize::SanitizeReport report_of(const std::string& path) {
-    const DiskFileSystem disk;
-    SearchPath search;
-    const Result<Family> family = family_of_files({path}, disk, search);
-    EXPECT_TRUE(family) << path;
-    const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
-    EXPECT_TRUE(composition) << path;
-    ValidateOptions options;
-    options.keep_spirv = true;
-    options.debug_information = true;
-    const Validated validated = validate(*family, *composition, options);
-    EXPECT_EQ(exit_status(validated.diagnostics), 0) << path;
-    return sanitize::sanitize(*family, *composition, validated, {});
-}
-
-std::vector<std::string> files_in(const std::string& folder) {
-    std::vector<std::string> paths;
-    const std::string whole = std::string(GOBO_SOURCE_DIR "/tests/hard_cases/") + folder;
-    for (const auto& entry : std::filesystem::directory_iterator(whole))
-        paths.push_back(entry.path().string());
-    std::sort(paths.begin(), paths.end());
-    return paths;
-}
 
 /// "linear_fog_frag".
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
@@ -76,13 +30,6 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 class ShaderFileTest : public testing::TestWithParam<std::string> {};
 class PlainShader : public ShaderFileTest {};
 class HarmlessShader : public ShaderFileTest {};
-
-Lines found_lines(const sanitize::SanitizeReport& report) {
-    Lines lines;
-    for (const sanitize::SharedFinding& shared : report.findings)
-        lines.insert(fmt::format("{}: {}", shared.finding.place.line, shared.finding.message));
-    return lines;
-}
 
 TEST_P(PlainShader, IsFlaggedAtItsMarks) {
     const Result<std::string> source = DiskFileSystem().read(GetParam());
@@ -127,8 +74,8 @@ TEST_P(PlainShader, NamesAnInputThatShowsIt) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PlainShader, testing::ValuesIn(files_in("plain")), test_name);
-INSTANTIATE_TEST_SUITE_P(Files, HarmlessShader, testing::ValuesIn(files_in("harmless")), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PlainShader, testing::ValuesIn(shaders_in("plain")), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, HarmlessShader, testing::ValuesIn(shaders_in("harmless")), test_name);
 
 }  // namespace
 }  // namespace gobo

@@ -1,0 +1,56 @@
+// What each guard costs: operations, counted by the evaluator, and time, measured on a renderer.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluate/kinds.hpp"
+#include "lit_guards.hpp"
+#include "render/context.hpp"
+
+namespace gobo {
+
+/// The operations of one invocation of the fragment stage, with a guard and without it.
+struct GuardOperations {
+    std::string key;  ///< the permutation: of those that the guard's case concerns the first with its piece
+    evaluate::Counts guarded{};
+    evaluate::Counts plain{};
+};
+
+/// Counted at an ordinary point, where both formulas hold.
+[[nodiscard]] GuardOperations operations_of(const Guard& guard);
+
+/// How many operations that compute something: no loads, stores, moves and calls, which compilers remove.
+[[nodiscard]] std::uint64_t computing(const evaluate::Counts& counts);
+
+/// "+2: 1 compare, 1 branch"; "none" where nothing is added.
+[[nodiscard]] std::string added_text(const GuardOperations& operations);
+
+/// Times of drawing 256 x 256 fragments, over interleaved rounds.
+struct GuardTime {
+    struct Quartiles {
+        double low = 0;  ///< microseconds
+        double median = 0;
+        double high = 0;
+    };
+    Quartiles guarded;
+    Quartiles plain;
+    std::string renderer;
+
+    /// The quartiles do not overlap.
+    [[nodiscard]] bool is_measurable() const;
+};
+
+[[nodiscard]] GuardTime measure(const Guard& guard, const Context& context);
+
+/// By the guard's name.
+using GuardTimes = std::map<std::string, GuardTime, std::less<>>;
+
+/// docs/data/guard_prices.csv: a line for each guard, with its operations and times.
+[[nodiscard]] std::string to_csv(const GuardTimes& times);
+/// The times of such a file.
+[[nodiscard]] GuardTimes times_of_csv(const std::string& csv);
+
+}  // namespace gobo

@@ -1,0 +1,37 @@
+// Writes docs/data/guard_prices.csv and docs/numerics.md. Times are measured anew with --time, and for guards
+// that have none; the others are kept.
+#include <cstdio>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "common/file_system.hpp"
+#include "numerics_page.hpp"
+
+namespace {
+
+using namespace gobo;
+
+int run(bool measures_all) {
+    const DiskFileSystem disk;
+    const std::string csv_path = GOBO_SOURCE_DIR "/docs/data/guard_prices.csv";
+    const Result<std::string> old = disk.read(csv_path);
+    GuardTimes times = old && !measures_all ? times_of_csv(*old) : GuardTimes{};
+    const Result<Context> context = open_context(Backend::osmesa);
+    if (!context) {
+        std::fputs(to_text(context.error().front()).c_str(), stderr);
+        return 3;
+    }
+    for (const Guard& guard : lit_guards())
+        if (!times.contains(guard.name)) times[guard.name] = measure(guard, *context);
+    const bool is_written = disk.write(csv_path, to_csv(times)) &&
+                            disk.write(GOBO_SOURCE_DIR "/docs/numerics.md", numerics_page(times));
+    return is_written && !testing::Test::HasFailure() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);  // what the tables are made by reports its failures to it
+    return run(argc > 1 && std::string_view(argv[1]) == "--time");
+}
