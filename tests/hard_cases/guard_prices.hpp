@@ -28,7 +28,7 @@ struct GuardOperations {
 /// "+2: 1 compare, 1 branch"; "none" where nothing is added.
 [[nodiscard]] std::string added_text(const GuardOperations& operations);
 
-/// Times of drawing 256 x 256 fragments, over interleaved rounds.
+/// Processor times of drawing 256 x 256 fragments, over interleaved rounds.
 struct GuardTime {
     struct Quartiles {
         double low = 0;  ///< microseconds

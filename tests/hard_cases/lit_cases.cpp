@@ -289,9 +289,9 @@ const std::vector<Case>& lit_cases() {
     return all;
 }
 
-std::vector<Fault> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
+std::vector<CaseFault> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
     const LitUnderTest lit(tested.where, tested.features, overlay);
-    std::vector<Fault> faults;
+    std::vector<CaseFault> faults;
     if (lit.size() == 0) faults.push_back({"", 0, 0, sanitize::Machine::ieee, "no key is concerned"});
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
         for (std::size_t point = 0; point < tested.points.size(); ++point)
@@ -310,7 +310,7 @@ std::vector<Fault> faults_of(const Case& tested, const Overlay& overlay, std::si
     return faults;
 }
 
-void PrintTo(const Fault& fault, std::ostream* out) {
+void PrintTo(const CaseFault& fault, std::ostream* out) {
     *out << fmt::format("{}, point {}, {}: {}", fault.key, fault.point, sanitize::name_of(fault.machine),
                         fault.text);
 }

@@ -30,18 +30,18 @@ inline void PrintTo(const Case& tested, std::ostream* out) {
 [[nodiscard]] std::vector<Case> surface_cases();
 
 /// Something wrong with a permutation at one of a case's points.
-struct Fault {
+struct CaseFault {
     std::string key;
     std::size_t permutation = 0;  ///< index in LitUnderTest
     std::size_t point = 0;        ///< index in Case::points
     sanitize::Machine machine = sanitize::Machine::ieee;
     std::string text;
 };
-void PrintTo(const Fault& fault, std::ostream* out);
+void PrintTo(const CaseFault& fault, std::ostream* out);
 
 /// What is wrong with the permutations that the case concerns, at each of its points, on every
 /// machine that GLSL allows; at most `most` faults. `overlay` replaces pieces by include path.
-[[nodiscard]] std::vector<Fault> faults_of(const Case& tested, const Overlay& overlay = {},
-                                           std::size_t most = 8);
+[[nodiscard]] std::vector<CaseFault> faults_of(const Case& tested, const Overlay& overlay = {},
+                                               std::size_t most = 8);
 
 }  // namespace gobo

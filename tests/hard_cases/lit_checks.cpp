@@ -31,7 +31,7 @@ Check robust() {
 Check same_as(const Inputs& changes, double tolerance) {
     return {[=](const Trial& trial) {
                 const Shaded other =
-                    trial.lit.shade(trial.permutation, with(trial.inputs, changes), trial.mode);
+                    trial.lit.shade_unwatched(trial.permutation, with(trial.inputs, changes), trial.mode);
                 return differs(trial.shaded, other.color, tolerance);
             },
             tolerance == 0 ? "exact" : fmt::format("{:g} of it", tolerance)};
@@ -43,7 +43,7 @@ Check is_color(const std::array<double, 4>& color) {
 
 Check near_double(double tolerance) {
     return {[=](const Trial& trial) {
-                const Shaded exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble);
+                const Shaded exact = trial.lit.shade_unwatched(trial.permutation, trial.inputs, kDouble);
                 return differs(trial.shaded, exact.color, tolerance);
             },
             fmt::format("{:g} of it", tolerance)};
@@ -82,7 +82,7 @@ std::string tone_fault(const Trial& trial) {
 /// What rounding the directions alone costs: 2 sqrt(m) 2^-24 / |s + v| of a white highlight, |s + v| being 2
 /// here. The angle to a mirrored ray is twice that to a half vector, so Phong's m counts four times.
 std::string sharpness_fault(const Trial& trial) {
-    const double exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color[0];
+    const double exact = trial.lit.shade_unwatched(trial.permutation, trial.inputs, kDouble).color[0];
     const double shininess = trial.inputs.at("Material.shininess")[0];
     const bool is_phong = trial.lit.key(trial.permutation).find("specular=phong") != std::string::npos;
     const double limit = std::sqrt(shininess * (is_phong ? 4 : 1)) * 0x1p-24;
@@ -100,7 +100,8 @@ double half_float(double number) {
 }
 
 std::string half_float_fault(const Trial& trial) {
-    const std::array<double, 4> exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color;
+    const std::array<double, 4> exact =
+        trial.lit.shade_unwatched(trial.permutation, trial.inputs, kDouble).color;
     for (std::size_t i = 0; i < 4; ++i) {
         const double stored = half_float(trial.shaded.color[i]);
         // Half a step of the 16-bit float, and the roundings on the way there.
@@ -113,7 +114,8 @@ std::string half_float_fault(const Trial& trial) {
 }
 
 std::string display_fault(const Trial& trial) {
-    const std::array<double, 4> exact = trial.lit.shade(trial.permutation, trial.inputs, kDouble).color;
+    const std::array<double, 4> exact =
+        trial.lit.shade_unwatched(trial.permutation, trial.inputs, kDouble).color;
     for (std::size_t i = 0; i < 4; ++i)
         if (!(trial.shaded.color[i] <= 1) || !(std::abs(trial.shaded.color[i] - exact[i]) <= 1e-5))
             return fmt::format("channel {} is {}, should be {}", i, trial.shaded.color[i], exact[i]);

@@ -81,6 +81,7 @@ LitDrawing::LitDrawing(const Context& context, const LitUnderTest& lit, std::siz
 
 LitDrawing::~LitDrawing() {
     context_.make_current();
+    for (const GLuint texture : textures_) context_.gl().DeleteTextures(1, &texture);
     for (const Buffer& buffer : buffers_) context_.gl().DeleteBuffers(1, &buffer.name);
     context_.gl().DeleteVertexArrays(1, &array_);
 }
@@ -104,6 +105,39 @@ void LitDrawing::set_uniforms(const Program& program, const evaluate::Program& s
         gl.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STREAM_DRAW);
         gl.BindBufferBase(GL_UNIFORM_BUFFER, binding, buffer->name);
         gl.UniformBlockBinding(program.id(), index, binding);
+    }
+}
+
+/// Textures of one colour, or one depth: what the case's images answer, whatever they are asked.
+void LitDrawing::set_textures(const Program& program, const evaluate::Program& stage,
+                              const evaluate::Invocations& invocation) {
+    const GladGLContext& gl = context_.gl();
+    constexpr GLsizei kSide = 4;
+    constexpr GLsizei kLayers = 64;
+    for (const evaluate::ImagePort& port : stage.images) {
+        const auto image = invocation.images.find(port.name);
+        const GLint location = gl.GetUniformLocation(program.id(), port.name.c_str());
+        if (image == invocation.images.end() || location < 0) continue;
+        const bool is_depth = port.type.depth && port.type.arrayed;
+        ASSERT_TRUE(is_depth) << port.name << ": only arrays of shadow maps are drawn";
+        evaluate::ImageRequest request;
+        request.what = evaluate::ImageRequest::What::fetch;
+        const auto depth = static_cast<float>(image->second(request)[0]);
+        const std::vector<float> texels(kSide * kSide * kLayers, depth);
+        GLuint texture = 0;
+        gl.GenTextures(1, &texture);
+        gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(textures_.size()));
+        gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+        gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, kSide, kSide, kLayers, 0,
+                      GL_DEPTH_COMPONENT, GL_FLOAT, texels.data());
+        for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+            gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_LINEAR);
+        for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+            gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_CLAMP_TO_EDGE);
+        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+        gl.Uniform1i(location, static_cast<GLint>(textures_.size()));
+        textures_.push_back(texture);
     }
 }
 
@@ -173,6 +207,10 @@ Shaded LitDrawing::draw(const Inputs& inputs, DepthFormat depth_format) {
         set_uniforms(program, lit_.vertex(permutation_), stages.vertex);
         set_attributes(stages.vertex);
     }
+    for (const GLuint texture : textures_) gl.DeleteTextures(1, &texture);
+    textures_.clear();
+    set_textures(program, lit_.vertex(permutation_), stages.vertex);
+    set_textures(program, lit_.fragment(permutation_), stages.fragment);
     // A block that both stages read is the same for both but for the projection, which no fragment reads.
     const evaluate::Program& fragment = lit_.fragment(permutation_);
     set_uniforms(program, fragment, stages.fragment);
@@ -192,6 +230,7 @@ void LitDrawing::cover(const Inputs& inputs) {
     gl.UseProgram(handed_on_->id());
     set_handed_on(stages.fragment, 0.5);
     set_uniforms(*handed_on_, lit_.fragment(permutation_), stages.fragment);
+    if (textures_.empty()) set_textures(*handed_on_, lit_.fragment(permutation_), stages.fragment);
     gl.Uniform1i(gl.GetUniformLocation(handed_on_->id(), "covers"), 1);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }

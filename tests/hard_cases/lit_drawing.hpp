@@ -33,6 +33,8 @@ class LitDrawing {
     };
     void set_uniforms(const Program& program, const evaluate::Program& stage,
                       const evaluate::Invocations& invocation);
+    void set_textures(const Program& program, const evaluate::Program& stage,
+                      const evaluate::Invocations& invocation);
     void set_attributes(const evaluate::Invocations& vertex);
     void set_handed_on(const evaluate::Invocations& fragment, double depth);
     [[nodiscard]] bool names_fragment_input(const Inputs& inputs) const;
@@ -44,6 +46,7 @@ class LitDrawing {
     std::unique_ptr<Program> handed_on_;  ///< its fragment stage alone, fed by uniforms
     GLuint array_ = 0;
     std::vector<Buffer> buffers_;
+    std::vector<GLuint> textures_;
 };
 
 }  // namespace gobo

@@ -45,7 +45,9 @@ const std::vector<Guard> kGuards = {
      "H_N4_light_behind_the_viewers_ray"},
     {"halfway_small_angle", "angle/halfway.glsl", "if (cosine < 0.8) return", "return",
      "H_S3_sharp_highlights"},
-    {"power_series", "power/exact.glsl", "if (versine > 0.1875) return", "return", "H_S3_sharp_highlights"},
+    {"power_series", "power/exact.glsl",
+     "-2.0 * z * (1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0))))", "log(1.0 - versine)",
+     "H_S3_sharp_highlights"},
     {"power_negative_base", "power/exact.glsl", "if (versine < 1.0)", "if (true)", "H_S2_negative_base"},
     {"power_zero_exponent", "power/exact.glsl", "exponent > 0.0 ? 0.0 : 1.0", "0.0", "H_S1_shininess_zero"},
     {"toon_top_band", "diffuse/toon.glsl", "min(floor(levels * cosine), levels - 1.0)",
@@ -55,7 +57,7 @@ const std::vector<Guard> kGuards = {
     {"fog_step", "fog/linear.glsl", "if (depth == 0.0)", "if (false)", "H_F1_step_beyond"},
     {"fog_square", "fog/exponential_squared.glsl", "min(fog.density * fogDistance(), 16.0)",
      "fog.density * fogDistance()", "H_F2_very_far"},
-    {"fog_hides_all", "fog/blend.glsl", "clearness > 0.0 ? mix(fog.color, radiance, clearness) : fog.color",
+    {"fog_hides_all", "fog/blend.glsl", "clearness > 1e-30 ? mix(fog.color, radiance, clearness) : fog.color",
      "mix(fog.color, radiance, clearness)", "H_F3_infinite_radiance_in_the_fog"},
     {"length_scale", "guards/vector_length.glsl", "= vectorScale(v)", "= 1.0", "H_F2_very_far"},
     {"polar_scale", "guards/polar.glsl", "= vectorScale(v)", "= 1.0", "H_N2_light_very_near"},
@@ -115,7 +117,8 @@ std::vector<GuardMark> guard_marks() {
         const auto lines = std::count(text.begin(), text.end(), '\n');
         for (int line = 1; line <= lines; ++line)
             if (is_mark(line_of(text, line)))
-                marks.push_back({piece, line, std::string(line_of(text, line))});
+                marks.push_back({piece, line, std::string(line_of(text, line)),
+                                 std::string(line > 1 ? line_of(text, line - 1) : "")});
     }
     std::sort(marks.begin(), marks.end(), [](const GuardMark& a, const GuardMark& b) {
         return std::tie(a.piece, a.line) < std::tie(b.piece, b.line);

@@ -30,6 +30,7 @@ struct GuardMark {
     std::string piece;
     int line = 0;
     std::string text;
+    std::string line_before;  ///< where a guard may be made ready
 };
 
 /// All marked lines of code below shader_lib, by piece and line.

@@ -134,6 +134,18 @@ std::vector<std::string> traps_of(const evaluate::Program& program, const evalua
     return texts;
 }
 
+Shaded shaded_by(const evaluate::Program& fragment, const evaluate::Invocations& invocations, Mode mode) {
+    const evaluate::Outputs outputs = run(fragment, invocations, mode);
+    Shaded shaded;
+    shaded.is_discarded = outputs.discarded.front();
+    const auto color = outputs.values.find("fragmentColor");
+    EXPECT_NE(color, outputs.values.end());
+    for (std::size_t i = 0; i < 4 && color != outputs.values.end(); ++i) shaded.color[i] = color->second[i];
+    if (const auto depth = outputs.values.find("gl_FragDepth"); depth != outputs.values.end())
+        shaded.depth = depth->second.front();
+    return shaded;
+}
+
 }  // namespace
 
 LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
@@ -196,19 +208,16 @@ StageInputs LitUnderTest::inputs_of(std::size_t permutation, const Inputs& input
 }
 
 Shaded LitUnderTest::shade(std::size_t permutation, const Inputs& inputs, Mode mode) const {
-    const auto [first, second] = inputs_of(permutation, inputs, mode);
-    const evaluate::Outputs outputs = run(fragment(permutation), second, mode);
-    Shaded shaded;
-    shaded.traps = traps_of(vertex(permutation), first, mode);
-    const std::vector<std::string> more = traps_of(fragment(permutation), second, mode);
+    const StageInputs stages = inputs_of(permutation, inputs, mode);
+    Shaded shaded = shaded_by(fragment(permutation), stages.fragment, mode);
+    shaded.traps = traps_of(vertex(permutation), stages.vertex, mode);
+    const std::vector<std::string> more = traps_of(fragment(permutation), stages.fragment, mode);
     shaded.traps.insert(shaded.traps.end(), more.begin(), more.end());
-    shaded.is_discarded = outputs.discarded.front();
-    const auto color = outputs.values.find("fragmentColor");
-    EXPECT_NE(color, outputs.values.end());
-    for (std::size_t i = 0; i < 4 && color != outputs.values.end(); ++i) shaded.color[i] = color->second[i];
-    if (const auto depth = outputs.values.find("gl_FragDepth"); depth != outputs.values.end())
-        shaded.depth = depth->second.front();
     return shaded;
+}
+
+Shaded LitUnderTest::shade_unwatched(std::size_t permutation, const Inputs& inputs, Mode mode) const {
+    return shaded_by(fragment(permutation), inputs_of(permutation, inputs, mode).fragment, mode);
 }
 
 }  // namespace gobo

@@ -53,6 +53,8 @@ class LitUnderTest {
     /// A white surface at (0, 0, -5) that faces the viewer, lights in front of it; `inputs` overrule that.
     /// The fragment stage is given what the vertex stage hands on, unless `inputs` name it.
     [[nodiscard]] Shaded shade(std::size_t permutation, const Inputs& inputs, Mode mode) const;
+    /// The same without watching for traps.
+    [[nodiscard]] Shaded shade_unwatched(std::size_t permutation, const Inputs& inputs, Mode mode) const;
     /// What shade() gives the two stages.
     [[nodiscard]] StageInputs inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const;
 

@@ -1,5 +1,6 @@
 #include "numerics_page.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -24,7 +25,9 @@ CaseName split(const std::string& name) {
     for (char& character : text)
         if (character == '_') character = ' ';
     if (name.starts_with("H_D1_H_D2_")) return {"H-D1, H-D2", text.substr(10)};
-    return {fmt::format("H-{}", text.substr(2, 2)), text.substr(5)};
+    if (name.starts_with("H_")) return {fmt::format("H-{}", text.substr(2, 2)), text.substr(5)};
+    const auto space = text.find(' ');  // a model's case: "S15_in_the_shadow"
+    return {text.substr(0, space), text.substr(space + 1)};
 }
 
 std::string number_text(double number) {
@@ -59,10 +62,10 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     EXPECT_NE(tested, nullptr) << guard.needed_by;
     if (tested == nullptr) return {};
     const Overlay overlay = {{guard.piece, without_guard(guard)}};
-    const std::vector<Fault> faults = faults_of(*tested, overlay, 1);
+    const std::vector<CaseFault> faults = faults_of(*tested, overlay, 1);
     EXPECT_FALSE(faults.empty()) << guard.name;
     if (faults.empty()) return {};
-    const Fault& fault = faults.front();
+    const CaseFault& fault = faults.front();
     const Inputs& point = tested->points[fault.point];
     const LitUnderTest plain(tested->where, tested->features, overlay);
     const LitUnderTest guarded(tested->where, tested->features, {});
@@ -85,12 +88,30 @@ std::string guard_rows(const GuardTimes& times) {
     return rows;
 }
 
+/// How far machines with the largest errors allowed are from double precision, relative where the colour is
+/// above 1e-3; over all permutations and points of the case.
+double largest_error(const Case& tested) {
+    const LitUnderTest lit(tested.where, tested.features, {});
+    double largest = 0;
+    for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
+        for (const Inputs& point : tested.points) {
+            const Shaded exact = lit.shade_unwatched(permutation, point, kDouble);
+            for (const auto machine : {sanitize::Machine::errors_up, sanitize::Machine::errors_down}) {
+                const Shaded shaded = lit.shade_unwatched(permutation, point, machine);
+                const double error =
+                    std::abs(shaded.color[0] - exact.color[0]) / std::max(exact.color[0], 1e-3);
+                if (std::isfinite(error)) largest = std::max(largest, error);
+            }
+        }
+    return largest;
+}
+
 std::string case_rows() {
     std::string rows;
     for (const Case& tested : lit_cases()) {
         const CaseName name = split(tested.name);
-        rows += fmt::format("| {} | {} | {} | {} |\n", name.id, name.what, tested.points.size(),
-                            tested.check.tolerance);
+        rows += fmt::format("| {} | {} | {} | {} | {:.0e} |\n", name.id, name.what, tested.points.size(),
+                            tested.check.tolerance, largest_error(tested));
     }
     return rows;
 }
