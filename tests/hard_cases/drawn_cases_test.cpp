@@ -40,6 +40,9 @@ std::string color_text(const Shaded& shaded) {
 std::string fault_of(const Case& tested, const LitUnderTest& lit, std::size_t permutation,
                      const Inputs& point, const Shaded& drawn) {
     const Shaded evaluated = lit.shade(permutation, point, Machine::ieee);
+    if (drawn.is_discarded != evaluated.is_discarded)
+        return drawn.is_discarded ? "not drawn at all" : "drawn, though it is to be discarded";
+    if (drawn.is_discarded) return {};
     if (!is_in_bounds(drawn)) return fmt::format("drawn as {}", color_text(drawn));
     if (is_near(drawn, evaluated) || is_near(drawn, lit.shade(permutation, point, Machine::flushed)))
         return {};

@@ -64,6 +64,40 @@ std::vector<std::byte> bytes_of(const evaluate::Program& stage, std::size_t bloc
     return bytes;
 }
 
+constexpr GLsizei kSide = 4;  // texels
+
+/// An array of shadow maps, bound to the active unit.
+GLuint depth_texture(const GladGLContext& gl, float depth) {
+    constexpr GLsizei kLayers = 64;
+    const std::vector<float> texels(kSide * kSide * kLayers, depth);
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, kSide, kSide, kLayers, 0, GL_DEPTH_COMPONENT,
+                  GL_FLOAT, texels.data());
+    for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_LINEAR);
+    for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    return texture;
+}
+
+/// A picture of one grey, bound to the active unit.
+GLuint color_texture(const GladGLContext& gl, float grey) {
+    const std::vector<float> texels(kSide * kSide * 4, grey);
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kSide, kSide, 0, GL_RGBA, GL_FLOAT, texels.data());
+    for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl.TexParameteri(GL_TEXTURE_2D, name, GL_NEAREST);
+    return texture;
+}
+
+constexpr float kCleared = -1;  // in every channel, as no permutation writes it
+
 }  // namespace
 
 LitDrawing::LitDrawing(const Context& context, const LitUnderTest& lit, std::size_t permutation)
@@ -111,33 +145,17 @@ void LitDrawing::set_uniforms(const Program& program, const evaluate::Program& s
 /// Textures of one colour, or one depth: what the case's images answer, whatever they are asked.
 void LitDrawing::set_textures(const Program& program, const evaluate::Program& stage,
                               const evaluate::Invocations& invocation) {
-    const GladGLContext& gl = context_.gl();
-    constexpr GLsizei kSide = 4;
-    constexpr GLsizei kLayers = 64;
     for (const evaluate::ImagePort& port : stage.images) {
         const auto image = invocation.images.find(port.name);
-        const GLint location = gl.GetUniformLocation(program.id(), port.name.c_str());
+        const GLint location = context_.gl().GetUniformLocation(program.id(), port.name.c_str());
         if (image == invocation.images.end() || location < 0) continue;
-        const bool is_depth = port.type.depth && port.type.arrayed;
-        ASSERT_TRUE(is_depth) << port.name << ": only arrays of shadow maps are drawn";
         evaluate::ImageRequest request;
         request.what = evaluate::ImageRequest::What::fetch;
-        const auto depth = static_cast<float>(image->second(request)[0]);
-        const std::vector<float> texels(kSide * kSide * kLayers, depth);
-        GLuint texture = 0;
-        gl.GenTextures(1, &texture);
-        gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(textures_.size()));
-        gl.BindTexture(GL_TEXTURE_2D_ARRAY, texture);
-        gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, kSide, kSide, kLayers, 0,
-                      GL_DEPTH_COMPONENT, GL_FLOAT, texels.data());
-        for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-            gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_LINEAR);
-        for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-            gl.TexParameteri(GL_TEXTURE_2D_ARRAY, name, GL_CLAMP_TO_EDGE);
-        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-        gl.Uniform1i(location, static_cast<GLint>(textures_.size()));
-        textures_.push_back(texture);
+        const std::array<double, 4> color = image->second(request);
+        context_.gl().Uniform1i(location, static_cast<GLint>(textures_.size()));
+        context_.gl().ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(textures_.size()));
+        textures_.push_back(port.type.depth ? depth_texture(context_.gl(), static_cast<float>(color[0]))
+                                            : color_texture(context_.gl(), static_cast<float>(color[0])));
     }
 }
 
@@ -185,7 +203,7 @@ Shaded LitDrawing::draw(const Inputs& inputs, DepthFormat depth_format) {
     if (!target || !own_ || !handed_on_) return shaded;
     target->bind();
     const GladGLContext& gl = context_.gl();
-    gl.ClearColor(-1, -1, -1, -1);  // what no permutation writes
+    gl.ClearColor(kCleared, kCleared, kCleared, kCleared);
     gl.ClearDepth(0.25);
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl.Enable(GL_DEPTH_TEST);
@@ -194,7 +212,9 @@ Shaded LitDrawing::draw(const Inputs& inputs, DepthFormat depth_format) {
     const auto own_depth = inputs.find("gl_FragCoord");
     const double depth = own_depth == inputs.end() ? 0.5 : own_depth->second[2];
     StageInputs stages = lit_.inputs_of(permutation_, inputs, sanitize::Machine::ieee);
-    const bool is_fed = names_fragment_input(inputs);
+    const auto front = inputs.find("gl_FrontFacing");
+    const bool is_back = front != inputs.end() && front->second[0] == 0;
+    const bool is_fed = is_back || names_fragment_input(inputs);
     const Program& program = is_fed ? *handed_on_ : *own_;
     gl.UseProgram(program.id());
     // Whatever the position: the pixel, at that depth.
@@ -202,7 +222,7 @@ Shaded LitDrawing::draw(const Inputs& inputs, DepthFormat depth_format) {
                                                     1};
     if (is_fed) {
         set_handed_on(stages.fragment, depth);
-        gl.Uniform1i(gl.GetUniformLocation(program.id(), "covers"), 0);
+        gl.Uniform1i(gl.GetUniformLocation(program.id(), "covers"), is_back ? 1 : 0);
     } else {
         set_uniforms(program, lit_.vertex(permutation_), stages.vertex);
         set_attributes(stages.vertex);
@@ -214,11 +234,13 @@ Shaded LitDrawing::draw(const Inputs& inputs, DepthFormat depth_format) {
     // A block that both stages read is the same for both but for the projection, which no fragment reads.
     const evaluate::Program& fragment = lit_.fragment(permutation_);
     set_uniforms(program, fragment, stages.fragment);
-    gl.DrawArrays(GL_POINTS, 0, 1);
+    gl.FrontFace(is_back ? GL_CW : GL_CCW);  // points have no back
+    gl.DrawArrays(is_back ? GL_TRIANGLES : GL_POINTS, 0, is_back ? 3 : 1);
     EXPECT_EQ(gl.GetError(), static_cast<GLenum>(GL_NO_ERROR));
     const Image color = target->read_color();
     for (int channel = 0; channel < 4; ++channel)
         shaded.color[static_cast<std::size_t>(channel)] = color.at(0, 0, channel);
+    shaded.is_discarded = color.at(0, 0, 0) == kCleared && color.at(0, 0, 3) == kCleared;
     shaded.depth = target->read_depth().at(0, 0, 0);
     return shaded;
 }
