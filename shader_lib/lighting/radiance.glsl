@@ -1,19 +1,20 @@
 // The whole lighting model at one point of the surface, in whichever stage it is evaluated (L7).
 //
-// Model:  emission + the ambient light + the response to exactly the lights that the key counts.
+// Model:  emission + ambient light + what is mirrored + the response to exactly the lights that the key counts.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
 // Space:  eye. Range: linear radiance, unclamped, not negative.
 #include <directional>
 #include <homogeneous>
 #include <material>
 #include <point>
+#include <reflection>
 #include <spot>
 #include "lighting/ambient.glsl"
 
 /// The radiance that leaves the surface towards the viewer, before fog.
 vec3 litSurface() {
     chooseMaterial();
-    vec3 radiance = material.emission + ambientRadiance();
+    vec3 radiance = material.emission + ambientRadiance() + reflectionRadiance();
 #if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS > 0
     beginResponse();
 #endif

@@ -78,6 +78,13 @@ const Inputs& ordinary_inputs() {
         {"Materials.rows[].specular", {1, 1, 1}},
         {"Materials.rows[].shininess", {8}},
         {"Materials.rows[].strength", {1}},
+        {"ImageLight.color", {0.125, 0.125, 0.125}},
+        {"ImageLight.share", {0.5}},
+        {"ImageLight.toMap", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+        {"Reflection.share", {0.5}},
+        {"Reflection.toMap", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
+        {"diffuseMap", {0.25, 0.5, 1, 1}},
+        {"specularMap", {0.25, 0.5, 1, 1}},
     };
     return inputs;
 }
@@ -108,9 +115,10 @@ evaluate::Invocations invocation(const evaluate::Program& program, const Inputs&
     for (const evaluate::ImagePort& image : program.images)
         for (const Inputs* source : {&ordinary_inputs(), &inputs})
             if (const auto found = source->find(image.name); found != source->end())
-                invocations.images[image.name] = [one =
-                                                      as_floats(found->second).front()](const auto& request) {
-                    return evaluate::answer({one, one, one, one}, request);
+                invocations.images[image.name] = [numbers = as_floats(found->second)](const auto& request) {
+                    std::array<double, 4> color{};
+                    std::copy_n(numbers.begin(), std::min<std::size_t>(numbers.size(), 4), color.begin());
+                    return evaluate::answer(color, request);
                 };
     return invocations;
 }

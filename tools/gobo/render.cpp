@@ -1,4 +1,5 @@
 // gobo render: a picture of every permutation of a selection, without a screen.
+#include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -6,7 +7,9 @@
 #include "common/text.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/depth_pass.hpp"
+#include "gobo/environment.hpp"
 #include "gobo/render_scene.hpp"
+#include "render/cube_maps.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
 
@@ -23,6 +26,7 @@ struct RenderOptions {
     std::string backend = "osmesa";
     std::string format = "png";
     std::string mesh = "teapot";
+    std::string environment;
     int camera = -1;  ///< of scenes; below 0: each scene's first
 };
 
@@ -80,6 +84,22 @@ Result<std::vector<Interface>> interfaces_of(const Family& family, const Composi
     return interfaces;
 }
 
+/// The cube maps of the environment, where a key looks any up.
+Result<void> add_environment(const RenderOptions& options, const World& world,
+                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
+    const auto looks_up = [](const Interface& interface) {
+        return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
+            return sampler.name == "diffuseMap" || sampler.name == "specularMap";
+        });
+    };
+    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up)) return {};
+    const auto images = load_environment(world, options.environment, options.common.jobs);
+    if (!images) return tl::unexpected(images.error());
+    for (const auto& [sampler, image] : *images)
+        if (const auto added = cubes.add(sampler, image); !added) return added;
+    return {};
+}
+
 /// Draws each key with the demonstration mesh.
 Result<RenderedSelection> render_keys(const RenderOptions& options, const World& world, LoadedFamily& family,
                                       Dialect dialect, const Context& context, PictureOptions pictures) {
@@ -98,6 +118,10 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
         depth_pass = std::move(*loaded);
         pictures.depth_pass = &depth_pass;
     }
+    CubeMaps cubes(context);
+    if (const auto added = add_environment(options, world, *interfaces, cubes); !added)
+        return tl::unexpected(added.error());
+    pictures.textures = cubes.textures();
     return render_selection(context, family.family, *composition, *interfaces, demo_objects(*mesh), pictures,
                             world.disk);
 }
@@ -170,6 +194,11 @@ Command render_command(CLI::App& gobo) {
            "view of everything")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
+    app->add_option(
+           "--environment", options->environment,
+           "What gobo probe wrote: the light of keys with ambient=image or reflection=image; by default "
+           "a studio")
+        ->type_name("DIR");
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
     app->footer(

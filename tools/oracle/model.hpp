@@ -14,12 +14,13 @@ enum class Specular { none, phong, blinn };
 enum class Fog { none, linear, exponential, exponential_squared };
 enum class FogDistance { radial, planar };
 enum class Shading { fragment, vertex };
+enum class Reflection { none, image };
 enum class ShadowFilter { bilinear, sampler, nearest };
 enum class OutputRange { unbounded, half_float, display };
 enum class Depth { untouched, any, greater, less, unchanged };
 enum class Lighting { lit, unlit };
 enum class LightAmbient { none, each };
-enum class Ambient { global, hemisphere, spherical_harmonics };
+enum class Ambient { global, hemisphere, spherical_harmonics, image };
 enum class Hemisphere { sine, cosine };
 enum class Harmonics { second, first, zeroth };
 enum class MaterialChoice { uniform, array };
@@ -41,6 +42,7 @@ struct Model {
     int directional_shadows = 0;  ///< the first so many lights of each kind
     int point_shadows = 0;
     int spot_shadows = 0;
+    Reflection reflection = Reflection::none;
     ShadowFilter shadow_filter = ShadowFilter::bilinear;
     Lighting lighting = Lighting::lit;
     int homogeneous = 0;
@@ -55,6 +57,9 @@ struct Model {
     OutputRange output_range = OutputRange::unbounded;
 
     [[nodiscard]] int lights() const { return directional + point + spot + homogeneous; }
+    [[nodiscard]] bool looks_up_images() const {
+        return ambient == Ambient::image || reflection == Reflection::image;
+    }
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 

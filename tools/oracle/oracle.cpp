@@ -24,6 +24,10 @@ AmbientLight ambient_light(const Model& model, const Scene& scene, const glm::dv
         return hemisphere_light(model.hemisphere, scene.hemisphere, normal);
     if (model.ambient == Ambient::spherical_harmonics)
         return harmonics_light(model.harmonics, scene.harmonics, normal);
+    if (model.ambient == Ambient::image) {
+        const LookedUp found = ambient_from_image(scene.image_light, normal);
+        return {found.value, found.value, found.slope};
+    }
     return {scene.ambient, scene.ambient, glm::dvec3(0)};
 }
 
@@ -64,8 +68,11 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     const glm::dvec3 to_viewer = direction_of(-point.position);
     const glm::dvec3 highlight = material.strength * material.specular;
     radiance.ambient = ambient_light(model, scene, normal);
-    radiance.value = material.emission + material.ambient * radiance.ambient.value;
-    radiance.largest = material.emission + material.ambient * radiance.ambient.largest;
+    if (model.reflection == Reflection::image)
+        radiance.reflected = reflection_from_image(scene.reflection, normal, to_viewer);
+    const glm::dvec3 mirrored = highlight * radiance.reflected.value;
+    radiance.value = material.emission + material.ambient * radiance.ambient.value + mirrored;
+    radiance.largest = material.emission + material.ambient * radiance.ambient.largest + mirrored;
     std::vector<Arrival> lights = arrivals(scene, point.position, decisions);
     cast_shadows(model, scene, point.position, lights, decisions);
     for (const Arrival& arrival : lights) {

@@ -22,6 +22,7 @@ struct Radiance {
     std::vector<LightTerm> terms;  ///< one for each light
     Material material;             ///< that of the side that is seen, tinted by the vertices' colour
     AmbientLight ambient;          ///< without the lights' own
+    LookedUp reflected;            ///< without the highlight's reflectivity
 };
 
 /// The material of the point: the one there is, or row i of the table, with two materials row 2 i in front

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "oracle/image_light.hpp"
 #include "oracle/surroundings.hpp"
 
 namespace gobo::oracle {
@@ -109,6 +110,8 @@ struct Scene {
     std::array<double, 3> toon_tones{1, 0.6, 0.4};           ///< above each
     std::array<Material, 14> materials;
     double cutout_threshold = 0;  ///< alpha below it is cut
+    ImageLight image_light{};
+    ImageLight reflection{};
 };
 
 }  // namespace gobo::oracle

@@ -20,7 +20,7 @@ Result<Diagnostics> render_one(const Context& context, const std::vector<StageTe
                                const Interface& interface, const std::vector<Object>& objects,
                                std::vector<RenderValue> values, const std::vector<ShadowLight>& shadows,
                                const PictureOptions& options, FileSystem& files, const std::string& path) {
-    GivenTextures textures;
+    GivenTextures textures = options.textures;
     std::optional<Result<ShadowMaps>> maps;
     if (!shadows.empty() && options.depth_pass != nullptr) {
         maps.emplace(

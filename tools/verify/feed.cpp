@@ -8,6 +8,7 @@
 
 #include "verify/feed_surface.hpp"
 #include "verify/field_access.hpp"
+#include "verify/image_light_feed.hpp"
 #include "verify/shadow_feed.hpp"
 
 namespace gobo::verify {
@@ -114,6 +115,7 @@ std::optional<Field> field_of(const std::string& name) {
         return point_field(&oracle::Scene::point, *light);
     if (const auto light = element_name(name, "SpotLights.lights")) return spot_field(*light);
     if (auto surface = surface_field_of(name)) return surface;
+    if (const auto image = image_light_field(name)) return image;
     return shadow_field(name);
 }
 
@@ -124,6 +126,8 @@ Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<c
         for (const evaluate::Port& port : *ports)
             if (const Result<bool> fed = feed_port(port, samples, invocations); !fed)
                 return tl::unexpected(fed.error());
+    for (const evaluate::ImagePort& image : program.images)
+        if (const auto map = image_light_map(image.name, samples)) invocations.images[image.name] = *map;
     for (const evaluate::ImagePort& image : program.images)
         if (image.name == "shadowMaps") invocations.images[image.name] = shadow_maps_of(samples);
     feed_images(program, samples, invocations);

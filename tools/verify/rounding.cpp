@@ -148,6 +148,11 @@ glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene
     const double to_viewer = distance > 0 ? errors.position / distance + kDirectionError : 0;
     const oracle::Material& material = radiance.material;
     glm::dvec3 error = material.ambient * ambient_error(radiance.ambient, normal);
+    // A mirrored direction is known to four times the normal's error besides the viewer's; turning it to the
+    // map's axes rounds three products more, mixing and scaling five.
+    const double mirrored = to_viewer + 4 * normal + 8 * kU;
+    error += material.strength * material.specular *
+             (radiance.reflected.slope * (mirrored + 6 * kU) + radiance.reflected.value * (5 * kU));
     for (const oracle::LightTerm& term : radiance.terms) {
         const TermErrors one = term_errors(model, scene, term, material.shininess, errors, normal, to_viewer);
         error += material.ambient * one.ambient + material.diffuse * one.scattered +

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "oracle/oracle.hpp"
+#include "verify/image_light_feed.hpp"
 #include "verify/random.hpp"
 #include "verify/sample_surface.hpp"
 #include "verify/shadow_sample.hpp"
@@ -54,6 +55,7 @@ class SampleMaker {
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
         add_shadows(model_, random_, sample);
         fill_surroundings(model_, random_, sample.scene);
+        if (model_.looks_up_images()) fill_image_lights(random_, sample.scene);
         if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4)) brighten(sample);
     }
 
@@ -259,6 +261,7 @@ void to_float(oracle::Scene& scene) {
             to_float(*number);
     }
     for (double& depth : scene.maps.depths) to_float(depth);
+    round_image_lights(scene);
     for (oracle::DirectionalLight& light : scene.directional) {
         to_float(light.direction);
         to_float(light.color);

@@ -1,0 +1,30 @@
+// The environment mirrored by the surface, as a cube map blurred by its shininess (S14).
+//
+// Model:  share strength K_s S(r) with r = 2 (n.v) n - v, S the environment convolved with the highlight's lobe
+//         (docs/probes.md).
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Image-Based Lighting; Miller and Hoffman, Illumination and
+//         Reflection Maps, SIGGRAPH 1984 course notes.
+// Spaces: n and v in eye space, the map in its own axes. Ranges: S 0 to 1e5 (radiance), share 0 to 1.
+// Edges:  nothing is mirrored where there is no normal, nor at the viewer itself (H-N1).
+#include <material>
+#include <sides>
+#include "viewer/local.glsl"
+
+/// How much of the map is seen, and the rotation from eye space to its axes.
+BLOCK(18, Reflection) {
+    mat3 toMap;
+    float share;
+} reflection;
+
+/// S: what a surface of the material's shininess shows by the mirrored direction to the viewer. One level.
+SAMPLER(4, samplerCube) specularMap;
+
+/// The radiance of what is mirrored.
+vec3 reflectionRadiance() {
+    vec3 normal = visibleNormal();
+    vec3 viewer = towardViewer();
+    vec3 direction = reflection.toMap * reflect(-viewer, normal);
+    bool isKnown = normal != vec3(0.0) && viewer != vec3(0.0) && direction != vec3(0.0);
+    if (!isKnown) return vec3(0.0);  // H-N1
+    return (reflection.share * material.strength) * material.specular * textureLod(specularMap, direction, 0.0).rgb;
+}

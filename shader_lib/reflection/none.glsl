@@ -1,0 +1,4 @@
+// The surface mirrors nothing but its lights.
+
+/// The radiance of what is mirrored: none.
+vec3 reflectionRadiance() { return vec3(0.0); }

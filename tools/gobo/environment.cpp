@@ -1,0 +1,44 @@
+#include "gobo/environment.hpp"
+
+#include "probe/convolution.hpp"
+#include "probe/cube_map.hpp"
+#include "render/image_file.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr const char* kShippedMap = "data/environments/studio.exr";
+constexpr double kShippedShininess = 48;
+
+Result<CubeImages> shipped_environment(const World& world, int jobs) {
+    const auto image = read_image(world.shipped, kShippedMap);
+    if (!image) return tl::unexpected(image.error());
+    const auto environment = probe::environment_of(*image, kShippedMap);
+    if (!environment) return tl::unexpected(environment.error());
+    const auto cube = [&](double exponent, int side) {
+        const probe::Lobe lobe(*environment, exponent);
+        return probe::make_cube_map(side, jobs,
+                                    [&](const glm::dvec3& direction) { return lobe.around(direction); });
+    };
+    return CubeImages{{"diffuseMap", cube(1, 16)}, {"specularMap", cube(kShippedShininess, 32)}};
+}
+
+}  // namespace
+
+Result<CubeImages> load_environment(const World& world, const std::string& folder, int jobs) {
+    if (folder.empty()) return shipped_environment(world, jobs);
+    CubeImages images;
+    for (const auto& [sampler, file] :
+         {std::pair("diffuseMap", "diffuse.exr"), std::pair("specularMap", "specular.exr")}) {
+        auto image = read_image(world.disk, folder + "/" + file);
+        if (!image) {
+            Diagnostics why = image.error();
+            for (Diagnostic& diagnostic : why) diagnostic.remedy = "name a folder that gobo probe wrote";
+            return tl::unexpected(std::move(why));
+        }
+        images.emplace(sampler, std::move(*image));
+    }
+    return images;
+}
+
+}  // namespace gobo

@@ -1,0 +1,18 @@
+// The environment that pictures are lit by: what gobo probe wrote, or the shipped studio.
+#pragma once
+
+#include <map>
+
+#include "gobo/command.hpp"
+#include "render/image.hpp"
+
+namespace gobo {
+
+/// Cube maps by the name of their sampler.
+using CubeImages = std::map<std::string, Image>;
+
+/// `folder`/diffuse.exr and `folder`/specular.exr as diffuseMap and specularMap. Where `folder` is empty,
+/// those of the shipped environment `studio`, for a shininess of 48.
+[[nodiscard]] Result<CubeImages> load_environment(const World& world, const std::string& folder, int jobs);
+
+}  // namespace gobo
