@@ -117,6 +117,7 @@ evaluate::Invocations invocation(const evaluate::Program& program, const Inputs&
             if (const auto found = source->find(image.name); found != source->end())
                 invocations.images[image.name] = [numbers = as_floats(found->second)](const auto& request) {
                     std::array<double, 4> color{};
+                    color.fill(numbers.back());  // one number is that of every channel
                     std::copy_n(numbers.begin(), std::min<std::size_t>(numbers.size(), 4), color.begin());
                     return evaluate::answer(color, request);
                 };

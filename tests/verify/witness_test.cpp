@@ -49,8 +49,8 @@ struct Disagreement {
 };
 
 constexpr Disagreement disagreements[] = {
-    {"a product off by a thousandth", "directional=1", "lighting/response.glsl", "return material.diffuse",
-     "return 1.001 * material.diffuse"},
+    {"a product off by a thousandth", "directional=1", "lighting/response.glsl", "vec3 diffuse = tinted",
+     "vec3 diffuse = 1.001 * tinted"},
     {"fog by another distance", "fog=linear", "fog_distance/radial.glsl", "vectorLength(surfacePosition())",
      "-surfacePosition().z"},
     {"a normal not normalised", "directional=1", "surface/normal.frag.glsl", "unitVector(eyeNormal)",
