@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace gobo::runtime {
 
@@ -72,6 +73,33 @@ template <class Tables>
         counts += static_cast<std::uint64_t>(std::abs(left[index] - right[index]));
     }
     return (features << 32U) + counts;
+}
+
+/// How much greater the counts of `key` are than those of `wanted`, all together; -1 where one is less or
+/// another feature differs.
+template <class Tables>
+[[nodiscard]] constexpr int counts_beyond(const Values<Tables>& wanted, const Values<Tables>& key) {
+    int beyond = 0;
+    for (std::size_t index = 0; index < wanted.size(); ++index) {
+        const int more = key[index] - wanted[index];
+        if (more < 0 || (more > 0 && Tables::features[index].kind != FeatureKind::count)) return -1;
+        beyond += more;
+    }
+    return beyond;
+}
+
+/// The value of a feature whose member of a key is a `Member`, from an application's own: counts from whole
+/// numbers, flags from what converts to bool, choices from their enum alone.
+template <class Member, class Own>
+[[nodiscard]] constexpr Member value_from(const Own& own) {
+    if constexpr (std::is_enum_v<Member>) {
+        static_assert(std::is_same_v<Member, Own>, "a choice is taken from the generated header's own enum");
+        return own;
+    } else {
+        static_assert(std::is_convertible_v<Own, Member>,
+                      "a count is taken from a number, a flag from a bool");
+        return static_cast<Member>(own);
+    }
 }
 
 /// Which feature of a key holds a value that the family does not have; empty where none does.

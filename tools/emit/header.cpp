@@ -8,6 +8,7 @@
 #include "emit/interface_section.hpp"
 #include "emit/key_section.hpp"
 #include "emit/permutation_section.hpp"
+#include "emit/state_section.hpp"
 #include "emit/struct_section.hpp"
 #include "family/key.hpp"
 
@@ -50,7 +51,12 @@ CppScope header_scope() {
                      "changed",
                      "count",
                      "check",
-                     "select"});
+                     "select",
+                     "SceneState",
+                     "State",
+                     "Settings",
+                     "state",
+                     "settings"});
 }
 
 Result<std::string> namespace_of(const EmitInput& input) {
@@ -112,6 +118,7 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     values["checks"] = check_section(structs->blocks, input.family.domains);
     describe_interface(interface, input.family.domains, values);
     describe_permutations(input.composition, key, values);
+    describe_state(input.family, key, values);
     return fill(templates.header, values);
 }
 

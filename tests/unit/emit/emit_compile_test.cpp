@@ -33,9 +33,9 @@ class GeneratedHeader : public testing::TestWithParam<Compiler> {
         const std::string log = program + ".log";
         const std::string command = fmt::format(
             "{} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror {} -I'{}' -I'{}/include' "
-            "'{}/tests/unit/emit/{}.cpp' -o '{}' > '{}' 2>&1 && '{}' > '{}' 2>&1",
+            "'{}/tests/unit/emit/{}.cpp' -o '{}' > '{}' 2>&1 && '{}' '{}' > '{}' 2>&1",
             GetParam().command, options, folder_, GOBO_SOURCE_DIR, GOBO_SOURCE_DIR, caller, program, log,
-            program, log);
+            program, folder_, log);
         const int status = std::system(command.c_str());
         const Result<std::string> printed = files_.read(log);
         const std::string text = printed ? *printed : "no log";
@@ -51,6 +51,13 @@ TEST_P(GeneratedHeader, CompilesWithoutWarningsAndAnswersAsItShould) {
     write_header(sample::nasty(), "nasty");
     write_header(sample::bare(), "bare");
     EXPECT_EQ(compile_and_run("header_caller", GetParam().constant_data_only), "");
+}
+
+TEST_P(GeneratedHeader, FindsPermutationsByAStateAndRecordsKeys) {
+    write_header(sample::lit(), "lit");
+    write_header(sample::nasty(), "nasty");
+    write_header(sample::bare(), "bare");
+    EXPECT_EQ(compile_and_run("state_caller", GetParam().constant_data_only), "");
 }
 
 TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {
