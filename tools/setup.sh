@@ -8,6 +8,7 @@ packages=(
   glslang-dev glslang-tools spirv-tools spirv-headers spirv-cross glslc
   libosmesa6 libegl1 libgl1-mesa-dri libtinyobjloader-dev libopenexr-dev liblodepng-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  libglfw3-dev libgl1 libglx-mesa0 xvfb xdotool
 )
 
 missing=()

@@ -1,0 +1,181 @@
+#include "renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#define GOBO_GL_NO_LOADER
+#include <gobo/gl.hpp>
+
+#include "light_blocks.hpp"
+#include "render/transform.hpp"
+
+namespace viewer {
+namespace {
+
+constexpr int frames_timed = 9;
+
+template <class Vector>
+GLuint buffer_of(const GladGLContext& gl, GLenum target, const std::vector<Vector>& values) {
+    GLuint buffer = 0;
+    gl.GenBuffers(1, &buffer);
+    gl.BindBuffer(target, buffer);
+    gl.BufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(Vector)), values.data(),
+                  GL_STATIC_DRAW);
+    return buffer;
+}
+
+void add_attribute(const GladGLContext& gl, int location, const std::vector<glm::vec3>& values) {
+    if (location < 0) return;
+    buffer_of(gl, GL_ARRAY_BUFFER, values);
+    gl.EnableVertexAttribArray(static_cast<GLuint>(location));
+    gl.VertexAttribPointer(static_cast<GLuint>(location), 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+lit::Transform transform_block(const glm::dmat4& model_view, const glm::dmat4& projection) {
+    lit::Transform transform{};
+    transform.modelView = glm::mat4(model_view);
+    transform.projection = glm::mat4(projection);
+    transform.normalMatrix = glm::mat3(gobo::normal_matrix(model_view));
+    return transform;
+}
+
+}  // namespace
+
+Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record)
+    : gl_(gl), stage_(stage), size_(size), record_(record) {
+    make_framebuffer();
+    for (const StageDraw& draw : stage.draws) upload(draw.mesh);
+}
+
+void Renderer::make_framebuffer() {
+    GLuint buffers[2] = {};
+    gl_.GenFramebuffers(1, &framebuffer_);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.GenRenderbuffers(2, buffers);
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
+    gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, size_.width, size_.height);
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
+    gl_.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size_.width, size_.height);
+    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
+    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
+}
+
+void Renderer::upload(const gobo::Mesh& mesh) {
+    Vertices vertices;
+    vertices.count = static_cast<GLsizei>(mesh.indices.size());
+    gl_.GenVertexArrays(1, &vertices.array);
+    gl_.BindVertexArray(vertices.array);
+    add_attribute(gl_, lit::attribute::position, mesh.positions);
+    add_attribute(gl_, lit::attribute::normal, mesh.normals);
+    buffer_of(gl_, GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
+    vertices_.push_back(vertices);
+}
+
+template <class Block>
+void Renderer::set(const Block& block) {
+    GLuint& buffer = blocks_[Block::binding];
+    if (buffer == 0) gl_.GenBuffers(1, &buffer);
+    gl_.BindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(Block::binding), buffer);
+    gl_.BufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+}
+
+void Renderer::complain(const std::string& key, const std::string& why) {
+    if (complained_.insert(key).second) complaints_.push_back(why);
+}
+
+GLuint Renderer::program_of(const lit::Key& key) {
+    const std::string text = lit::key_text(key);
+    const lit::Permutation* permutation = lit::find(key);
+    if (permutation == nullptr) {
+        record_.note(text);
+        complain(text, lit::describe_missing(key));
+        return 0;
+    }
+    keys_.insert(text);
+    const auto known = programs_.find(permutation);
+    if (known != programs_.end()) return known->second;
+    const gobo::gl::Program program = gobo::gl::build_program(*permutation, gl_);
+    if (!program) complain(text, program.error);
+    return programs_[permutation] = program.id;
+}
+
+void Renderer::draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
+                    const glm::dmat4& projection) {
+    const StageDraw& draw = stage_.draws[number];
+    const GLuint program = program_of(lit::select(under(draw.state, settings)));
+    if (program == 0) return;
+    const LightBlocks lights = light_blocks(stage_, draw, view);
+    set(transform_block(view * draw.model, projection));
+    set(draw.material);
+    set(lit::Ambient{glm::vec3(stage_.scene.ambient), {}});
+    set(lights.directional);
+    set(lights.point);
+    set(lights.spot);
+    set(draw.fog);
+    set(draw.toon);
+    const bool is_mirrored = glm::determinant(glm::dmat3(draw.model)) < 0;
+    if (draw.double_sided)
+        gl_.Disable(GL_CULL_FACE);
+    else
+        gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(is_mirrored ? GL_FRONT : GL_BACK);
+    gl_.UseProgram(program);
+    gl_.BindVertexArray(vertices_[number].array);
+    gl_.DrawElements(GL_TRIANGLES, vertices_[number].count, GL_UNSIGNED_INT, nullptr);
+}
+
+void Renderer::draw(const Settings& settings, const Orbit& orbit) {
+    keys_.clear();
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.Viewport(0, 0, size_.width, size_.height);
+    gl_.ClearColor(0.05F, 0.06F, 0.08F, 1);
+    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl_.Enable(GL_DEPTH_TEST);
+    const glm::dmat4 projection = orbit.projection(static_cast<double>(size_.width) / size_.height);
+    for (std::size_t i = 0; i < stage_.draws.size(); ++i) draw(i, settings, orbit.view(), projection);
+}
+
+double Renderer::frame_time(const Settings& settings, const Orbit& orbit) {
+    using Clock = std::chrono::steady_clock;
+    draw(settings, orbit);  // programs are built here
+    gl_.Finish();
+    std::vector<double> times;
+    for (int i = 0; i < frames_timed; ++i) {
+        const Clock::time_point start = Clock::now();
+        draw(settings, orbit);
+        gl_.Finish();
+        times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+    std::nth_element(times.begin(), times.begin() + frames_timed / 2, times.end());
+    return times[frames_timed / 2];
+}
+
+gobo::Image Renderer::picture() const {
+    gobo::Image image(size_.width, size_.height, 4);
+    std::vector<float> upward(image.values.size());
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.ReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_FLOAT, upward.data());
+    const std::size_t row = upward.size() / static_cast<std::size_t>(size_.height);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(size_.height); ++y)  // OpenGL's rows run up
+        std::copy_n(upward.end() - static_cast<std::ptrdiff_t>((y + 1) * row), row,
+                    image.values.begin() + static_cast<std::ptrdiff_t>(y * row));
+    return image;
+}
+
+void Renderer::show(Size window) const {
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl_.Enable(GL_FRAMEBUFFER_SRGB);
+    gl_.BlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, window.width, window.height,
+                        GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    gl_.Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+std::vector<std::string> Renderer::take_complaints() {
+    return std::exchange(complaints_, {});
+}
+
+}  // namespace viewer

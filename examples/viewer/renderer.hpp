@@ -1,0 +1,72 @@
+// Draws a stage, each draw by the permutation that it calls for. Programs are built when first asked for.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <glad/gl.h>
+#include <gobo/record.hpp>
+
+#include "orbit.hpp"
+#include "render/image.hpp"
+#include "stage.hpp"
+
+namespace viewer {
+
+/// Of the framebuffer, in pixels.
+struct Size {
+    int width = 960;
+    int height = 600;
+};
+
+class Renderer {
+  public:
+    /// The functions must stay those of the current context for as long as this lives. Keys that were not
+    /// built are noted in `record`.
+    Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record);
+
+    /// Draws one frame to a float framebuffer.
+    void draw(const Settings& settings, const Orbit& orbit);
+    /// Milliseconds of a frame: the median of several, the driver waited for.
+    [[nodiscard]] double frame_time(const Settings& settings, const Orbit& orbit);
+    /// The picture drawn last: linear radiance.
+    [[nodiscard]] gobo::Image picture() const;
+    /// Shows it in the window's own framebuffer, which has the given size.
+    void show(Size window) const;
+
+    /// The distinct keys of the frame drawn last, sorted.
+    [[nodiscard]] const std::set<std::string>& keys() const { return keys_; }
+    /// What could not be drawn, and why, since this was last asked.
+    [[nodiscard]] std::vector<std::string> take_complaints();
+
+  private:
+    struct Vertices {
+        GLuint array = 0;
+        GLsizei count = 0;
+    };
+
+    void make_framebuffer();
+    void upload(const gobo::Mesh& mesh);
+    void draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
+              const glm::dmat4& projection);
+    GLuint program_of(const lit::Key& key);
+    void complain(const std::string& key, const std::string& why);
+    template <class Block>
+    void set(const Block& block);
+
+    const GladGLContext& gl_;
+    const Stage& stage_;
+    Size size_;
+    gobo::KeyRecord& record_;
+    GLuint framebuffer_ = 0;
+    std::vector<Vertices> vertices_;  ///< of each draw
+    std::map<int, GLuint> blocks_;    ///< buffers by binding
+    std::map<const lit::Permutation*, GLuint> programs_;
+    std::set<std::string> keys_;
+    std::set<std::string> complained_;
+    std::vector<std::string> complaints_;
+};
+
+}  // namespace viewer

@@ -1,0 +1,118 @@
+#include "stage.hpp"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "scene/read_scene.hpp"
+#include "scene_picture/posed_mesh.hpp"
+
+namespace viewer {
+namespace {
+
+using gobo::scene::Draw;
+using gobo::scene::Effect;
+using gobo::scene::Scene;
+
+lit::Material material_block(const gobo::scene::Material& material) {
+    lit::Material block{};
+    block.emission = glm::vec3(material.emission);
+    block.ambient = glm::vec3(material.ambient);
+    block.diffuse = glm::vec3(material.diffuse);
+    block.specular = glm::vec3(material.specular);
+    block.strength = static_cast<float>(material.strength);
+    block.shininess = static_cast<float>(material.shininess);
+    return block;
+}
+
+lit::Fog_block fog_block(const gobo::scene::Fog& fog) {
+    lit::Fog_block block{};
+    block.color = glm::vec3(fog.color);
+    block.density = static_cast<float>(fog.density);
+    block.near = static_cast<float>(fog.near);
+    block.far = static_cast<float>(fog.far);
+    return block;
+}
+
+template <class Enum>
+Enum named(const std::string& name, std::initializer_list<std::pair<const char*, Enum>> names,
+           Enum otherwise) {
+    for (const auto& [known, value] : names)
+        if (name == known) return value;
+    return otherwise;
+}
+
+void call_for(const Effect& effect, DrawState& state) {
+    if (effect.feature == "directional") ++state.directional;
+    if (effect.feature == "point") ++state.point;
+    if (effect.feature == "spot") ++state.spot;
+    if (effect.feature == "diffuse")
+        state.diffuse = named(effect.value, {{"toon", lit::Diffuse::toon}}, lit::Diffuse::lambert);
+    if (effect.feature == "specular")
+        state.specular =
+            named(effect.value, {{"phong", lit::Specular::phong}, {"blinn", lit::Specular::blinn}},
+                  lit::Specular::none);
+    if (effect.feature == "fog")
+        state.fog = named(effect.value,
+                          {{"linear", lit::Fog::linear},
+                           {"exponential", lit::Fog::exponential},
+                           {"exponential_squared", lit::Fog::exponential_squared}},
+                          lit::Fog::none);
+}
+
+bool is_light(const Effect& effect) {
+    return effect.feature == "directional" || effect.feature == "point" || effect.feature == "spot";
+}
+
+StageDraw make_draw(const Scene& scene, const Draw& draw) {
+    StageDraw result;
+    result.name = draw.name;
+    gobo::scene::PosedMesh posed = gobo::scene::posed_mesh(scene, draw.node, primitive_of(scene, draw));
+    result.mesh = std::move(posed.mesh);
+    result.model = posed.model;
+    result.double_sided = material_of(scene, draw).double_sided;
+    result.material = material_block(material_of(scene, draw));
+    const gobo::scene::Wishes wishes = wishes_of(scene, draw);
+    if (wishes.fog) result.fog = fog_block(*wishes.fog);
+    result.toon.levels = std::max(wishes.toon_levels.value_or(0), 0) > 0 ? *wishes.toon_levels : 4;
+    for (std::size_t i = 0; i < draw.effects.size(); ++i) {
+        const Effect& effect = draw.effects[i];
+        if (!effect.is_in) continue;
+        call_for(effect, result.state);
+        if (is_light(effect)) result.lights.push_back(i);  // lights come first, in the scene's order
+    }
+    return result;
+}
+
+}  // namespace
+
+gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path) {
+    gobo::Result<Scene> scene = gobo::scene::read_scene(files, path);
+    if (!scene) return tl::unexpected(scene.error());
+    Stage stage;
+    stage.scene = std::move(*scene);
+    gobo::scene::Box bounds;
+    for (const Draw& draw : gobo::scene::what_draws_call_for(stage.scene, {}, {})) {
+        if (!draw.excluded.empty()) continue;
+        if (draw.bounds) bounds.add(*draw.bounds);
+        stage.draws.push_back(make_draw(stage.scene, draw));
+    }
+    if (!bounds.is_empty()) {
+        stage.center = (bounds.low + bounds.high) / 2.0;
+        stage.radius = std::max(glm::length(bounds.high - bounds.low) / 2, 1e-6);
+    }
+    return stage;
+}
+
+DrawState under(const DrawState& state, const Settings& settings) {
+    DrawState result = state;
+    if (!settings.directional) result.directional = 0;
+    if (!settings.point) result.point = 0;
+    if (!settings.spot) result.spot = 0;
+    if (!settings.fog) result.fog = lit::Fog::none;
+    if (settings.toon) result.diffuse = lit::Diffuse::toon;
+    result.shading = settings.shading;
+    return result;
+}
+
+}  // namespace viewer

@@ -1,0 +1,58 @@
+// A glTF scene as this application holds it: meshes, materials, and what each draw is lit by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+#include "common/diagnostic.hpp"
+#include "common/file_system.hpp"
+#include "lit.hpp"
+#include "render/mesh.hpp"
+#include "scene/effects.hpp"
+#include "settings.hpp"
+
+namespace viewer {
+
+/// What a draw calls for, in the application's own words: members named after features are what
+/// lit::select() takes.
+struct DrawState {
+    int directional = 0;
+    int point = 0;
+    int spot = 0;
+    lit::Diffuse diffuse = lit::Diffuse::lambert;
+    lit::Specular specular = lit::Specular::none;
+    lit::Fog fog = lit::Fog::none;
+    lit::Shading shading = lit::Shading::fragment;
+};
+
+/// One primitive, ready to be drawn.
+struct StageDraw {
+    std::string name;
+    gobo::Mesh mesh;
+    glm::dmat4 model{1};
+    bool double_sided = false;
+    lit::Material material{};
+    lit::Fog_block fog{};
+    lit::Toon toon{};
+    DrawState state;
+    /// The lights that reach it, by their number among all lights of the scene.
+    std::vector<std::size_t> lights;
+};
+
+/// A scene, and where its lights are.
+struct Stage {
+    gobo::scene::Scene scene;
+    std::vector<StageDraw> draws;
+    glm::dvec3 center{0};
+    double radius = 1;  ///< of a sphere that has all draws in it
+};
+
+/// Reads the scene. Effects are decided for a camera that may be anywhere, as this one's may.
+[[nodiscard]] gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path);
+
+/// The state under the settings: what they turn off is not called for.
+[[nodiscard]] DrawState under(const DrawState& state, const Settings& settings);
+
+}  // namespace viewer
