@@ -3,7 +3,7 @@
 // Model:  w = 0: s along (x, y, z), no attenuation (L3); otherwise a point light at (x, y, z) / w (L4).
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Shading with a Directional Light Source.
 // Space:  eye. Ranges: components within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
-// Edges:  |w| below 1e-6 counts as 0; a light at the surface's own position and a zero direction give no
+// Edges:  |w| below 2^-20 counts as 0; a light at the surface's own position and a zero direction give no
 //         light (H-L1).
 #include "guards/polar.glsl"
 #include "lighting/attenuation.glsl"
@@ -27,7 +27,7 @@ void addHomogeneousLights() {
     for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) {
         HomogeneousLight light = homogeneousLights.lights[i];
         float w = light.position.w;
-        bool isLocal = abs(w) >= 1e-6;
+        bool isLocal = abs(w) >= 9.5367431640625e-7;
         vec3 place = light.position.xyz;
         vec4 ray = directionAndLength(isLocal ? place / w - surfacePosition() : place);
         float fading = isLocal ? attenuation(light.attenuation, ray.w) : 1.0;

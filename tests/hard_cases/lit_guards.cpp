@@ -85,7 +85,7 @@ const std::vector<Guard> kGuards = {
      "S10_index_behind_the_pairs"},
     {"interpolated_color", "surface/color.frag.glsl", "max(vertexColor, vec4(0.0))", "vertexColor",
      "H_I1_color_below_zero"},
-    {"homogeneous_w", "homogeneous/homogeneous.glsl", "abs(w) >= 1e-6", "w != 0.0", "L6_hardly_any_w"},
+    {"homogeneous_w", "homogeneous/homogeneous.glsl", "abs(w) >= 9.5367431640625e-7", "w != 0.0", "L6_hardly_any_w"},
     {"direction_zero", "guards/unit_vector.glsl", "max(dot(scaled, scaled), 1e-30)", "dot(scaled, scaled)",
      "H_N1_zero_normal"},
     {"half_float_largest", "output_range/half_float.glsl", "min(radiance, vec3(65504.0))", "radiance",

@@ -73,10 +73,10 @@ Result<Key> parse_key(const Family& family, std::string_view text, const Place& 
         const auto equals = word.find('=');
         if (equals == std::string::npos) {
             return key_error(place, text, fmt::format("'{}' is not of the form feature=value", word),
-                             fmt::format("write a key like '{}'",
-                                         family.features.empty() ? "default"
-                                                                 : family.features[0].name + "=" +
-                                                                       family.features[0].values.back()));
+                             fmt::format("write a key like '{}'", family.features.empty()
+                                                                      ? "default"
+                                                                      : family.features[0].name + "=" +
+                                                                            family.features[0].values.at(1)));
         }
         const std::string name = word.substr(0, equals);
         const std::string value = word.substr(equals + 1);

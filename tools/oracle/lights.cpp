@@ -37,7 +37,7 @@ Arrival arrival_of(const DirectionalLight& light) {
 
 Arrival arrival_of(const HomogeneousLight& light, const glm::dvec3& position) {
     const glm::dvec3 place(light.position);
-    if (std::abs(light.position.w) < 1e-6) {
+    if (std::abs(light.position.w) < 0x1p-20) {
         Arrival arrival = arrival_of(DirectionalLight{direction_of(place), light.color});
         arrival.is_given = false;
         return arrival;

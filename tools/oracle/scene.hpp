@@ -77,7 +77,7 @@ struct DepthMaps {
 
 /// A light that is directional or local, as w has it.
 struct HomogeneousLight {
-    glm::dvec4 position{0};     ///< a direction where w is 0 (below 1e-6), else a point times its w
+    glm::dvec4 position{0};     ///< a direction where w is 0 (below 2^-20), else a point times its w
     glm::dvec3 color{0};        ///< radiance where the attenuation is 1
     glm::dvec3 attenuation{0};  ///< as a point light's; a direction has none
 };

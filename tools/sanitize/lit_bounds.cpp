@@ -20,7 +20,7 @@ constexpr double kRoundings = 1 + 1e-5;
 
 /// A radiance, a colour or a depth; the other outputs are positions and directions, which have a sign.
 bool is_never_negative(std::string_view output, StageKind stage) {
-    return stage == StageKind::fragment || output == "litRadiance";
+    return stage == StageKind::fragment || output == "litRadiance" || output == "backRadiance";
 }
 
 /// The error of an eye-space coordinate that a vertex stage computes: four roundings of the sum's terms.
@@ -38,13 +38,22 @@ void bring_nearer(oracle::PointLight& light, const glm::dvec3& surface, double e
     light.attenuation = {k.x + distance * (k.y + distance * k.z), 0, 0};
 }
 
+/// The same for a light that is local by its w; the division by w rounds its place, too.
+void bring_nearer(oracle::HomogeneousLight& light, const glm::dvec3& surface, double error) {
+    if (std::abs(light.position.w) < 0x1p-20) return;
+    const glm::dvec3 place = glm::dvec3(light.position) / light.position.w;
+    oracle::PointLight local{place, light.color, light.attenuation};
+    bring_nearer(local, surface, error + verify::kUnitRoundoff * glm::length(place));
+    light.attenuation = local.attenuation;
+}
+
 class LitBounds final : public ModelBounds {
   public:
     LitBounds(const oracle::Model& model, StageKind stage, const evaluate::Program& program)
         : model_(model), stage_(stage), program_(program) {}
 
     [[nodiscard]] bool add(const InputField& field) {
-        if (field.is_texture) return field.name == "shadowMaps";
+        if (field.is_texture) return field.name == "shadowMaps" || field.name == "opacityMap";
         const auto known = verify::field_of(field.name);
         if (known) fields_.push_back({*known, field.first, field.components});
         return known.has_value() || field.name.starts_with("gl_");
@@ -56,7 +65,7 @@ class LitBounds final : public ModelBounds {
             scratch_.assign(numbers.begin(), numbers.end());
             field.access.set(sample_, scratch_);
         }
-        if (stage_ == StageKind::vertex) bring_lights_nearer();
+        bring_lights_nearer();
         oracle::Decisions decisions;
         const std::vector<verify::Expected> outputs = verify::expect(model_, stage_, sample_, decisions);
         std::size_t at = 0;
@@ -77,10 +86,16 @@ class LitBounds final : public ModelBounds {
     };
 
     void bring_lights_nearer() {
+        if (stage_ == StageKind::fragment) {
+            for (oracle::HomogeneousLight& light : sample_.scene.homogeneous)
+                bring_nearer(light, sample_.surface.position, 0);
+            return;
+        }
         const glm::dvec3 surface = glm::dvec3(sample_.model_view * glm::dvec4(sample_.object_position, 1));
         const double error = position_error(sample_);
         for (oracle::PointLight& light : sample_.scene.point) bring_nearer(light, surface, error);
         for (oracle::SpotLight& light : sample_.scene.spot) bring_nearer(light, surface, error);
+        for (oracle::HomogeneousLight& light : sample_.scene.homogeneous) bring_nearer(light, surface, error);
     }
 
     void narrow(const verify::Expected& expected, std::span<Interval> intervals) const {
