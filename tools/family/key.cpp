@@ -32,6 +32,11 @@ std::string values_remedy(const Feature& feature, std::string_view value) {
     return suggestion(value, feature.values);
 }
 
+/// A value that is not the default where there is one.
+std::string example_of(const Feature& feature) {
+    return feature.name + "=" + feature.values[std::min<std::size_t>(1, feature.values.size() - 1)];
+}
+
 }  // namespace
 
 std::optional<int> Feature::index_of(std::string_view value) const {
@@ -72,11 +77,10 @@ Result<Key> parse_key(const Family& family, std::string_view text, const Place& 
     for (const std::string& word : split(blanks_folded, ' ')) {
         const auto equals = word.find('=');
         if (equals == std::string::npos) {
-            return key_error(place, text, fmt::format("'{}' is not of the form feature=value", word),
-                             fmt::format("write a key like '{}'", family.features.empty()
-                                                                      ? "default"
-                                                                      : family.features[0].name + "=" +
-                                                                            family.features[0].values.at(1)));
+            return key_error(
+                place, text, fmt::format("'{}' is not of the form feature=value", word),
+                fmt::format("write a key like '{}'",
+                            family.features.empty() ? "default" : example_of(family.features[0])));
         }
         const std::string name = word.substr(0, equals);
         const std::string value = word.substr(equals + 1);
