@@ -16,6 +16,14 @@ if cmp -s "$source/shader_lib/fog/linear.glsl" "$work/wrong/fog/linear.glsl"; th
   echo "FAILED: fog/linear.glsl has no near and far to swap"
   exit 1
 fi
+# Shaders of an application's own, and the same with the last light forgotten: right GLSL, and precise.
+cp -r "$source/tests/assets/game" "$work/game"
+mkdir "$work/wrong_game"
+sed 's/i < NUM_LIGHTS;/i < NUM_LIGHTS - 1;/' "$work/game/game.frag" >"$work/wrong_game/game.frag"
+if cmp -s "$work/game/game.frag" "$work/wrong_game/game.frag"; then
+  echo "FAILED: game.frag has no lights to forget"
+  exit 1
+fi
 
 cmake -S "$work" -B "$work/build" -D gobo_DIR="$package" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
 status=0
@@ -23,7 +31,10 @@ ctest --test-dir "$work/build" --output-junit "$work/report.xml" >"$scratch/log"
 
 expected='fail wrong.fog=linear
 fail wrong.point=1 fog=linear
+fail wrong_game.lights=2
 fail wrong_shared.1_of_1
+run game.fog=on lights=1 rim=on
+run game.lights=2
 run listed.directional=1
 run listed.point=1
 run listed.render.directional=1
@@ -32,7 +43,8 @@ run listed.render.spot=1 fog=linear
 run listed.spot=1 fog=linear
 run shared.1_of_2
 run shared.2_of_2
-run wrong.directional=1'
+run wrong.directional=1
+run wrong_game.fog=on'
 found=$(sed -nE 's/.*<testcase name="([^"]*)".* status="(run|fail)".*/\2 \1/p' "$work/report.xml" | LC_ALL=C sort)
 if [ "$found" != "$expected" ] || [ "$status" = 0 ]; then
   cat "$scratch/log"
@@ -41,6 +53,10 @@ if [ "$found" != "$expected" ] || [ "$status" = 0 ]; then
 fi
 if ! grep -q 'out of tolerance \[fog=linear\]' "$work/report.xml"; then
   echo "FAILED: the report does not name the key that fails in a shard"
+  exit 1
+fi
+if ! grep -q 'the relation any_order = .*uLights.* does not hold at .* of 64 points' "$work/report.xml"; then
+  echo "FAILED: the report does not name the relation that the game's shaders break"
   exit 1
 fi
 echo "$found"

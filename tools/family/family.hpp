@@ -87,6 +87,27 @@ struct RenderValue {
     Place place;
 };
 
+/// What holds of a family's permutations whatever they compute, and needs no oracle to be tried.
+struct Relation {
+    enum class Kind {
+        any_order,  ///< the elements of an array may stand in any order
+        adds,       ///< elements add up in proportion to a member: none of it is no element
+        turn,       ///< vectors and matrices turned together change nothing
+        off,        ///< an effect turned off by its uniforms is the effect's absence
+        finer,      ///< on finer meshes the feature's values approach its default
+    };
+    Kind kind = Kind::any_order;
+    std::vector<std::string> names;        ///< any_order: the array; adds: "ARRAY[].MEMBER"; turn: what turns
+    std::vector<std::string> turned_back;  ///< turn: matrices that lead out of the space that turns
+    int feature = -1;                      ///< off, finer: its index
+    std::vector<RenderValue> at;           ///< off: where it is off
+    std::optional<Expression> when;        ///< the keys of which it holds; all where there is none
+    Place place;
+};
+
+/// As the family file states it: `any_order = "uLights"`, `off = "fog"`.
+[[nodiscard]] std::string to_text(const Relation& relation, const std::vector<Feature>& features);
+
 /// A way of naming keys; see selection.hpp. The family's own is used where the command line names none.
 struct DefaultSelection {
     std::vector<std::string> keys;
@@ -108,6 +129,7 @@ struct Family {
     std::vector<Varying> varyings;  ///< sorted by location
     std::vector<Domain> domains;    ///< sorted by name
     std::vector<RenderValue> render;
+    std::vector<Relation> relations;  ///< in the order of the file
     std::optional<DefaultSelection> default_selection;
 
     [[nodiscard]] std::optional<int> index_of(std::string_view feature) const;

@@ -10,6 +10,7 @@
 #include "family/key.hpp"
 #include "family/read_domains.hpp"
 #include "family/read_features.hpp"
+#include "family/read_relations.hpp"
 #include "family/toml_reader.hpp"
 
 namespace gobo {
@@ -173,14 +174,15 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     TomlReader reader(text, path);
     const Result<FamilyText> base = base_of(reader, find_base);
     if (!base) return tl::unexpected(base.error());
-    if (!base->path.empty()) reader.extend(base->text, base->path, {"values", "retired", "rules"});
+    if (!base->path.empty())
+        reader.extend(base->text, base->path, {"values", "retired", "rules", "relations"});
     Family family;
     family.path = path;
     family.folder = folder_of(path);
     const toml::table& root = reader.root();
     reader.only(root, "the family",
                 {"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
-                 "default_set"});
+                 "relations", "default_set"});
     family.name = reader.required_string(root, "the family", "name");
     if (!reader.failed() && !is_identifier(family.name)) {
         reader.error(*root.get("name"), fmt::format("'{}' cannot name a family", family.name),
@@ -193,6 +195,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.varyings = read_varyings(reader, root);
     family.domains = read_domains(reader, root);
     family.render = read_render(reader, root);
+    family.relations = read_relations(reader, root, family.features);
     family.default_selection = read_default_set(reader, root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return family;

@@ -1,5 +1,6 @@
 // gobo test: evaluates every permutation of a selection and holds it against the oracle.
 #include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -26,11 +27,11 @@ struct TestOptions {
 };
 
 /// A file name of letters, digits and '_' for a key.
-std::string file_name(const std::string& key, const verify::Failure& failure, std::size_t number) {
+std::string file_name(const std::string& key, StageKind stage, const std::string& point) {
     std::string name;
     for (const char character : key)
         name += std::isalnum(static_cast<unsigned char>(character)) ? character : '_';
-    return fmt::format("{}.{}.{}.toml", name, name_of(failure.stage), number);
+    return fmt::format("{}.{}.{}.toml", name, name_of(stage), point);
 }
 
 /// One error for the key, and a note for each of its worst points, which is written as a file.
@@ -48,12 +49,55 @@ Diagnostics report_failure(const World& world, const TestOptions& options, const
         const verify::Failure& failure = report.worst[i];
         Diagnostic note;
         note.severity = Severity::note;
-        note.place.file = fmt::format("{}/{}", options.folder, file_name(key, failure, i + 1));
+        note.place.file =
+            fmt::format("{}/{}", options.folder, file_name(key, failure.stage, std::to_string(i + 1)));
         note.message = fmt::format("{} stage: {}", name_of(failure.stage), to_text(failure));
         const Result<bool> written = world.disk.write(note.place.file, verify::eval_input(failure, key));
         if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
         diagnostics.push_back(std::move(note));
     }
+    return diagnostics;
+}
+
+/// Writes one side's worst point as an input of `gobo eval`, and says how to follow it.
+Diagnostics report_side(const World& world, const TestOptions& options, const std::string& key,
+                        const verify::BrokenPoint& broken, const verify::PointInputs& point,
+                        const std::string& file) {
+    Diagnostic note;
+    note.severity = Severity::note;
+    note.place.file = fmt::format("{}/{}", options.folder, file);
+    note.message = fmt::format("gobo eval {} '{}' --inputs this file", options.family, key);
+    Diagnostics diagnostics = {note};
+    const Result<bool> written =
+        world.disk.write(note.place.file, verify::eval_input(broken.stage, point, "# " + key + "\n"));
+    if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
+    return diagnostics;
+}
+
+/// One error at the relation, and a note for the worst point on either side.
+Diagnostics report_broken_relation(const World& world, const TestOptions& options, const Family& family,
+                                   const Key& key, const verify::RelationReport& report) {
+    const Relation& relation = family.relations[report.relation];
+    const std::string one = key_text(family, key);
+    const auto partner = verify::partner_of(family, relation, key, name_of(Dialect::own));
+    const std::string other = partner ? key_text(family, *partner) : one;
+    Diagnostic error;
+    error.subject = one;
+    error.place = relation.place;
+    error.message =
+        fmt::format("the relation {} does not hold at {} of {} points: {}",
+                    to_text(relation, family.features), report.failed, report.points, report.found);
+    error.remedy = "mend the shaders, or state `when` it holds";
+    Diagnostics diagnostics = {std::move(error)};
+    if (!report.worst) return diagnostics;
+    const auto add = [&](const std::string& side_key, const verify::PointInputs& point, const char* side) {
+        const std::string file =
+            file_name(one, report.worst->stage, fmt::format("relation_{}.{}", report.relation + 1, side));
+        const Diagnostics more = report_side(world, options, side_key, *report.worst, point, file);
+        diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+    };
+    add(one, report.worst->one, "one");
+    add(other, report.worst->other, "other");
     return diagnostics;
 }
 
@@ -67,6 +111,9 @@ Diagnostics report_failures(const World& world, const TestOptions& options, cons
         add(permutation.diagnostics);
         if (permutation.failed_points > 0)
             add(report_failure(world, options, key_text(family, permutation.key), permutation));
+        for (const verify::RelationReport& relation : permutation.relations)
+            if (relation.failed > 0)
+                add(report_broken_relation(world, options, family, permutation.key, relation));
     }
     const verify::Figures& figures = report.figures;
     if (static_cast<double>(figures.edges) >
@@ -87,6 +134,20 @@ Result<std::string> size_text(const Family& family, std::size_t tested, Dialect 
     return fmt::format("{} permutations of {} valid ones", tested, *valid);
 }
 
+/// "3 relations tried at 1920 points"; nothing where none was.
+std::string relations_text(const verify::VerifyReport& report) {
+    std::set<std::size_t> tried;
+    std::size_t points = 0;
+    for (const verify::PermutationReport& permutation : report.permutations)
+        for (const verify::RelationReport& relation : permutation.relations) {
+            tried.insert(relation.relation);
+            points += relation.points;
+        }
+    if (tried.empty()) return {};
+    return fmt::format("{} relation{} tried at {} points\n", tried.size(), tried.size() == 1 ? "" : "s",
+                       points);
+}
+
 std::string figures_text(const verify::VerifyReport& report) {
     const verify::Figures& figures = report.figures;
     const double edge_share =
@@ -98,6 +159,7 @@ std::string figures_text(const verify::VerifyReport& report) {
             "{} of the points on rasterised meshes\n"
             "fp64: at most {:.1e} of the largest term away from the oracle\n",
             report.points_on_meshes, figures.largest_fp64_error);
+    text += relations_text(report);
     text += fmt::format("fp32: at most {:.2f} of the error bound\n", figures.largest_fp32_ratio);
     text += fmt::format(
         "{} permutations, {} points, {} ({:.3f} %) at a discontinuity, {} permutations without an "
@@ -106,19 +168,32 @@ std::string figures_text(const verify::VerifyReport& report) {
     return text;
 }
 
-Result<Composition> compose_shard(const World& world, LoadedFamily& family, const TestOptions& options) {
+/// The permutations to test, and behind them those that relations compare them with.
+struct Subjects {
+    Composition composition;
+    std::size_t partners = 0;
+};
+
+Result<Subjects> compose_shard(const World& world, LoadedFamily& family, const TestOptions& options) {
     Result<std::vector<Key>> keys = load_keys(world, family, options.selection, Dialect::own);
     if (!keys) return tl::unexpected(keys.error());
     keys = shard_of(std::move(*keys), options.shard);
     if (!keys) return tl::unexpected(keys.error());
-    return compose(family.family, *keys, family.search, Dialect::own);
+    const std::vector<Key> more = options.witness.render
+                                      ? std::vector<Key>{}
+                                      : verify::partners(family.family, *keys, name_of(Dialect::own));
+    keys->insert(keys->end(), more.begin(), more.end());
+    Result<Composition> composition = compose(family.family, *keys, family.search, Dialect::own);
+    if (!composition) return tl::unexpected(composition.error());
+    return Subjects{std::move(*composition), more.size()};
 }
 
 Outcome run(const TestOptions& options, const World& world) {
     Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
-    const Result<Composition> composition = compose_shard(world, *family, options);
-    if (!composition) return failed(composition.error());
+    const Result<Subjects> subjects = compose_shard(world, *family, options);
+    if (!subjects) return failed(subjects.error());
+    const Composition* composition = &subjects->composition;
     if (options.witness.render)
         return run_witness(world, options.witness, family->family, *composition, options.folder,
                            options.common.jobs);
@@ -129,6 +204,7 @@ Outcome run(const TestOptions& options, const World& world) {
     if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
     verify::VerifyOptions verify_options;
     verify_options.jobs = options.common.jobs;
+    verify_options.partners = subjects->partners;
     Result<Mesh> teapot = read_obj(world.shipped, "data/meshes/teapot.obj");
     if (!teapot) return failed(teapot.error());
     verify_options.meshes = verify::test_meshes(std::move(*teapot));

@@ -5,17 +5,10 @@
 
 #include "oracle/model.hpp"
 #include "render/mesh.hpp"
-#include "verify/link.hpp"
+#include "verify/pipeline.hpp"
 #include "verify/report.hpp"
 
 namespace gobo::verify {
-
-/// Both stages of a permutation and what joins them.
-struct Pipeline {
-    const evaluate::Program& vertex;
-    const evaluate::Program& fragment;
-    Link link;
-};
 
 /// Draws the mesh 16 x 16: the vertex stage at the vertices, interpolation, the fragment stage at each pixel.
 ///

@@ -70,9 +70,12 @@ std::string to_text(const Failure& failure) {
 }
 
 std::string eval_input(const Failure& failure, const std::string& key) {
-    return fmt::format("# {}: {}\nstage = \"{}\"\n{}{}", key, to_text(failure), gobo::name_of(failure.stage),
-                       toml_table("inputs", failure.point.inputs),
-                       toml_table("uniforms", failure.point.uniforms));
+    return eval_input(failure.stage, failure.point, fmt::format("# {}: {}\n", key, to_text(failure)));
+}
+
+std::string eval_input(StageKind stage, const PointInputs& point, const std::string& comment) {
+    return fmt::format("{}stage = \"{}\"\n{}{}", comment, gobo::name_of(stage),
+                       toml_table("inputs", point.inputs), toml_table("uniforms", point.uniforms));
 }
 
 }  // namespace gobo::verify

@@ -65,6 +65,8 @@ void add_failure(StageReport& report, Failure failure);
 /// The failing point as an input file of `gobo eval`: `stage`, `[inputs]` and `[uniforms]` by reflected name,
 /// numbers in full precision. `key` is the permutation's text.
 [[nodiscard]] std::string eval_input(const Failure& failure, const std::string& key);
+/// Any point as such a file; `comment` stands above it.
+[[nodiscard]] std::string eval_input(StageKind stage, const PointInputs& point, const std::string& comment);
 
 /// "fp32 fragmentColor[0] is 0.25, should be 0.5 within 1e-06".
 [[nodiscard]] std::string to_text(const Failure& failure);

@@ -11,29 +11,16 @@
 #include "verify/alone.hpp"
 #include "verify/on_mesh.hpp"
 #include "verify/parallel.hpp"
+#include "verify/try_relations.hpp"
 
 namespace gobo::verify {
 namespace {
 
-using Programs = std::vector<Result<evaluate::Program>>;
-
-Programs decode_all(const Validated& validated, int jobs) {
-    Programs programs(validated.stages.size());
-    for_each_index(programs.size(), jobs,
-                   [&](std::size_t i) { programs[i] = evaluate::decode(validated.stages[i].spirv); });
-    return programs;
-}
-
 /// Verifies one permutation after the other, keeping what all share.
 class Verifier {
   public:
-    Verifier(const Family& family, const Composition& composition, const Validated& validated,
-             const Programs& programs, const VerifyOptions& options)
-        : family_(family),
-          composition_(composition),
-          validated_(validated),
-          programs_(programs),
-          options_(options) {}
+    Verifier(const Family& family, const Decoded& decoded, const VerifyOptions& options)
+        : family_(family), decoded_(decoded), options_(options) {}
 
     [[nodiscard]] PermutationReport verify(const Permutation& permutation) const {
         PermutationReport report;
@@ -42,22 +29,25 @@ class Verifier {
         report.has_oracle = model.has_value();
         for (const int stage : {permutation.vertex, permutation.fragment}) {
             if (stage < 0) continue;  // loose files may leave one out
-            Result<StageReport> found = check(static_cast<std::size_t>(stage), permutation.key, model);
+            Result<StageReport> found = check(stage, permutation.key, model);
             if (found)
                 add(report, std::move(*found));
             else
                 add(report, std::move(found.error()));
         }
-        if (model && report.diagnostics.empty()) check_on_meshes(report, permutation, *model);
+        const bool is_whole = permutation.vertex >= 0 && permutation.fragment >= 0;
+        if (!is_whole || !report.diagnostics.empty()) return report;
+        if (model && !options_.meshes.empty()) check_on_meshes(report, permutation, *model);
+        if (!family_.relations.empty()) check_relations(report, permutation);
         return report;
     }
 
   private:
-    [[nodiscard]] Result<StageReport> check(std::size_t stage, const Key& key,
+    [[nodiscard]] Result<StageReport> check(int stage, const Key& key,
                                             const tl::expected<oracle::Model, std::string>& model) const {
-        const Result<evaluate::Program>& program = programs_[stage];
+        const Result<evaluate::Program>& program = decoded_.stage(stage);
         if (!program) return tl::unexpected(program.error());
-        const StageKind kind = composition_.stages[stage].kind;
+        const StageKind kind = decoded_.kind_of(stage);
         const std::uint64_t seed = seed_of(key);
         const int count = kind == StageKind::vertex ? options_.vertices : options_.fragments;
         return model ? check_against_oracle(*program, kind, *model, count, seed)
@@ -66,21 +56,23 @@ class Verifier {
 
     void check_on_meshes(PermutationReport& report, const Permutation& permutation,
                          const oracle::Model& model) const {
-        if (permutation.vertex < 0 || permutation.fragment < 0) return;
-        const auto fragment = static_cast<std::size_t>(permutation.fragment);
-        const evaluate::Program& first = *programs_[static_cast<std::size_t>(permutation.vertex)];
-        const evaluate::Program& second = *programs_[fragment];
-        Result<Link> joined = link(first, second, validated_.stages[fragment].spirv);
-        if (!joined) return add(report, std::move(joined.error()));
-        const Pipeline pipeline{first, second, std::move(*joined)};
+        const Result<Pipeline> pipeline = decoded_.pipeline(permutation);
+        if (!pipeline) return add(report, pipeline.error());
         for (std::size_t i = 0; i < options_.meshes.size(); ++i) {
-            auto found = check_on_mesh(pipeline, model, options_.meshes[i], seed_of(permutation.key) + i + 1);
+            auto found =
+                check_on_mesh(*pipeline, model, options_.meshes[i], seed_of(permutation.key) + i + 1);
             if (!found) return add(report, std::move(found.error()));
             for (StageReport& stage : *found) {
                 report.points_on_meshes += stage.figures.points;
                 add(report, std::move(stage));
             }
         }
+    }
+
+    void check_relations(PermutationReport& report, const Permutation& permutation) const {
+        auto found = try_relations(family_, decoded_, permutation, seed_of(permutation.key));
+        if (!found) return add(report, std::move(found.error()));
+        report.relations = std::move(*found);
     }
 
     /// Of the key's text alone.
@@ -106,9 +98,7 @@ class Verifier {
     }
 
     const Family& family_;
-    const Composition& composition_;
-    const Validated& validated_;
-    const Programs& programs_;
+    const Decoded& decoded_;
     const VerifyOptions& options_;
 };
 
@@ -116,10 +106,10 @@ class Verifier {
 
 VerifyReport verify(const Family& family, const Composition& composition, const Validated& validated,
                     const VerifyOptions& options) {
-    const Programs programs = decode_all(validated, options.jobs);
-    const Verifier verifier(family, composition, validated, programs, options);
+    const Decoded decoded(composition, validated, options.jobs);
+    const Verifier verifier(family, decoded, options);
     VerifyReport report;
-    report.permutations.resize(composition.permutations.size());
+    report.permutations.resize(composition.permutations.size() - options.partners);
     for_each_index(report.permutations.size(), options.jobs, [&](std::size_t i) {
         report.permutations[i] = verifier.verify(composition.permutations[i]);
     });

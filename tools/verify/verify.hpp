@@ -6,14 +6,17 @@
 #include "family/family.hpp"
 #include "render/mesh.hpp"
 #include "validate/validated.hpp"
+#include "verify/relations.hpp"
 #include "verify/report.hpp"
 
 namespace gobo::verify {
 
 struct VerifyOptions {
-    int jobs = 1;              ///< threads
-    int vertices = 128;        ///< samples of each vertex stage
-    int fragments = 384;       ///< samples of each fragment stage
+    int jobs = 1;         ///< threads
+    int vertices = 128;   ///< samples of each vertex stage
+    int fragments = 384;  ///< samples of each fragment stage
+    /// So many of the last permutations are not verified: relations compare others with them.
+    std::size_t partners = 0;
     std::vector<Mesh> meshes;  ///< on which the stages together are tried where there is an oracle
 };
 
@@ -25,7 +28,8 @@ struct PermutationReport {
     std::size_t points_on_meshes = 0;  ///< of figures.points
     std::size_t failed_points = 0;
     std::vector<Failure> worst;
-    Diagnostics diagnostics;  ///< why a stage could not be evaluated
+    std::vector<RelationReport> relations;  ///< those that were tried
+    Diagnostics diagnostics;                ///< why a stage could not be evaluated
 };
 
 /// At most this share of all points may lie at an edge.
