@@ -43,6 +43,9 @@ class SampleMaker {
     /// All that is the same for every point of a draw.
     void furnish(Sample& sample) {
         choose_side(model_, stage_, random_, sample);
+        if (mesh_ != nullptr)
+            for (const glm::vec3& position : mesh_->positions)
+                vertices_.emplace_back(sample.model_view * glm::dvec4(position, 1));
         fill_surface(model_, stage_, random_, sample);
         normal_ = glm::normalize(sample.surface.is_back ? -sample.surface.normal : sample.surface.normal);
         const glm::dvec3 to_viewer = -glm::normalize(sample.surface.position);
@@ -90,6 +93,14 @@ class SampleMaker {
         farthest_light_ = 10 * size;
     }
 
+    /// Whether a light there would be nearer to a vertex of the mesh than lights are to points: the rounding
+    /// of the vertex would turn its ray by more than an edge is wide.
+    [[nodiscard]] bool is_near_a_vertex(const glm::dvec3& position) const {
+        return std::any_of(vertices_.begin(), vertices_.end(), [&](const glm::dvec3& vertex) {
+            return glm::distance(vertex, position) < nearest_light_;
+        });
+    }
+
     /// Turned, stretched and moved to two to six times its size before the viewer; lit at one vertex.
     void place_mesh(Sample& sample, const Mesh& mesh) {
         const double size = random_.across(0.1, 100);
@@ -102,6 +113,7 @@ class SampleMaker {
         sample = at_vertex(sample, mesh, static_cast<std::size_t>(random_.whole(0, last)));
         sample.surface.position = glm::dvec3(sample.model_view * glm::dvec4(sample.object_position, 1));
         sample.surface.normal = sample.normal_matrix * sample.object_normal;
+        mesh_ = &mesh;
         nearest_light_ = std::max(0.3 * size, 1e-2);
         farthest_light_ = 10 * size;
     }
@@ -154,8 +166,12 @@ class SampleMaker {
 
     /// Places the light and returns the unit vector to it.
     glm::dvec3 place(oracle::PointLight& light, const glm::dvec3& surface) {
-        const glm::dvec3 direction = to_light();
-        const double distance = random_.across(nearest_light_, farthest_light_);
+        glm::dvec3 direction = to_light();
+        double distance = random_.across(nearest_light_, farthest_light_);
+        while (is_near_a_vertex(surface + direction * distance)) {
+            direction = to_light();
+            distance = random_.across(nearest_light_, farthest_light_);
+        }
         light.position = surface + direction * distance;
         shine(light, distance);
         return direction;
@@ -227,6 +243,8 @@ class SampleMaker {
     bool is_vertex_;
     bool is_along_axis_ = false;
     Random random_;
+    const Mesh* mesh_ = nullptr;
+    std::vector<glm::dvec3> vertices_;  ///< of the mesh, in eye space
     glm::dvec3 normal_{0};
     glm::dvec3 mirrored_{0};
     double lobe_width_ = 1;
