@@ -179,6 +179,20 @@ TEST_F(Compose, WritesExactlyTheVaryingsThatAreRead) {
               "void main() { eyeNormal; eyePosition; }\n");
 }
 
+TEST_F(Compose, PlacesPiecesUnderOtherNames) {
+    files["tiny.frag"] = "#include \"a.glsl\" with f as g, x as y\n#include \"b.glsl\"\nvoid main() {}\n";
+    files["a.glsl"] = "int x; void f() {}\n";
+    files["b.glsl"] = "#include \"a.glsl\" with f as g, x as y\n";
+    EXPECT_EQ(fragment("default").source,
+              "#version 450 core\n#define f g\n#define x y\nint x; void f() {}\n#undef f\n#undef x\n"
+              "\n\n\nvoid main() {}\n");
+    files["b.glsl"] = "#include \"a.glsl\" with f as h\n";
+    EXPECT_EQ(first_error(),
+              "b.glsl:1:1: error: 'a.glsl' is in this stage already, under other names\n"
+              "    #include \"a.glsl\" with f as h\n    ^\n"
+              "  remedy: include it with the same renaming everywhere; a stage holds each piece once\n");
+}
+
 TEST_F(Compose, PrintsTheWholeCycle) {
     files["tiny.frag"] = "#include \"a.glsl\"\nvoid main() {}\n";
     files["a.glsl"] = "#include \"b.glsl\"\n";

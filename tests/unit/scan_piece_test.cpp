@@ -87,9 +87,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadPieceRow{"include_half_closed", "#include \"a.glsl>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include \"a.glsl>\n    ^\n"
                     "  remedy: write #include <feature> or #include \"folder/piece.glsl\"\n"},
-        BadPieceRow{"include_of_no_feature", "#include <fog/linear>\n",
-                    "a.glsl:1:1: error: malformed #include\n    #include <fog/linear>\n    ^\n"
+        BadPieceRow{"include_of_no_feature", "#include <fog linear>\n",
+                    "a.glsl:1:1: error: malformed #include\n    #include <fog linear>\n    ^\n"
                     "  remedy: write #include <feature> or #include \"folder/piece.glsl\"\n"},
+        BadPieceRow{"renaming_without_a_name", "#include \"a.glsl\" with one as\n",
+                    "a.glsl:1:1: error: malformed renaming\n    #include \"a.glsl\" with one as\n    ^\n"
+                    "  remedy: write #include \"folder/piece.glsl\" with name as otherName, ...\n"},
         BadPieceRow{"nul_byte", std::string("int a;\n\0", 8),
                     "a.glsl:2: error: holds a NUL byte and is no text\n  remedy: name a GLSL file\n"},
         BadPieceRow{"nested_over_lines",

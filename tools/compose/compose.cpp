@@ -21,6 +21,7 @@ struct Placement {
     const Key& key;
     StageKind stage;
     std::vector<int> placed;
+    std::map<int, std::vector<Renaming>> names;  ///< of the pieces placed under other names
     std::vector<int> open;                       ///< pieces whose includes are being followed
     bool wants_varyings = false;                 ///< an `#include <varyings>` was met
     const std::vector<int>* varyings = nullptr;  ///< to write, in the vertex stage
@@ -70,7 +71,7 @@ class Composer {
   private:
     Result<Placement> place_template(const Key& key, StageKind stage, const std::string& path,
                                      const std::vector<int>* varyings) {
-        Placement placement{key, stage, {}, {}, false, varyings};
+        Placement placement{key, stage, {}, {}, {}, false, varyings};
         if (path.empty()) return placement;
         const Result<int> piece = library_.fixed(path, stage, nullptr);
         if (!piece) return tl::unexpected(piece.error());
@@ -81,8 +82,10 @@ class Composer {
 
     /// Places a piece after everything it includes, once.
     Diagnostics place(Placement& placement, int piece, const Include* from) {
+        const std::vector<Renaming> renamings = from != nullptr ? from->renamings : std::vector<Renaming>{};
         if (std::find(placement.placed.begin(), placement.placed.end(), piece) != placement.placed.end())
-            return {};
+            return renamings.empty() || placement.names[piece] == renamings ? Diagnostics{}
+                                                                            : two_names(piece, *from);
         if (std::find(placement.open.begin(), placement.open.end(), piece) != placement.open.end()) {
             return cycle(placement, piece, *from);
         }
@@ -94,8 +97,33 @@ class Composer {
             if (!errors.empty()) return errors;
         }
         placement.open.pop_back();
-        placement.placed.push_back(piece);
+        put(placement, piece, renamings);
         return {};
+    }
+
+    /// The piece itself, its names changed by the preprocessor for as long as it lasts.
+    void put(Placement& placement, int piece, const std::vector<Renaming>& renamings) {
+        std::string before;
+        std::string after;
+        for (const Renaming& renaming : renamings) {
+            before += fmt::format("#define {} {}\n", renaming.from, renaming.to);
+            after += fmt::format("#undef {}\n", renaming.from);
+        }
+        const std::string& path = library_.entry(piece).piece.path;
+        if (!before.empty()) placement.placed.push_back(library_.generated({"[renaming]", path, before}));
+        placement.placed.push_back(piece);
+        if (!after.empty()) placement.placed.push_back(library_.generated({"[renamed]", path, after}));
+        placement.names[piece] = renamings;
+    }
+
+    Diagnostics two_names(int piece, const Include& from) const {
+        Diagnostic diagnostic;
+        diagnostic.place = from.place;
+        diagnostic.quoted_line = from.line;
+        diagnostic.message =
+            fmt::format("'{}' is in this stage already, under other names", library_.entry(piece).piece.name);
+        diagnostic.remedy = "include it with the same renaming everywhere; a stage holds each piece once";
+        return {diagnostic};
     }
 
     Diagnostics follow(Placement& placement, const Include& include) {

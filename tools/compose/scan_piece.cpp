@@ -169,9 +169,36 @@ class Scanner {
         return nesting(bare, place, shown);
     }
 
+    /// "a as b, c as d"
+    static std::optional<std::vector<Renaming>> parse_renamings(std::string_view text) {
+        std::vector<Renaming> renamings;
+        while (true) {
+            const std::size_t end = std::min(text.find(','), text.size());
+            const std::string_view one = trim(text.substr(0, end));
+            const std::size_t middle = one.find(" as ");
+            if (middle == std::string_view::npos) return std::nullopt;
+            const std::string from(trim(one.substr(0, middle)));
+            const std::string to(trim(one.substr(middle + 4)));
+            if (!is_identifier(from) || !is_identifier(to)) return std::nullopt;
+            renamings.push_back({from, to});
+            if (end == text.size()) return renamings;
+            text.remove_prefix(end + 1);
+        }
+    }
+
     static Result<Include> parse_include(const Directive& directive, const Place& place,
                                          std::string_view shown) {
-        const std::string_view rest = directive.rest;
+        std::string_view rest = directive.rest;
+        std::optional<std::vector<Renaming>> renamings = std::vector<Renaming>{};
+        const std::size_t close = rest.size() > 1 ? rest.find_first_of(">\"", 1) : std::string_view::npos;
+        if (close != std::string_view::npos && trim(rest.substr(close + 1)).starts_with("with ")) {
+            renamings = parse_renamings(trim(rest.substr(close + 1)).substr(5));
+            rest = rest.substr(0, close + 1);
+            if (!renamings) {
+                return error_at(place, shown, "malformed renaming",
+                                "write #include \"folder/piece.glsl\" with name as otherName, ...");
+            }
+        }
         const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
         const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
         const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
@@ -179,7 +206,7 @@ class Scanner {
             return error_at(place, shown, "malformed #include",
                             "write #include <feature> or #include \"folder/piece.glsl\"");
         }
-        return Include{angle, target, place, std::string(shown)};
+        return Include{angle, target, place, std::string(shown), std::move(*renamings)};
     }
 
     Diagnostics nesting(std::string_view bare, const Place& place, std::string_view shown) {

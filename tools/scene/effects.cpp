@@ -59,11 +59,21 @@ bool scatters_or_reflects(const Material& material) {
     return material.diffuse != glm::dvec3(0) || material.specular != glm::dvec3(0);
 }
 
+/// What the surface gives back of a light that arrives with radiance 1, at most (the models of `lit`).
+double response_of(const Material& material, const Wishes& wishes) {
+    const bool has_highlight = wishes.specular != "none" && wishes.toon_levels.value_or(0) == 0;
+    const glm::dvec3 most =
+        material.diffuse + (has_highlight ? material.strength * material.specular : glm::dvec3(0));
+    return std::max({most.r, most.g, most.b});
+}
+
 std::vector<Effect> judge_lights(const Subject& subject, const std::vector<PlacedLight>& lights,
                                  const Thresholds& thresholds) {
     std::vector<Effect> effects;
-    const Receiver receiver{subject.draw.bounds, fixed_normals(subject.scene, subject.draw.node,
-                                                               subject.primitive, subject.material)};
+    const Receiver receiver{
+        subject.draw.bounds,
+        fixed_normals(subject.scene, subject.draw.node, subject.primitive, subject.material),
+        response_of(subject.material, subject.wishes)};
     for (const PlacedLight& light : lights) {
         Verdict verdict{false, "its material gives back no light"};
         if (scatters_or_reflects(subject.material)) verdict = light_reach(light, receiver, thresholds.light);

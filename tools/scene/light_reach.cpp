@@ -89,8 +89,9 @@ std::string misses(const PlacedLight& light, const Box& bounds, double threshold
 Verdict local_reach(const PlacedLight& light, const Receiver& receiver, double threshold) {
     if (!receiver.bounds) return {true, "bounds are not known"};
     const double distance = least_distance(light.positions, *receiver.bounds);
-    std::string why = too_far(*light.light, distance, threshold);
-    if (why.empty() && light.light->kind == LightKind::spot) why = misses(light, *receiver.bounds, threshold);
+    const double least = threshold / receiver.response;
+    std::string why = too_far(*light.light, distance, least);
+    if (why.empty() && light.light->kind == LightKind::spot) why = misses(light, *receiver.bounds, least);
     if (!why.empty()) return {false, std::move(why)};
     if (faces_away(light, receiver)) return {false, "every normal faces away from it"};
     if (distance == 0) return {true, "it may be as near as can be"};
@@ -123,9 +124,9 @@ std::vector<PlacedLight> place_lights(const Scene& scene) {
 Verdict light_reach(const PlacedLight& light, const Receiver& receiver, double threshold) {
     if (brightest(*light.light) == 0) return {false, "its intensity is 0"};
     if (light.light->kind != LightKind::directional) return local_reach(light, receiver, threshold);
-    if (brightest(*light.light) < threshold)
-        return {false,
-                fmt::format("its radiance is {:.2g}, below {:.2g}", brightest(*light.light), threshold)};
+    const double least = threshold / receiver.response;
+    if (brightest(*light.light) < least)
+        return {false, fmt::format("its radiance is {:.2g}, below {:.2g}", brightest(*light.light), least)};
     if (faces_away(light, receiver)) return {false, "every normal faces away from it"};
     return {true, "it reaches everything"};
 }

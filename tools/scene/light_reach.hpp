@@ -29,6 +29,9 @@ struct PlacedLight {
 struct Receiver {
     std::optional<Box> bounds;
     std::vector<glm::dvec3> normals;
+    /// The greatest share of what arrives that the surface may give back towards one viewer: above 1 where a
+    /// narrow highlight gathers it.
+    double response = 1;
 };
 
 struct Verdict {
@@ -37,7 +40,7 @@ struct Verdict {
 };
 
 /// A light is out where it is black, where the bounds begin beyond its range, where its greatest radiance has
-/// fallen below `threshold` there, where its cone misses them, or where every normal faces away from it. It
+/// fallen so far there that the surface gives back less than `threshold`, where its cone misses them, or where every normal faces away from it. It
 /// is in wherever none of this is certain.
 [[nodiscard]] Verdict light_reach(const PlacedLight& light, const Receiver& receiver, double threshold);
 

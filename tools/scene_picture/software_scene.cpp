@@ -26,7 +26,7 @@ class Canvas {
           height_(view.height),
           depths_(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height),
                   std::numeric_limits<double>::infinity()),
-          picture_{Image(view.width, view.height, 4), std::vector<int>(depths_.size(), -1)} {
+          picture_{Image(view.width, view.height, 4), std::vector<int>(depths_.size(), -1), 0, {}} {
         for (std::size_t i = 0; i < picture_.color.values.size(); ++i)
             picture_.color.values[i] = view.background[i % 4];
     }
@@ -49,7 +49,10 @@ class Canvas {
         });
     }
 
+    [[nodiscard]] evaluate::Counts& operations() { return picture_.operations; }
+
     void draw(const SoftwareObject& object, const std::vector<verify::Shaded>& shaded, int number) {
+        picture_.fragments += shaded.size();
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const std::size_t pixel = index(object.fragments[i]);
             if (shaded[i].is_discarded || shaded[i].depth >= std::min(depths_[pixel], 1.0)) continue;
@@ -91,7 +94,8 @@ Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
 
 Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const SoftwarePrograms& programs,
                                          const std::vector<Object>& objects,
-                                         const std::vector<RenderValue>& values, const SceneView& view) {
+                                         const std::vector<RenderValue>& values, const SceneView& view,
+                                         bool counts) {
     Canvas canvas(view);
     std::vector<SoftwareObject> rasterised(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -109,7 +113,8 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         if (!permutation) continue;
         const SoftwareProgram& program = programs[*permutation];
         if (is_plain(program)) canvas.cull(rasterised[i]);
-        const auto shaded = verify::shade(program, rasterised[i], 0, 0);
+        const auto shaded =
+            verify::shade(program, rasterised[i], 0, 0, counts ? &canvas.operations() : nullptr);
         if (!shaded) return tl::unexpected(shaded.error());
         canvas.draw(rasterised[i], *shaded, static_cast<int>(i));
     }

@@ -10,8 +10,10 @@ namespace gobo::scene {
 
 /// What the evaluator drew.
 struct SoftwarePicture {
-    Image color;            ///< linear, four channels, rows from the top down
-    std::vector<int> draw;  ///< which draw each pixel shows, rows from the top down; -1: none
+    Image color;                    ///< linear, four channels, rows from the top down
+    std::vector<int> draw;          ///< which draw each pixel shows, rows from the top down; -1: none
+    std::size_t fragments = 0;      ///< shaded
+    evaluate::Counts operations{};  ///< that shading them executed, if they were counted
 };
 
 /// One program for each permutation.
@@ -25,6 +27,6 @@ using SoftwarePrograms = std::vector<verify::SoftwareProgram>;
                                                        const SoftwarePrograms& programs,
                                                        const std::vector<Object>& objects,
                                                        const std::vector<RenderValue>& values,
-                                                       const SceneView& view);
+                                                       const SceneView& view, bool counts = false);
 
 }  // namespace gobo::scene

@@ -150,7 +150,7 @@ Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& pro
 }
 
 Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const SoftwareObject& object, double nudge,
-                                  std::uint64_t seed) {
+                                  std::uint64_t seed, evaluate::Counts* operations) {
     if (object.fragments.empty()) return std::vector<Shaded>{};
     Random random(seed);
     evaluate::Invocations vertices = object.vertices;
@@ -163,8 +163,12 @@ Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const Software
         places_of({object.fragments, object.indices, object.positions, object.width, object.height},
                   program.link.needs_quads);
     const evaluate::Invocations inputs = fragment_inputs(program, object, places, *varyings, nudge, random);
-    const Result<evaluate::Outputs> outputs = evaluate::run<float>(program.fragment, inputs);
+    evaluate::Options options;
+    options.count = operations != nullptr;
+    const Result<evaluate::Outputs> outputs = evaluate::run<float>(program.fragment, inputs, options);
     if (!outputs) return tl::unexpected(outputs.error());
+    for (const evaluate::Counts& counts : outputs->counts)
+        for (std::size_t kind = 0; kind < counts.size(); ++kind) (*operations)[kind] += counts[kind];
     std::vector<Shaded> result;
     for (std::size_t i = 0; i < object.fragments.size(); ++i)
         result.push_back(shaded(program, *outputs,

@@ -59,7 +59,9 @@ struct SoftwareObject {
 
 /// Shades every fragment of the object. `nudge` moves each attribute and each varying at random by up to that
 /// much of the largest component of its vector, to see what hangs on a rounding; coverage stays. 0: none.
+/// `operations`, where given, grows by what the fragment stage executes.
 [[nodiscard]] Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const SoftwareObject& object,
-                                                double nudge, std::uint64_t seed);
+                                                double nudge, std::uint64_t seed,
+                                                evaluate::Counts* operations = nullptr);
 
 }  // namespace gobo::verify

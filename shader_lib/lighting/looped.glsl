@@ -1,0 +1,28 @@
+// Arrays of lights for each kind, with counts that are read at run time (L8).
+//
+// Model:  emission + the ambient light + the response to the first directional, then point, then spot lights.
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
+// Space:  eye. Ranges: counts from 0 to 8; linear radiance, unclamped, not negative.
+// Edges:  as the lights'.
+#include "lighting/ambient.glsl"
+#include "lighting/unlit.glsl" with litSurface as unlitSurface
+#include "uber/light.glsl"
+#include "uber/switches.glsl"
+
+BLOCK(23, LoopedLights) {
+    AnyLight directional[8];
+    AnyLight point[8];
+    AnyLight spot[8];
+} loopedLights;
+
+/// The radiance that leaves the surface towards the viewer, before fog.
+vec3 litSurface() {
+    if (switches.lighting == 1) return unlitSurface();
+    chooseMaterial();
+    vec3 radiance = material.emission + ambientRadiance();
+    beginResponse();
+    for (int i = 0; i < switches.directional; ++i) addAnyLight(loopedLights.directional[i], false, false);
+    for (int i = 0; i < switches.point; ++i) addAnyLight(loopedLights.point[i], true, false);
+    for (int i = 0; i < switches.spot; ++i) addAnyLight(loopedLights.spot[i], true, true);
+    return radiance + responseRadiance();
+}

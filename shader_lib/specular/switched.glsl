@@ -1,0 +1,14 @@
+// Highlights by the model that a switch chooses at run time (L8).
+//
+// Model:  that of the chosen highlight.
+// Source: as the highlights'.
+// Space:  eye. Edges: as the highlights'; an unknown number is no highlight.
+#include "specular/blinn.glsl" with addHighlight as addBlinnHighlight
+#include "specular/phong.glsl" with addHighlight as addPhongHighlight
+#include "uber/switches.glsl"
+
+/// Adds the highlight of a light from the unit direction `toLight`.
+void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
+    if (switches.specular == 1) addPhongHighlight(normal, toLight, light);
+    if (switches.specular == 2) addBlinnHighlight(normal, toLight, light);
+}

@@ -1,0 +1,16 @@
+// What an ubershader does, chosen at run time (L8).
+//
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials, for switches in uniforms.
+// Range:  each the number of a value of the feature of that name, from 0, as the family `lit` lists them; of
+//         a kind of light, how many there are.
+
+/// Which value of each feature is meant.
+BLOCK(22, Switches) {
+    int diffuse;
+    int directional;
+    int fog;
+    int lighting;
+    int point;
+    int specular;
+    int spot;
+} switches;

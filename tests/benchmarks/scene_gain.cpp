@@ -1,0 +1,278 @@
+// scene_gain SCENE...: what permutations gain over an ubershader, on the same scenes, in one run.
+//
+// Each scene is drawn by the ubershader with switches, by the one with light-count loops, and by the
+// permutations that its draws call for, twice: the two must come out alike, or times mean nothing. Time per
+// fragment is the slope between two sizes, so that what a draw costs by itself drops out; rivals take turns.
+// Operations are counted by the evaluator and repeat exactly.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "family/key.hpp"
+#include "family/read_family.hpp"
+#include "render/framebuffer.hpp"
+#include "scene/read_scene.hpp"
+#include "scene_picture/draw_scene.hpp"
+#include "scene_picture/scene_object.hpp"
+#include "scene_picture/software_scene.hpp"
+#include "scene_picture/uber_values.hpp"
+
+namespace gobo::scene {
+namespace {
+
+constexpr int rounds = 20;
+constexpr std::array widths = {160, 480};
+constexpr int counted_width = 120;
+
+/// Stops with what is wrong: a benchmark has nothing better to do.
+template <class Value>
+Value must(Result<Value> result) {
+    if (result) return std::move(*result);
+    for (const Diagnostic& diagnostic : result.error()) std::fputs(to_text(diagnostic).c_str(), stderr);
+    std::exit(1);
+}
+
+struct Shipped {
+    explicit Shipped(const std::string& name) {
+        const std::string folder = std::string(GOBO_SOURCE_DIR) + "/";
+        const FindFamily find = [&](const std::string& base) -> Result<FamilyText> {
+            const std::string path = folder + "templates/" + base + ".toml";
+            return FamilyText{must(files.read(path)), path};
+        };
+        const std::string path = folder + "templates/" + name + ".toml";
+        family = must(read_family(must(files.read(path)), path, find));
+        for (const std::string part : {"shader_lib", "templates"})
+            search.add(files, folder + part, part + "/", false);
+    }
+    DiskFileSystem files;
+    Family family;
+    SearchPath search;
+};
+
+/// One way of drawing the scene.
+struct Rival {
+    std::string name;
+    SceneShaders shaders;
+    std::vector<Object> objects;
+    std::vector<double> nanoseconds;  ///< per fragment, one for each round
+    double link_milliseconds = 0;
+};
+
+Rival specialised(const std::string& name, const Shipped& lit, const Scene& scene,
+                  const std::vector<Draw>& draws) {
+    Rival rival{name, must(shaders_called_for(lit.family, lit.search, draws, {}, Dialect::own, 1)), {}, {}};
+    rival.objects = objects_of(scene, rival.shaders);
+    return rival;
+}
+
+Rival ubershader(const std::string& name, const Shipped& lit, const Shipped& uber, const Scene& scene,
+                 const std::vector<Draw>& draws, UberLights lights) {
+    const auto keys = must(keys_called_for(lit.family, draws, {}, "450"));
+    std::vector<std::optional<Key>> uber_keys;
+    std::vector<Object> objects;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        uber_keys.emplace_back();
+        objects.emplace_back();
+        if (!keys[i]) continue;
+        uber_keys.back() = uber_key(uber.family, lit.family, keys[i]->key, lights);
+        objects.back() = object_of(scene, draws[i]);
+        objects.back().values =
+            uber_values(uber.family, lit.family, keys[i]->key, std::move(objects.back().values));
+    }
+    return {name,
+            must(shaders_of(uber.family, uber.search, draws, uber_keys, Dialect::own, 1)),
+            std::move(objects),
+            {}};
+}
+
+/// Of the processor, not the wall: llvmpipe draws in this thread, and others' work must not count.
+double milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+SceneView view_at(const Scene& scene, const std::vector<Draw>& draws, int width) {
+    const auto camera = first_camera(scene);
+    if (camera) return *view_of_camera(scene, *camera, width, 3 * width / 4);
+    return view_of_all(draws, {0.5, 0.4, 1}, width, 3 * width / 4);
+}
+
+/// A rival ready to be drawn at one size.
+struct Ready {
+    Framebuffer framebuffer;
+    SceneDrawing drawing;
+    double fragments = 0;  ///< pixels that show something
+};
+
+Ready make_ready(const Context& context, const Scene& scene, const std::vector<Draw>& draws,
+                 const Rival& rival, const std::vector<RenderValue>& values, int width) {
+    const SceneView view = view_at(scene, draws, width);
+    Ready ready{must(make_framebuffer(context, view.width, view.height)),
+                must(make_scene_drawing(context, rival.shaders, rival.objects, values, view))};
+    ready.framebuffer.bind();
+    ready.framebuffer.clear(view.background);
+    ready.drawing.draw();
+    for (const float depth : ready.framebuffer.read_depth().values)
+        if (depth < 1) ++ready.fragments;
+    return ready;
+}
+
+double draw_milliseconds(const Context& context, const Ready& ready) {
+    ready.framebuffer.bind();
+    ready.framebuffer.clear({0, 0, 0, 1});
+    context.gl().Finish();
+    const double start = milliseconds();
+    ready.drawing.draw();
+    context.gl().Finish();
+    return milliseconds() - start;
+}
+
+/// Compiling and linking all programs, in a driver that has not seen them.
+double link_milliseconds(const Context& context, const Rival& rival) {
+    const double start = milliseconds();
+    const Composition& composition = rival.shaders.composition;
+    for (const Permutation& permutation : composition.permutations)
+        static_cast<void>(must(link_program(context, {stage_text(composition, permutation.vertex),
+                                                      stage_text(composition, permutation.fragment)})));
+    return milliseconds() - start;
+}
+
+void time_rivals(const Context& context, const Scene& scene, const std::vector<Draw>& draws,
+                 const std::vector<RenderValue>& values, std::vector<Rival>& rivals) {
+    std::vector<std::vector<Ready>> ready(rivals.size());
+    for (std::size_t i = 0; i < rivals.size(); ++i) {
+        rivals[i].link_milliseconds = link_milliseconds(context, rivals[i]);
+        for (const int width : widths)
+            ready[i].push_back(make_ready(context, scene, draws, rivals[i], values, width));
+    }
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < rivals.size(); ++i) {
+            const double small = draw_milliseconds(context, ready[i][0]);
+            const double large = draw_milliseconds(context, ready[i][1]);
+            rivals[i].nanoseconds.push_back(1e6 * (large - small) /
+                                            (ready[i][1].fragments - ready[i][0].fragments));
+        }
+    }
+}
+
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+/// The weight of each kind of operation, from a CSV with lines `kind,weight`; 1 where there is none.
+std::array<double, evaluate::kKinds> read_weights(const std::string& path) {
+    std::array<double, evaluate::kKinds> weights;
+    weights.fill(1);
+    if (path.empty()) return weights;
+    const DiskFileSystem files;
+    const std::string text = must(files.read(path));
+    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind) {
+        const std::string row = fmt::format("\n{},", evaluate::kKindNames[kind]);
+        const auto found = text.find(row);
+        if (found != std::string::npos)
+            weights[kind] = std::strtod(text.c_str() + found + row.size(), nullptr);
+    }
+    return weights;
+}
+
+double operations_per_fragment(const Scene& scene, const std::vector<Draw>& draws, const Rival& rival,
+                               const std::vector<RenderValue>& values,
+                               const std::array<double, evaluate::kKinds>& weights) {
+    const auto programs = must(software_programs(rival.shaders));
+    const auto picture = must(draw_in_software(rival.shaders, programs, rival.objects, values,
+                                               view_at(scene, draws, counted_width), true));
+    double sum = 0;
+    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)
+        sum += weights[kind] * static_cast<double>(picture.operations[kind]);
+    return sum / static_cast<double>(picture.fragments);
+}
+
+std::size_t source_bytes(const Composition& composition) {
+    std::size_t bytes = 0;
+    for (const Stage& stage : composition.stages) bytes += source_of(composition, stage).size();
+    return bytes;
+}
+
+std::size_t spirv_words(const SceneShaders& shaders) {
+    std::size_t words = 0;
+    for (const auto& stage : shaders.validated.stages) words += stage.spirv.size();
+    return words;
+}
+
+void run_scene(const std::string& path, const Shipped& lit, const Shipped& uber, const Context& context,
+               const std::array<double, evaluate::kKinds>& weights) {
+    const DiskFileSystem files;
+    const Scene scene = must(read_scene(files, path));
+    const auto draws = what_draws_call_for(scene, eye_of_cameras(scene), {});
+    std::vector<Rival> rivals;
+    rivals.push_back(ubershader("uber, switches", lit, uber, scene, draws, UberLights::switched));
+    rivals.push_back(ubershader("uber, loops", lit, uber, scene, draws, UberLights::looped));
+    rivals.push_back(specialised("permutations", lit, scene, draws));
+    rivals.push_back(specialised("permutations again", lit, scene, draws));
+    const auto values = values_beside_scene(lit.family.render);
+    time_rivals(context, scene, draws, values, rivals);
+    const double base_time = quantile(rivals[2].nanoseconds, 0.5);
+    const double base_operations = operations_per_fragment(scene, draws, rivals[2], values, weights);
+    fmt::print("\n{}\n", path.substr(path.rfind('/') + 1));
+    fmt::print("{:<20}{:>9}{:>7}{:>18}{:>7}{:>10}{:>9}{:>10}{:>10}\n", "", "op/frag", "x", "ns/frag (IQR)",
+               "x", "programs", "GLSL kB", "SPIR-V kB", "link ms");
+    for (const Rival& rival : rivals) {
+        const double operations = operations_per_fragment(scene, draws, rival, values, weights);
+        const double median = quantile(rival.nanoseconds, 0.5);
+        fmt::print("{:<20}{:>9.0f}{:>7.2f}{:>18}{:>7.2f}{:>10}{:>9.1f}{:>10.1f}{:>10.1f}\n", rival.name,
+                   operations, operations / base_operations,
+                   fmt::format("{:.0f} ({:.0f}-{:.0f})", median, quantile(rival.nanoseconds, 0.25),
+                               quantile(rival.nanoseconds, 0.75)),
+                   median / base_time, rival.shaders.composition.permutations.size(),
+                   static_cast<double>(source_bytes(rival.shaders.composition)) / 1e3,
+                   static_cast<double>(4 * spirv_words(rival.shaders)) / 1e3, rival.link_milliseconds);
+    }
+    const double again = quantile(rivals[3].nanoseconds, 0.5) / base_time;
+    if (std::abs(again - 1) > 0.02)
+        fmt::print(
+            "the permutations' two times differ by {:.1f} %: the times rank nothing closer than that\n",
+            100 * std::abs(again - 1));
+}
+
+void run(const std::vector<std::string>& scenes, const std::string& weights_path) {
+    const Shipped lit("lit");
+    const Shipped uber("uber");
+    const auto context = must(open_context(Backend::osmesa));
+    const auto weights = read_weights(weights_path);
+    fmt::print("{}; {} interleaved rounds, medians of processor time; operations {}\n", context.renderer(),
+               rounds, weights_path.empty() ? "counted, each as 1" : "weighted by " + weights_path);
+    for (const std::string& path : scenes) run_scene(path, lit, uber, context, weights);
+}
+
+}  // namespace
+}  // namespace gobo::scene
+
+int main(int argc, char** argv) {
+    std::vector<std::string> scenes;
+    std::string weights;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument.starts_with("--weights=")) {
+            weights = argument.substr(10);
+        } else {
+            scenes.push_back(argument);
+        }
+    }
+    if (scenes.empty()) {
+        std::fputs("usage: scene_gain [--weights=KINDS.csv] SCENE.gltf...\n", stderr);
+        return 2;
+    }
+    // One thread, and no program from an earlier run: both would be measured otherwise.
+    setenv("LP_NUM_THREADS", "0", 1);
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    gobo::scene::run(scenes, weights);
+    return 0;
+}

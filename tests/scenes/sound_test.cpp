@@ -1,0 +1,143 @@
+// Nothing needed is missing: pictures by the permutations that a scene's draws call for are those of the
+// ubershader with everything on.
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "family/key.hpp"
+#include "hung_scene.hpp"
+#include "scene_library.hpp"
+#include "scene_picture/draw_scene.hpp"
+#include "scene_picture/scene_object.hpp"
+#include "scene_picture/software_scene.hpp"
+#include "scene_picture/uber_values.hpp"
+
+namespace gobo::scene {
+namespace {
+
+constexpr int width = 64;
+constexpr int height = 48;
+constexpr std::size_t views = 3;
+
+/// Whether dropping the light can change anything at all.
+bool may_be_seen(const Effect& light) {
+    return light.reason.find("faces away") == std::string::npos &&
+           light.reason.find("intensity is 0") == std::string::npos &&
+           light.reason.find("gives back no light") == std::string::npos;
+}
+
+/// What the draw would call for if nothing were out of reach: every light, and whatever the file asks for.
+Draw everything_on(const Scene& scene, Draw draw) {
+    const Wishes wishes = wishes_of(scene, draw);
+    const bool is_toon = wishes.toon_levels.value_or(0) > 0;
+    for (Effect& effect : draw.effects) {
+        const bool is_light = effect.value.empty();
+        const bool is_shading = (effect.name == "toon" && is_toon) ||
+                                (effect.name == "specular" && effect.value != "none" && !is_toon) ||
+                                (effect.name == "fog" && effect.value != "none");
+        if (is_light || is_shading) effect.is_in = true;
+    }
+    return draw;
+}
+
+/// The most that what was left out may change: a light that has fallen below the threshold, or ends at its
+/// range, and thin fog.
+double allowed(const Scene& scene, const Draw& draw, double brightest) {
+    const Thresholds thresholds;
+    const std::vector<PlacedLight> lights = place_lights(scene);
+    const Material& material = material_of(scene, draw);
+    double sum = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = *lights[i].light;
+        if (draw.effects[i].is_in || !may_be_seen(draw.effects[i])) continue;
+        double most = thresholds.light;
+        if (std::isfinite(light.range)) {
+            const double fade =
+                light.attenuation.x + light.range * (light.attenuation.y + light.range * light.attenuation.z);
+            const glm::dvec3 back = material.diffuse + material.strength * material.specular;
+            most = std::max(most, std::max({back.r, back.g, back.b}) *
+                                      std::max({light.color.r, light.color.g, light.color.b}) / fade);
+        }
+        sum += most;
+    }
+    for (const Effect& effect : draw.effects)
+        if (effect.name == "fog" && !effect.is_in && effect.reason.find("hides") != std::string::npos)
+            sum += thresholds.fog * std::max(1.0, brightest);
+    return sum;
+}
+
+class Sound : public testing::TestWithParam<std::string> {};
+
+TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
+    const ShippedFamily lit("lit");
+    const ShippedFamily uber("uber");
+    const Scene scene = hung_scene(GetParam());
+    const auto from = vantages(scene, views, width, height);
+    const std::vector<Draw> draws = what_draws_call_for(scene, eyes_of(from), {});
+    const auto chosen = shaders_called_for(lit.family, lit.search, draws, {}, Dialect::own, 1);
+    ASSERT_TRUE(chosen) << text_of(chosen.error());
+
+    std::vector<Draw> full;
+    for (const Draw& draw : draws) full.push_back(draw.excluded.empty() ? everything_on(scene, draw) : draw);
+    const auto full_keys = keys_called_for(lit.family, full, {}, "450");
+    ASSERT_TRUE(full_keys) << text_of(full_keys.error());
+    std::vector<std::optional<Key>> uber_keys;
+    std::vector<Object> uber_objects;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        const auto& key = (*full_keys)[i];
+        uber_keys.emplace_back();
+        uber_objects.emplace_back();
+        if (!key) continue;
+        ASSERT_LE(lights_of(lit.family, key->key), kSwitchedLights);
+        uber_keys.back() = uber_key(uber.family, lit.family, key->key, UberLights::switched);
+        uber_objects.back() = object_of(scene, full[i]);
+        uber_objects.back().values =
+            uber_values(uber.family, lit.family, key->key, std::move(uber_objects.back().values));
+    }
+    const auto everything = shaders_of(uber.family, uber.search, full, uber_keys, Dialect::own, 1);
+    ASSERT_TRUE(everything) << text_of(everything.error());
+
+    const auto chosen_programs = software_programs(*chosen);
+    const auto uber_programs = software_programs(*everything);
+    ASSERT_TRUE(chosen_programs && uber_programs);
+    const std::vector<Object> objects = objects_of(scene, *chosen);
+    const auto values = values_beside_scene(lit.family.render);
+    std::size_t seen = 0;
+    for (const Vantage& vantage : from) {
+        const auto actual = draw_in_software(*chosen, *chosen_programs, objects, values, vantage.view);
+        const auto expected =
+            draw_in_software(*everything, *uber_programs, uber_objects, values, vantage.view);
+        ASSERT_TRUE(actual && expected);
+        EXPECT_EQ(actual->draw, expected->draw);
+        for (std::size_t i = 0; i < actual->draw.size(); ++i) {
+            if (actual->draw[i] < 0) continue;
+            ++seen;
+            double brightest = 0;
+            double error = 0;
+            for (std::size_t c = 0; c < 4; ++c) {
+                const auto right = static_cast<double>(expected->color.values[4 * i + c]);
+                brightest = std::max(brightest, std::abs(right));
+                error =
+                    std::max(error, std::abs(static_cast<double>(actual->color.values[4 * i + c]) - right));
+            }
+            const Draw& draw = draws[static_cast<std::size_t>(actual->draw[i])];
+            // 1e-6: eight roundings of the brightest channel.
+            const double limit = 1e-6 * std::max(1.0, brightest) + allowed(scene, draw, brightest);
+            ASSERT_LE(error, limit) << draw.name << ", pixel " << i % width << ", " << i / width;
+        }
+    }
+    if (!chosen->composition.permutations.empty()) {
+        EXPECT_GT(seen, 100U);
+    }
+}
+
+std::string name_of_scene(const testing::TestParamInfo<std::string>& row) {
+    std::string name = row.param;
+    for (char& character : name)
+        if (std::isalnum(static_cast<unsigned char>(character)) == 0) character = '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Sound, testing::ValuesIn(shipped_scenes()), name_of_scene);
+
+}  // namespace
+}  // namespace gobo::scene
