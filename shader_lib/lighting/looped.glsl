@@ -1,9 +1,12 @@
 // Arrays of lights for each kind, with counts that are read at run time (L8).
 //
-// Model:  emission + the ambient light + the response to the first directional, then point, then spot lights.
+// Model:  emission + the ambient light + reflections + the response to the first directional, then point,
+//         then spot lights.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
 // Space:  eye. Ranges: counts from 0 to 8; linear radiance, unclamped, not negative.
 // Edges:  as the lights'.
+#include <material>
+#include <reflection>
 #include "lighting/ambient.glsl"
 #include "lighting/unlit.glsl" with litSurface as unlitSurface
 #include "uber/light.glsl"
@@ -19,7 +22,7 @@ BLOCK(23, LoopedLights) {
 vec3 litSurface() {
     if (switches.lighting == 1) return unlitSurface();
     chooseMaterial();
-    vec3 radiance = material.emission + ambientRadiance();
+    vec3 radiance = material.emission + ambientRadiance() + reflectionRadiance();
     beginResponse();
     for (int i = 0; i < switches.directional; ++i) addAnyLight(loopedLights.directional[i], false, false);
     for (int i = 0; i < switches.point; ++i) addAnyLight(loopedLights.point[i], true, false);
