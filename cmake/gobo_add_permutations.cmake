@@ -1,6 +1,7 @@
 # gobo_add_permutations(TARGET FAMILY family
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
+#                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [LIBRARY folder])
 #
 # Has gobo write the header of the selected permutations, NAME.hpp after the family's name, and puts it on the include
@@ -8,13 +9,16 @@
 # .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
 # pieces before the family's own. LIBRARY holds shader_lib and templates, by default those that came with gobo.
 #
+# MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
+# choose by, by default the study that came with the family.
+#
 # The header follows every file that it was made from, and is left untouched where its text stays the same. Relative
 # paths are relative to the current source folder. docs/build_integration.md says more.
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED" "FAMILY;COVER;WHERE;NAMESPACE;DIALECT;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
@@ -111,6 +115,11 @@ function(_gobo_command_line arguments_variable inputs_variable)
     add(--scene "${scene}")
     list(APPEND inputs "${escaped}")
   endforeach()
+  if(DEFINED arg_STUDY)
+    get_filename_component(study "${arg_STUDY}" ABSOLUTE)
+    add(--study "${study}")
+    list(APPEND inputs "${escaped}")
+  endif()
   foreach(include IN LISTS arg_INCLUDE)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
@@ -121,9 +130,10 @@ function(_gobo_command_line arguments_variable inputs_variable)
       list(APPEND arguments ${flag})
     endif()
   endforeach()
-  foreach(option COVER WHERE NAMESPACE DIALECT)
+  foreach(option COVER WHERE MAX_ERROR MAX_COST NAMESPACE DIALECT)
     if(DEFINED arg_${option})
       string(TOLOWER "--${option}" flag)
+      string(REPLACE "_" "-" flag "${flag}")
       add(${flag} "${arg_${option}}")
     endif()
   endforeach()

@@ -11,17 +11,21 @@ packages=(
   libglfw3-dev libgl1 libglx-mesa0 xvfb xdotool
 )
 
-missing=()
-for package in "${packages[@]}"; do
-  if command -v dpkg-query >/dev/null; then
-    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-  else
-    missing+=("$package")
-  fi
-done
-[ ${#missing[@]} -eq 0 ] && exit 0
+# Tests of pages open them in a browser, and are skipped where there is none.
+optional=(chromium chromium-driver python3-selenium)
+
+# absent PACKAGE...: those that are not installed.
+absent() {
+  for package in "$@"; do
+    command -v dpkg-query >/dev/null && dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || echo "$package"
+  done
+}
+mapfile -t missing < <(absent "${packages[@]}")
+mapfile -t missing_optional < <(absent "${optional[@]}")
+[ $((${#missing[@]} + ${#missing_optional[@]})) -eq 0 ] && exit 0
 
 if ! command -v apt-get >/dev/null; then
+  [ ${#missing[@]} -eq 0 ] && exit 0
   echo "setup.sh: this system has no apt-get. Install what corresponds to these Debian 12 packages, then run again:" >&2
   echo "  ${missing[*]}" >&2
   exit 1
@@ -29,11 +33,15 @@ fi
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null; then
+    [ ${#missing[@]} -eq 0 ] && exit 0
     echo "setup.sh: not root, and there is no sudo. As root, run: apt-get install ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
 fi
-echo "setup.sh: installing ${missing[*]}" >&2
+echo "setup.sh: installing ${missing[*]} ${missing_optional[*]}" >&2
 "${as_root[@]}" apt-get update -q >&2
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}" >&2
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends)
+[ ${#missing[@]} -eq 0 ] || "${install[@]}" "${missing[@]}" >&2
+[ ${#missing_optional[@]} -eq 0 ] || "${install[@]}" "${missing_optional[@]}" >&2 ||
+  echo "setup.sh: cannot install ${missing_optional[*]}: tests that need a browser will be skipped" >&2

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "compose/composition.hpp"
 #include "emit/header_templates.hpp"
@@ -10,12 +11,22 @@
 
 namespace gobo {
 
+/// A key that a budget chose, with the figures that it was chosen by.
+struct QualityChoice {
+    Key key;
+    double promised_error = 0;  ///< linear radiance; no scene's is expected to be larger
+    double measured_error = 0;  ///< the worst of the study's scenes
+    double cost = 0;            ///< additions a fragment
+    std::string source;         ///< "study", or "measured" for effects that the study does not hold
+};
+
 /// What a generated header and its manifest are made from.
 struct EmitInput {
     const Family& family;
     const Composition& composition;
     const Interface& interface;  ///< of all permutations together: the largest extent of each array
     std::string cpp_namespace;   ///< "lit" or "game::shaders"; empty: the family's name
+    std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
 };
 
 /// The text of the header: C++17, constant data only. The same input gives the same bytes. A namespace that

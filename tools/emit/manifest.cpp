@@ -73,7 +73,18 @@ std::vector<std::string> stage_rows(const Composition& composition) {
     return rows;
 }
 
-std::vector<std::string> permutation_rows(const Family& family, const Composition& composition) {
+/// What a budget chose the key by, as further members of its row; nothing where none did.
+std::string choice_text(const std::vector<QualityChoice>& qualities, const Key& key) {
+    for (const QualityChoice& choice : qualities)
+        if (choice.key == key)
+            return fmt::format(
+                ",\"promised_error\":{:.6g},\"measured_error\":{:.6g},\"cost\":{:.6g},\"chosen_by\":{}",
+                choice.promised_error, choice.measured_error, choice.cost, text_of(choice.source));
+    return "";
+}
+
+std::vector<std::string> permutation_rows(const Family& family, const Composition& composition,
+                                          const std::vector<QualityChoice>& qualities) {
     std::vector<std::pair<std::string, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
         sorted.emplace_back(key_text(family, permutation.key), &permutation);
@@ -81,8 +92,9 @@ std::vector<std::string> permutation_rows(const Family& family, const Compositio
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::string> rows;
     for (const auto& [key, permutation] : sorted) {
-        rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}}}", text_of(key),
-                                   permutation->vertex, permutation->fragment));
+        rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}{}}}", text_of(key),
+                                   permutation->vertex, permutation->fragment,
+                                   choice_text(qualities, permutation->key)));
     }
     return rows;
 }
@@ -112,7 +124,7 @@ std::string emit_manifest(const EmitInput& input) {
         text_of(input.family.name), text_of(version_of(input.composition)),
         array_text(feature_rows(input.family)), indented(text_of(interface, indent)),
         array_text(stage_rows(input.composition)),
-        array_text(permutation_rows(input.family, input.composition)));
+        array_text(permutation_rows(input.family, input.composition, input.qualities)));
 }
 
 }  // namespace gobo

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include "common/text.hpp"
+#include "compose/compose.hpp"
+#include "compose/dialect.hpp"
 #include "emit/depfile.hpp"
 #include "emit/header.hpp"
 #include "emit/manifest.hpp"
+#include "gobo/budget.hpp"
 #include "gobo/commands.hpp"
 #include "reflect/merge.hpp"
 #include "validate/validate.hpp"
@@ -18,6 +21,7 @@ namespace {
 struct BuildOptions {
     CommonOptions common;
     SelectionOptions selection;
+    BudgetOptions budget;
     std::string family;
     std::string dialect;
     std::string folder;
@@ -61,16 +65,15 @@ Result<int> write_all(const World& world, const std::vector<std::pair<std::strin
     return changed;
 }
 
-Result<std::vector<std::pair<std::string, std::string>>> emit_all(const BuildOptions& options,
-                                                                  const World& world,
-                                                                  const LoadedFamily& family,
-                                                                  const Composition& composition,
-                                                                  const Validated& validated) {
+Result<std::vector<std::pair<std::string, std::string>>> emit_all(
+    const BuildOptions& options, const World& world, const LoadedFamily& family,
+    const Composition& composition, const Validated& validated, std::vector<QualityChoice> qualities) {
     const Result<Interface> interface = united_interface(composition, validated);
     if (!interface) return tl::unexpected(interface.error());
     const Result<HeaderTemplates> templates = header_templates(world, options.common);
     if (!templates) return tl::unexpected(templates.error());
-    const EmitInput input{family.family, composition, *interface, options.cpp_namespace};
+    const EmitInput input{family.family, composition, *interface, options.cpp_namespace,
+                          std::move(qualities)};
     Result<std::string> header = emit_header(input, *templates);
     if (!header) return tl::unexpected(header.error());
     const std::string stem = options.folder + "/" + family.family.name;
@@ -81,18 +84,39 @@ Result<std::vector<std::pair<std::string, std::string>>> emit_all(const BuildOpt
                                                             {stem + ".d", emit_depfile({target}, read)}};
 }
 
+/// The keys of the selection, or those that the budget chooses for their effects.
+struct Chosen {
+    std::vector<Key> keys;
+    std::vector<QualityChoice> qualities;
+};
+
+Result<Chosen> choose_keys(const BuildOptions& options, const World& world, LoadedFamily& family,
+                           Dialect dialect) {
+    Result<std::vector<Key>> keys = load_keys(world, family, options.selection, dialect);
+    if (!keys) return tl::unexpected(keys.error());
+    if (!options.budget.is_set()) return Chosen{std::move(*keys), {}};
+    auto qualities =
+        choose_qualities(world, family, options.budget, *keys, name_of(dialect), options.common.jobs);
+    if (!qualities) return tl::unexpected(qualities.error());
+    std::set<Key> distinct;
+    for (const QualityChoice& choice : *qualities) distinct.insert(choice.key);
+    return Chosen{{distinct.begin(), distinct.end()}, std::move(*qualities)};
+}
+
 Outcome run(const BuildOptions& options, const World& world) {
     const Result<Dialect> dialect = read_dialect(options.dialect);
     if (!dialect) return failed(dialect.error());
     Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
-    const Result<Composition> composition = load_composition(world, *family, options.selection, *dialect);
+    const Result<Chosen> chosen = choose_keys(options, world, *family, *dialect);
+    if (!chosen) return failed(chosen.error());
+    const Result<Composition> composition = compose(family->family, chosen->keys, family->search, *dialect);
     if (!composition) return failed(composition.error());
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     Validated validated = validate(family->family, *composition, validate_options);
     if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
-    const auto outputs = emit_all(options, world, *family, *composition, validated);
+    const auto outputs = emit_all(options, world, *family, *composition, validated, chosen->qualities);
     if (!outputs) return failed(outputs.error());
     const Result<int> changed = write_all(world, *outputs);
     if (!changed) return failed(changed.error());
@@ -119,6 +143,7 @@ Command build_command(CLI::App& gobo) {
                     "compare times")
         ->type_name("FILE");
     add_selection_options(*app, options->selection);
+    add_budget_options(*app, options->budget);
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
     app->footer(
@@ -126,6 +151,7 @@ Command build_command(CLI::App& gobo) {
         "  gobo build lit --key 'fog=linear point=3' --key default -o generated\n"
         "  gobo build lit --cover 3 --where 'point <= 2' -o out\n"
         "  gobo build lit --keys-from recorded.txt --namespace game::shaders --dialect 330 -o generated\n"
+        "  gobo build lit --key 'directional=1 specular=blinn' --max-error 0.01 -o generated\n"
         "  gobo build game.toml --all -I my_pieces -o generated");
     return {app, [options](const World& world) { return run(*options, world); }};
 }

@@ -16,6 +16,7 @@ namespace gobo {
 [[nodiscard]] Command render_command(CLI::App& gobo);
 [[nodiscard]] Command sanitize_command(CLI::App& gobo);
 [[nodiscard]] Command scene_command(CLI::App& gobo);
+[[nodiscard]] Command study_command(CLI::App& gobo);
 [[nodiscard]] Command library_command(CLI::App& gobo);
 
 }  // namespace gobo

@@ -132,7 +132,8 @@ int run(const std::vector<std::string>& arguments) {
     const std::vector<Command> commands = {list_command(app),   show_command(app),     check_command(app),
                                            build_command(app),  reflect_command(app),  eval_command(app),
                                            test_command(app),   sanitize_command(app), probe_command(app),
-                                           render_command(app), scene_command(app),    library_command(app)};
+                                           render_command(app), scene_command(app),    study_command(app),
+                                           library_command(app)};
     if (const auto unknown = unknown_command(app, arguments)) {
         print(*unknown, color);
         return usage_status;

@@ -8,6 +8,7 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
+#include "gobo/budget.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/scene_report.hpp"
 #include "scene/read_scene.hpp"
@@ -24,6 +25,7 @@ struct SceneOptions {
     std::string bucket_lights;
     std::string camera = "all";
     scene::Thresholds thresholds;
+    BudgetOptions budget;
     bool keys = false;
     bool json = false;
 };
@@ -74,10 +76,24 @@ Result<SceneReport> make_report(const Family& family, const std::vector<scene::D
     return report;
 }
 
+/// The draws' keys become those that the budget chooses for their effects.
+Result<void> apply_budget(const SceneOptions& options, const World& world, LoadedFamily& family,
+                          std::string_view dialect, SceneReport& report) {
+    std::vector<Key> keys;
+    for (const auto& draw : report.keys)
+        if (draw) keys.push_back(draw->key);
+    const auto choices = choose_qualities(world, family, options.budget, keys, dialect, options.common.jobs);
+    if (!choices) return tl::unexpected(choices.error());
+    std::size_t next = 0;
+    for (auto& draw : report.keys)
+        if (draw) draw->key = (*choices)[next++].key;
+    return {};
+}
+
 Outcome run(const SceneOptions& options, const World& world) {
     const Result<Dialect> dialect = read_dialect(options.dialect);
     if (!dialect) return failed(dialect.error());
-    const Result<LoadedFamily> family = load_family(world, options.family, options.common);
+    Result<LoadedFamily> family = load_family(world, options.family, options.common);
     if (!family) return failed(family.error());
     const Result<scene::Buckets> buckets = scene::parse_buckets(options.bucket_lights);
     if (!buckets) return failed(buckets.error());
@@ -88,6 +104,9 @@ Outcome run(const SceneOptions& options, const World& world) {
     const auto draws = scene::what_draws_call_for(*scene, *eye, options.thresholds);
     Result<SceneReport> report = make_report(family->family, draws, *buckets, name_of(*dialect));
     if (!report) return failed(report.error());
+    if (options.budget.is_set())
+        if (auto applied = apply_budget(options, world, *family, name_of(*dialect), *report); !applied)
+            return failed(applied.error());
     Outcome outcome;
     if (options.keys) {
         for (const Key& key : scene::distinct_keys(report->keys))
@@ -123,6 +142,7 @@ Command scene_command(CLI::App& gobo) {
                     "The greatest share that fog left out may hide; by default 1/512")
         ->type_name("X")
         ->check(CLI::NonNegativeNumber);
+    add_budget_options(*app, options->budget);
     app->add_flag("--keys", options->keys, "Print the keys only, one a line, as --keys-from reads them");
     app->add_flag("--json", options->json, "Print JSON");
     add_dialect_option(*app, options->dialect);
@@ -131,6 +151,7 @@ Command scene_command(CLI::App& gobo) {
         "Examples:\n"
         "  gobo scene room.gltf\n"
         "  gobo scene room.glb lit --bucket-lights 0,1,2,4,8\n"
+        "  gobo scene room.gltf --max-error 0.01 --keys\n"
         "  gobo scene room.gltf game.toml --keys | gobo build game.toml --keys-from - -o generated\n"
         "  gobo build lit --scene room.gltf -o generated");
     return {app, [options](const World& world) { return run(*options, world); }};

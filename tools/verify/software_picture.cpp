@@ -78,6 +78,14 @@ Shaded shaded(const SoftwareProgram& program, const evaluate::Outputs& outputs, 
     return result;
 }
 
+Raster raster_of(const SoftwareObject& object) {
+    return {object.fragments, object.indices, object.positions, object.width, object.height};
+}
+
+void add(const evaluate::Counts& counts, evaluate::Counts& sum) {
+    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind) sum[kind] += counts[kind];
+}
+
 }  // namespace
 
 Result<SoftwareProgram> software_program(const SpirvModule& vertex, const SpirvModule& fragment) {
@@ -149,6 +157,42 @@ Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& pro
     return result;
 }
 
+Result<evaluate::Invocations> exact_fragment_inputs(const SoftwareProgram& program,
+                                                    const SoftwareObject& object) {
+    const Result<evaluate::Outputs> varyings = evaluate::run<double>(program.vertex, object.vertices);
+    if (!varyings) return tl::unexpected(varyings.error());
+    Random unused(0);
+    return fragment_inputs(program, object, places_of(raster_of(object), false), *varyings, 0, unused);
+}
+
+template <class T>
+Result<std::vector<Shaded>> shade_in(const SoftwareProgram& program, const SoftwareObject& object,
+                                     Work* work) {
+    if (object.fragments.empty()) return std::vector<Shaded>{};
+    evaluate::Options options;
+    options.count = work != nullptr;
+    const Result<evaluate::Outputs> varyings = evaluate::run<T>(program.vertex, object.vertices, options);
+    if (!varyings) return tl::unexpected(varyings.error());
+    const bool in_quads = program.link.needs_quads;
+    Random unused(0);
+    const evaluate::Invocations inputs =
+        fragment_inputs(program, object, places_of(raster_of(object), in_quads), *varyings, 0, unused);
+    const Result<evaluate::Outputs> outputs = evaluate::run<T>(program.fragment, inputs, options);
+    if (!outputs) return tl::unexpected(outputs.error());
+    std::vector<Shaded> result;
+    for (std::size_t i = 0; i < object.fragments.size(); ++i) {
+        const std::size_t own = own_place(object.fragments[i], i, in_quads);
+        result.push_back(shaded(program, *outputs, own, object.fragments[i]));
+        if (work != nullptr) add(outputs->counts[own], work->fragments);
+    }
+    if (work != nullptr)
+        for (const evaluate::Counts& counts : varyings->counts) add(counts, work->vertices);
+    return result;
+}
+
+template Result<std::vector<Shaded>> shade_in<float>(const SoftwareProgram&, const SoftwareObject&, Work*);
+template Result<std::vector<Shaded>> shade_in<double>(const SoftwareProgram&, const SoftwareObject&, Work*);
+
 Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const SoftwareObject& object, double nudge,
                                   std::uint64_t seed, evaluate::Counts* operations) {
     if (object.fragments.empty()) return std::vector<Shaded>{};
@@ -159,9 +203,7 @@ Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const Software
             move(found->second, port.components, vertices.count, nudge, random);
     const Result<evaluate::Outputs> varyings = evaluate::run<float>(program.vertex, vertices);
     if (!varyings) return tl::unexpected(varyings.error());
-    const std::vector<FragmentPlace> places =
-        places_of({object.fragments, object.indices, object.positions, object.width, object.height},
-                  program.link.needs_quads);
+    const std::vector<FragmentPlace> places = places_of(raster_of(object), program.link.needs_quads);
     const evaluate::Invocations inputs = fragment_inputs(program, object, places, *varyings, nudge, random);
     evaluate::Options options;
     options.count = operations != nullptr;

@@ -57,6 +57,23 @@ struct SoftwareObject {
                                                                     const std::vector<RenderValue>& values,
                                                                     const View& view);
 
+/// The fragment stage's inputs and uniforms, one invocation for each fragment of the object, interpolated from
+/// the vertex stage's outputs in fp64.
+[[nodiscard]] Result<evaluate::Invocations> exact_fragment_inputs(const SoftwareProgram& program,
+                                                                  const SoftwareObject& object);
+
+/// The operations executed, by kind: by all vertices together, and by all fragments.
+struct Work {
+    evaluate::Counts vertices{};
+    evaluate::Counts fragments{};
+};
+
+/// Shades every fragment of the object, both stages in arithmetic of T: float or double. Adds to `work` unless
+/// it is null.
+template <class T>
+[[nodiscard]] Result<std::vector<Shaded>> shade_in(const SoftwareProgram& program,
+                                                   const SoftwareObject& object, Work* work = nullptr);
+
 /// Shades every fragment of the object. `nudge` moves each attribute and each varying at random by up to that
 /// much of the largest component of its vector, to see what hangs on a rounding; coverage stays. 0: none.
 /// `operations`, where given, grows by what the fragment stage executes.

@@ -1,0 +1,6 @@
+// Additions.
+#include "operands.glsl"
+
+vec4 operate(vec4 x) {
+    return x + operands.increment;
+}

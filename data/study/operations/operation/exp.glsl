@@ -1,0 +1,6 @@
+// Exponentials.
+#include "operands.glsl"
+
+vec4 operate(vec4 x) {
+    return exp(operands.increment - x);
+}

@@ -1,0 +1,6 @@
+// Inverse square roots.
+#include "operands.glsl"
+
+vec4 operate(vec4 x) {
+    return inversesqrt(x);
+}

@@ -1,0 +1,6 @@
+// Square roots.
+#include "operands.glsl"
+
+vec4 operate(vec4 x) {
+    return sqrt(x);
+}

@@ -1,0 +1,131 @@
+// What a budget buys, of studies written down here.
+#include "study/budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include "family/key.hpp"
+#include "family/read_family.hpp"
+#include "study/qualities.hpp"
+
+namespace gobo::study {
+namespace {
+
+Family small_family() {
+    return read_family(R"(
+name = "small"
+vertex = "small.vert"
+fragment = "small.frag"
+[features.light]
+count = [0, 2]
+constant = "LIGHTS"
+[features.power]
+role = "quality"
+values = ["exact", "rough", "wild"]
+[features.shading]
+role = "quality"
+values = ["fragment", "vertex"]
+[[rules]]
+when = "light == 0"
+default = ["power", "shading"]
+[[rules]]
+forbid = "power == wild && shading == vertex"
+reason = "too wild"
+)",
+                       "small.toml")
+        .value();
+}
+
+Key key_of(const std::string& text) {
+    return parse_key(small_family(), text).value();
+}
+
+std::vector<StudiedKey> studied() {
+    return {{key_of("light=1"), 1e-6, 100, true},
+            {key_of("light=1 power=rough"), 1e-3, 60, true},
+            {key_of("light=1 shading=vertex"), 0.2, 20, true},
+            {key_of("light=1 power=rough shading=vertex"), 0.3, 15, true}};
+}
+
+struct BudgetRow {
+    const char* name;
+    Budget budget;
+    const char* key;  ///< nullptr: refused
+    const char* remedy;
+};
+
+class Buys : public testing::TestWithParam<BudgetRow> {};
+
+TEST_P(Buys, TheBestWithinIt) {
+    const auto chosen = choose(studied(), GetParam().budget, "light=1");
+    ASSERT_EQ(chosen.has_value(), GetParam().key != nullptr);
+    if (chosen)
+        EXPECT_EQ(key_text(small_family(), chosen->key), GetParam().key);
+    else
+        EXPECT_EQ(chosen.error().front().remedy, GetParam().remedy);
+}
+
+// The promise is kSafety = 2 times the measured error.
+INSTANTIATE_TEST_SUITE_P(
+    Rows, Buys,
+    testing::Values(
+        BudgetRow{"the_cheapest_within_the_error", {0.5, {}}, "light=1 shading=vertex", ""},
+        BudgetRow{"an_error_that_only_the_promise_meets", {0.002, {}}, "light=1 power=rough", ""},
+        BudgetRow{"an_error_that_the_measurement_alone_would_meet", {0.0015, {}}, "light=1", ""},
+        BudgetRow{"the_most_accurate_within_the_cost", {{}, 70}, "light=1 power=rough", ""},
+        BudgetRow{"both", {0.5, 18}, nullptr, "raise the budget: the most accurate one promises 2.0e-06"},
+        BudgetRow{"an_error_too_small",
+                  {1e-7, {}},
+                  nullptr,
+                  "raise the budget: the most accurate one promises 2.0e-06"},
+        BudgetRow{"a_cost_too_small", {{}, 10}, nullptr, "raise the budget: the cheapest one costs 15"}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(Studied, IsReadFromTheRowsOfAllScenes) {
+    const auto read = read_studied(
+        "effects,key,scene,error_max,cost,front\n"
+        "light=1,light=1,*,1e-6,100,yes\nlight=1,light=1,teapot,1e-7,90,yes\n"
+        "light=1,light=1 power=rough,*,inf,60,no\n",
+        "study.csv", small_family());
+    ASSERT_TRUE(read);
+    const auto& keys = read->at(key_of("light=1"));
+    ASSERT_EQ(keys.size(), 2u);
+    EXPECT_EQ(keys[0].error, 1e-6);
+    EXPECT_EQ(keys[0].cost, 100);
+    EXPECT_TRUE(keys[0].on_front);
+    EXPECT_EQ(keys[1].key, key_of("light=1 power=rough"));
+    EXPECT_FALSE(keys[1].on_front);
+}
+
+TEST(Studied, OfAnotherFamilyIsRefusedAtItsLine) {
+    const auto read =
+        read_studied("effects,key,scene,error_max,cost,front\nfog=linear,fog=linear,*,1,1,yes\n", "study.csv",
+                     small_family());
+    ASSERT_FALSE(read);
+    EXPECT_EQ(to_text(read.error().front()).substr(0, 12), "study.csv:2:");
+    EXPECT_EQ(read.error().front().remedy, "remake the study: gobo study small -o FOLDER");
+}
+
+TEST(FrontQualities, AreAppliedToOtherEffects) {
+    const StudiedEffects all = {{key_of("light=1"), studied()}};
+    const auto keys = front_qualities(small_family(), all, key_of("light=2"));
+    std::vector<std::string> texts;
+    for (const Key& key : keys) texts.push_back(key_text(small_family(), key));
+    EXPECT_EQ(texts, (std::vector<std::string>{"light=2", "light=2 power=rough", "light=2 shading=vertex",
+                                               "light=2 power=rough shading=vertex"}));
+    EXPECT_EQ(front_qualities(small_family(), all, key_of("default")), std::vector<Key>{key_of("default")})
+        << "where nothing matters there is one quality";
+}
+
+TEST(Qualities, AreAllThatTheRulesAllow) {
+    const Family family = small_family();
+    EXPECT_EQ(all_qualities(family, key_of("light=1"), 100).size(), 5u) << "six without the forbidden one";
+    EXPECT_EQ(all_qualities(family, key_of("default"), 100).size(), 1u);
+    EXPECT_TRUE(all_qualities(family, key_of("light=1"), 3).empty()) << "more than asked for";
+    std::vector<std::string> singles;
+    for (const Choice& choice : single_choices(family, key_of("light=1 power=rough")))
+        singles.push_back(quality_text(family, choice.key));
+    EXPECT_EQ(singles, (std::vector<std::string>{"power=rough", "power=wild", "shading=vertex"}));
+}
+
+}  // namespace
+}  // namespace gobo::study

@@ -1,0 +1,55 @@
+// Charts: axes that hold their values, and marks where they belong.
+#include "study/chart.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gobo::study {
+namespace {
+
+struct AxisRow {
+    const char* name;
+    bool logarithmic;
+    std::vector<double> values;
+    double least;
+    double low, high;
+};
+
+class AxisFor : public testing::TestWithParam<AxisRow> {};
+
+TEST_P(AxisFor, HoldsAllValues) {
+    const Axis axis = axis_for("x", GetParam().logarithmic, GetParam().values, GetParam().least);
+    EXPECT_NEAR(axis.low, GetParam().low, 1e-9 * std::abs(GetParam().low));
+    EXPECT_NEAR(axis.high, GetParam().high, 1e-9 * std::abs(GetParam().high));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, AxisFor,
+    testing::Values(AxisRow{"linear_begins_at_zero", false, {10, 20}, 0, 0, 21},
+                    AxisRow{"nothing", false, {}, 0, 0, 1},
+                    AxisRow{"full_decades", true, {3, 250}, 1, 1, 1000},
+                    AxisRow{"one_value_has_room", true, {5}, 1, 1, 10},
+                    AxisRow{"zeros_stand_at_the_least", true, {0, 0.5}, 1e-3, 1e-3, 1},
+                    AxisRow{"infinite_errors_stretch_nothing", true, {1, HUGE_VAL, 20}, 1, 1, 100}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(Chart, NamesItsMarksAndEscapesThem) {
+    Chart chart("a < b", {"cost, additions", false, 0, 10}, {"error", true, 1e-3, 1});
+    chart.add({5, 0.1, 1, false, 4, "class=\"point\"", "shading=\"vertex\" & more"});
+    const std::string svg = chart.svg();
+    EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+    EXPECT_NE(svg.find("<title>shading=&quot;vertex&quot; &amp; more</title>"), std::string::npos);
+    EXPECT_NE(svg.find("class=\"point\""), std::string::npos);
+    EXPECT_NE(svg.find("cost, additions"), std::string::npos);
+}
+
+TEST(Chart, LeavesOutWhatHasNoPlace) {
+    Chart chart("t", {"x", false, 0, 1}, {"y", false, 0, 1});
+    const std::string empty = chart.svg();
+    chart.add({NAN, 0.5, 0, false, 4, "", "none"});
+    EXPECT_EQ(chart.svg(), empty);
+}
+
+}  // namespace
+}  // namespace gobo::study
