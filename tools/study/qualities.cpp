@@ -16,6 +16,16 @@ bool is_retired(const Feature& feature, int value) {
     return std::find(feature.retired.begin(), feature.retired.end(), name) != feature.retired.end();
 }
 
+/// A family whose features may name a default apart from their order tells the order by listed(); otherwise
+/// the default is the first.
+template <class AnyFeature>
+int first_listed(const AnyFeature& feature) {
+    if constexpr (requires { feature.listed(); })
+        return feature.listed().front();
+    else
+        return 0;
+}
+
 int value_count(const Family& family, int feature) {
     return static_cast<int>(family.features[static_cast<std::size_t>(feature)].values.size());
 }
@@ -27,8 +37,8 @@ Key with(const Family& family, Key key, int feature, int value) {
 
 }  // namespace
 
-int most_accurate_value(const Feature& /*feature*/) {
-    return 0;
+int most_accurate_value(const Feature& feature) {
+    return first_listed(feature);
 }
 
 std::vector<int> quality_features(const Family& family) {
