@@ -1,4 +1,7 @@
 // Studies of lit: what must hold of their numbers, whatever features it has.
+#include <cmath>
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"

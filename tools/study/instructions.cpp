@@ -63,10 +63,6 @@ Result<double> slope(const DrawCommand& command, const std::string& key) {
 
 }  // namespace
 
-bool has_valgrind() {
-    return printed_by("valgrind --version").has_value();
-}
-
 Result<double> draw_once(const FileSystem& shipped, const Family& family, const SearchPath& search,
                          const StudyPlan& plan, const Context& context, const Key& key, int width,
                          int height) {

@@ -9,9 +9,6 @@
 
 namespace gobo::study {
 
-/// Whether valgrind can be run.
-[[nodiscard]] bool has_valgrind();
-
 /// Draws the plan's first scene once, by a key, and gives the fragments drawn. What callgrind watches.
 [[nodiscard]] Result<double> draw_once(const FileSystem& shipped, const Family& family,
                                        const SearchPath& search, const StudyPlan& plan,
