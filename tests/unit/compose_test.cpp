@@ -1,6 +1,8 @@
 // Composing in memory: which pieces, in which order, with which prologue.
 #include "compose/compose.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -109,6 +111,15 @@ TEST_F(Compose, PrefersThePieceOfTheStage) {
                 ElementsAre("prologue", "fog/none.glsl", "a.vert.glsl", "tiny.vert"));
 }
 
+TEST_F(Compose, TakesAPartOfTheValueThatTheKeyChooses) {
+    files["tiny.frag"] = "#include <fog/distance>\n#include <point/ray>\nvoid main() {}\n";
+    files["fog/distance.glsl"] = files["fog/distance/linear.frag.glsl"] = files["point/ray/point.glsl"] = "";
+    EXPECT_THAT(fragment("fog=linear point=1").names, ElementsAre("prologue", "fog/distance/linear.frag.glsl",
+                                                                  "point/ray/point.glsl", "tiny.frag"));
+    EXPECT_THAT(fragment("default").names, ElementsAre("prologue", "fog/distance.glsl", "tiny.frag"))
+        << "what all other values share; of a count of 0 there is no part";
+}
+
 TEST_F(Compose, AnEarlierFolderOverlaysALaterOne) {
     files = {{"mine/fog/none.glsl", ""},
              {"theirs/fog/none.glsl", ""},
@@ -191,6 +202,29 @@ TEST_F(Compose, PlacesPiecesUnderOtherNames) {
               "b.glsl:1:1: error: 'a.glsl' is in this stage already, under other names\n"
               "    #include \"a.glsl\" with f as h\n    ^\n"
               "  remedy: include it with the same renaming everywhere; a stage holds each piece once\n");
+}
+
+TEST_F(Compose, LaysCountedVaryingsBehindTheOthers) {
+    body = std::string(features) +
+           "[varyings.rays]\ncount = \"point + point\"\ntype = \"vec4\"\nvalue = \"allRays()\"\n"
+           "[varyings.halves]\ncount = \"point\"\ntype = \"vec3\"\nvalue = \"allHalves()\"\n"
+           "[varyings.eyePosition]\nlocation = 3\ntype = \"vec3\"\nvalue = \"vec3(1.0)\"\n";
+    files["tiny.vert"] = "#include <varyings>\nvoid main() { writeVaryings(); }\n";
+    files["tiny.frag"] = "void main() { halves; rays; eyePosition; }\n";
+    const auto declarations = [&](const std::string& key) {
+        std::string text = fragment(key).source;
+        text = text.substr(text.find(" in\n") + 4);
+        text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
+        return text.substr(0, text.find("void"));
+    };
+    EXPECT_EQ(declarations("point=2"),
+              "VARYING(6) vec4 rays[4];VARYING(4) vec3 halves[2];VARYING(3) vec3 eyePosition;");
+    EXPECT_EQ(declarations("point=1"),
+              "VARYING(5) vec4 rays[2];VARYING(4) vec3 halves[1];VARYING(3) vec3 eyePosition;");
+    EXPECT_THAT(vertex("point=1").source,
+                testing::HasSubstr("vec4 rays[2]; void writeVaryingRays() { rays = allRays(); }"));
+    files["tiny.frag"] = "void main() { rays; }\n";
+    EXPECT_EQ(declarations("point=1"), "VARYING(0) vec4 rays[2];");
 }
 
 TEST_F(Compose, PrintsTheWholeCycle) {

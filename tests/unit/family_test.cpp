@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "small_families.hpp"
 
@@ -116,6 +117,21 @@ where = "point < 2"
     EXPECT_EQ(family.default_selection->where, "point < 2");
 }
 
+TEST(ReadFamily, PutsAnExplicitDefaultFirstAndKeepsTheOrderOfTheList) {
+    const Family family = read_family(
+                              "name = \"tiny\"\nvertex = \"v\"\nfragment = \"f\"\n"
+                              "[features.sum]\nrole = \"quality\"\n"
+                              "values = [\"exact\", \"good\", \"plain\", \"poor\"]\n"
+                              "default = \"plain\"\n",
+                              "tiny.toml", {})
+                              .value();
+    const Feature& sum = family.features[0];
+    EXPECT_THAT(sum.values, ElementsAre("plain", "exact", "good", "poor"));
+    EXPECT_THAT(sum.listed(), ElementsAre(1, 2, 0, 3));
+    EXPECT_EQ(key_text(family, {0}), "default");
+    EXPECT_EQ(key_text(family, {2}), "sum=good");
+}
+
 /// What stands behind the three lines of the head, and the message it earns.
 struct BadRow {
     const char* name;
@@ -188,6 +204,63 @@ const BadRow bad_rows[] = {
      "    values = [\"a\", \"b\", \"a\"]\n"
      "             ^\n"
      "  remedy: list it once\n"},
+    {"varying_counted_by_a_choice",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "[varyings.rays]\n"
+     "count = \"fog\"\n"
+     "type = \"vec3\"\n"
+     "value = \"v\"\n",
+     "tiny.toml:7:9: error: varying 'rays' is counted by 'fog', which is no count\n"
+     "    count = \"fog\"\n"
+     "            ^\n"
+     "  remedy: there are none\n"},
+    {"varying_with_location_and_count",
+     "[features.point]\n"
+     "count = [0, 4]\n"
+     "constant = \"N\"\n"
+     "[varyings.rays]\n"
+     "count = \"point\"\n"
+     "location = 1\n"
+     "type = \"vec3\"\n"
+     "value = \"v\"\n",
+     "tiny.toml:9:12: error: varying 'rays' has a location and a count\n"
+     "    location = 1\n"
+     "               ^\n"
+     "  remedy: leave the location out: counted varyings lie behind the others\n"},
+    {"domain_last_is_no_range",
+     "[domain]\n"
+     "\"rays[]\" = { length = [0, 1], last = [2] }\n",
+     "tiny.toml:5:39: error: the domain of 'rays[]' is no range\n"
+     "    \"rays[]\" = { length = [0, 1], last = [2] }\n"
+     "                                          ^\n"
+     "  remedy: write last = [low, high]\n"},
+    {"default_unknown",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "default = \"twoo\"\n",
+     "tiny.toml:6:11: error: feature 'fog' has no value 'twoo' to default to\n"
+     "    default = \"twoo\"\n"
+     "              ^\n"
+     "  remedy: did you mean 'two'?\n"},
+    {"default_of_a_count",
+     "[features.point]\n"
+     "count = [0, 4]\n"
+     "default = \"1\"\n"
+     "constant = \"N\"\n",
+     "tiny.toml:6:11: error: feature 'point' cannot name its default\n"
+     "    default = \"1\"\n"
+     "              ^\n"
+     "  remedy: only a choice can: a count's is 0, a define's is off\n"},
+    {"retired_explicit_default",
+     "[features.fog]\n"
+     "values = [\"a\", \"b\"]\n"
+     "default = \"b\"\n"
+     "retired = [\"b\"]\n",
+     "tiny.toml:7:11: error: feature 'fog' cannot retire 'b'\n"
+     "    retired = [\"b\"]\n"
+     "              ^\n"
+     "  remedy: the default cannot be retired\n"},
     {"retired_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"

@@ -153,7 +153,7 @@ class Composer {
             if (!errors.empty()) return errors;
         }
         placement.placed.push_back(
-            library_.generated(varyings_piece(*placement.varyings, StageKind::vertex)));
+            library_.generated(varyings_piece(*placement.varyings, placement.key, StageKind::vertex)));
         return {};
     }
 
@@ -201,15 +201,20 @@ class Composer {
     /// The declarations of varyings, each on the line of the family file where it stands, so that a
     /// diagnostic and the module's debug lines name that place; in the vertex stage also the functions that
     /// write them.
-    [[nodiscard]] Piece varyings_piece(const std::vector<int>& varyings, StageKind stage) const {
+    [[nodiscard]] Piece varyings_piece(const std::vector<int>& varyings, const Key& key,
+                                       StageKind stage) const {
         std::map<int, std::string> lines;
         std::string calls;
+        int behind = 0;  // the first location that is still free
         for (const int index : varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             const std::string qualifier = varying.interpolation.empty() ? "" : varying.interpolation + " ";
             std::string& line = lines[varying.place.line];
-            line +=
-                fmt::format("{}VARYING({}) {} {};", qualifier, varying.location, varying.type, varying.name);
+            const int size = size_of(varying, key);
+            const int location = varying.counts.empty() ? varying.location : behind;
+            behind = location + std::max(size, 1);
+            line += fmt::format("{}VARYING({}) {} {}{};", qualifier, location, varying.type, varying.name,
+                                varying.counts.empty() ? "" : fmt::format("[{}]", size));
             if (stage == StageKind::fragment) continue;
             const std::string writer = writer_of(varying);
             line += fmt::format(" void {}() {{ {} = {}; }}", writer, varying.name, varying.value);
@@ -227,6 +232,13 @@ class Composer {
             varyings.empty() ? family_.path
                              : family_.varyings[static_cast<std::size_t>(varyings.front())].place.file;
         return {fmt::format("{}[varyings]", family_.name), path, std::move(text), false};
+    }
+
+    /// How many elements a counted varying has.
+    static int size_of(const Varying& varying, const Key& key) {
+        int size = 0;
+        for (const int feature : varying.counts) size += key[static_cast<std::size_t>(feature)];
+        return size;
     }
 
     /// eyePosition -> writeVaryingEyePosition
@@ -261,7 +273,8 @@ class Composer {
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
         Stage stage{placement.stage, {library_.generated(prologue(placement, declares))}};
         if (is_fragment && declares) {
-            stage.pieces.push_back(library_.generated(varyings_piece(read, StageKind::fragment)));
+            stage.pieces.push_back(
+                library_.generated(varyings_piece(read, placement.key, StageKind::fragment)));
         }
         stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), placement.placed.end());
         const auto [at, is_new] = numbers_.try_emplace(stage.pieces, static_cast<int>(stages_.size()));

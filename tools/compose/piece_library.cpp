@@ -22,6 +22,11 @@ std::string with_infix(const std::string& path, StageKind stage) {
     return fmt::format("{}.{}{}", path.substr(0, dot), infix_of(stage), path.substr(dot));
 }
 
+/// `#include <feature/part>`: values without a file of their own share FEATURE/PART.glsl.
+bool is_part(const Include& include) {
+    return include.target.find('/') != std::string::npos;
+}
+
 }  // namespace
 
 PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, std::vector<std::string> interest)
@@ -86,7 +91,9 @@ Result<std::optional<int>> PieceLibrary::find_value(const Include& include, cons
     if (is_count && value == 0) return std::nullopt;
     const std::string& value_name = is_count ? feature.name : feature.values[static_cast<std::size_t>(value)];
     const std::string path = fmt::format("{}/{}.glsl", include.target, value_name);
-    for (const std::string& candidate : {with_infix(path, stage), path}) {
+    std::vector<std::string> candidates = {with_infix(path, stage), path};
+    if (is_part(include)) candidates.push_back(include.target + ".glsl");
+    for (const std::string& candidate : candidates) {
         Result<std::optional<int>> piece = load(candidate);
         if (!piece || *piece) return piece;
     }

@@ -11,12 +11,13 @@
 namespace gobo {
 namespace {
 
-std::string_view role_text(Role role) {
-    switch (role) {
+std::string_view role_text(const Feature& feature) {
+    switch (feature.role) {
         case Role::effect:
             return "effect";
         case Role::quality:
-            return "quality, most accurate first";
+            return feature.default_place == 0 ? "quality, most accurate first"
+                                              : "quality, most accurate first behind the default";
         case Role::pipeline:
             return "pipeline";
     }
@@ -26,8 +27,8 @@ std::string_view role_text(Role role) {
 std::string enum_text(const Feature& feature, const CppFeature& named) {
     // A quarter thousand values fit in a byte; nobody has more, but an enum must not depend on that.
     const std::string_view type = feature.values.size() < 256 ? "std::uint8_t" : "std::uint16_t";
-    return fmt::format("/// {} ({}).\nenum class {} : {} {{ {} }};\n\n", feature.name,
-                       role_text(feature.role), named.type, type, fmt::join(named.enumerators, ", "));
+    return fmt::format("/// {} ({}).\nenum class {} : {} {{ {} }};\n\n", feature.name, role_text(feature),
+                       named.type, type, fmt::join(named.enumerators, ", "));
 }
 
 std::string member_text(const Feature& feature, const CppFeature& named) {

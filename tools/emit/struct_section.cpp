@@ -220,6 +220,7 @@ std::string domain_text(const std::vector<Domain>& domains, const std::string& p
     std::string text =
         fmt::format("{}[{}, {}]", domain->of_length ? "length in " : "", domain->low, domain->high);
     for (const double value : domain->also) text += fmt::format(", or {}", value);
+    if (!domain->last.empty()) text += fmt::format("; last [{}, {}]", domain->last[0], domain->last[1]);
     return text;
 }
 

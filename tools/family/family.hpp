@@ -32,13 +32,17 @@ struct Feature {
     Role role = Role::effect;
     FeatureKind kind = FeatureKind::choice;
     std::vector<std::string>
-        values;  ///< in the family's order; the first is the default. Counts: "0", "1", ...
+        values;             ///< the default, then the others as the family lists them. Counts: "0", ...
+    int default_place = 0;  ///< where the family's list has the default: 0 unless it names another
     std::vector<std::string> retired;  ///< values that measurement has shown to be dominated
     std::string macro;  ///< the constant of a count or the macro of a define; empty for a choice
     Place place;        ///< where the family declares it
 
     /// The index of a value; nothing where there is no such value.
     [[nodiscard]] std::optional<int> index_of(std::string_view value) const;
+
+    /// The indices of the values as the family lists them: most accurate first where the role is quality.
+    [[nodiscard]] std::vector<int> listed() const;
 };
 
 /// What the family demands of its keys.
@@ -61,7 +65,10 @@ struct Rule {
 struct Varying {
     std::string name;  ///< the GLSL identifier
     std::string type;  ///< the GLSL type
-    int location = 0;
+    int location = 0;  ///< of a single varying
+    /// Of a counted one, an array, the counts whose sum is its size; it lies behind all single ones that are
+    /// read, and `location` is 0. Empty: it is single.
+    std::vector<int> counts;
     std::string interpolation;  ///< "flat", "noperspective", "smooth", or empty
     std::string piece;          ///< the piece that the vertex stage includes for it
     std::string value;          ///< the GLSL expression that the vertex stage writes
@@ -74,7 +81,10 @@ struct Domain {
     std::string name;
     double low = 0;
     double high = 0;
-    bool of_length = false;    ///< the range is of the vector's length
+    bool of_length = false;  ///< the range is of the vector's length
+    /// Where not empty, the low and high end of the vector's last component, a quantity of its own; the range
+    /// above is then of the others.
+    std::vector<double> last;
     std::vector<double> also;  ///< values allowed besides the range (0 for an attenuation coefficient)
     Place place;
 };
@@ -126,7 +136,7 @@ struct Family {
     std::string fragment;  ///< likewise
     std::vector<Feature> features;  ///< sorted by name
     std::vector<Rule> rules;
-    std::vector<Varying> varyings;  ///< sorted by location
+    std::vector<Varying> varyings;  ///< single ones by location, then counted ones by name
     std::vector<Domain> domains;    ///< sorted by name
     std::vector<RenderValue> render;
     std::vector<Relation> relations;  ///< in the order of the file

@@ -1,6 +1,8 @@
 #include "family/key.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -43,6 +45,14 @@ std::optional<int> Feature::index_of(std::string_view value) const {
     const auto found = std::find(values.begin(), values.end(), value);
     if (found == values.end()) return std::nullopt;
     return static_cast<int>(found - values.begin());
+}
+
+std::vector<int> Feature::listed() const {
+    std::vector<int> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto last = order.begin() + std::min<std::ptrdiff_t>(default_place + 1, std::ssize(order));
+    if (default_place > 0) std::rotate(order.begin(), order.begin() + 1, last);
+    return order;
 }
 
 std::optional<int> Family::index_of(std::string_view feature) const {

@@ -11,10 +11,16 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     domain.place = reader.place_of(node);
     std::vector<double> range;
     if (const toml::table* table = node.as_table()) {
-        reader.only(*table, fmt::format("the domain of '{}'", domain.name), {"range", "length", "also"});
+        reader.only(*table, fmt::format("the domain of '{}'", domain.name),
+                    {"range", "length", "last", "also"});
         domain.of_length = table->contains("length");
         range = reader.numbers(*table, domain.of_length ? "length" : "range");
         domain.also = reader.numbers(*table, "also");
+        domain.last = reader.numbers(*table, "last");
+        if (!domain.last.empty() && (domain.last.size() != 2 || domain.last[0] > domain.last[1])) {
+            reader.error(*table->get("last"), fmt::format("the domain of '{}' is no range", domain.name),
+                         "write last = [low, high]");
+        }
     } else {
         range = reader.numbers_of(node, domain.name);
     }

@@ -49,10 +49,29 @@ void read_interpolation(TomlReader& reader, const toml::table& row, const std::s
                  suggestion(varying.interpolation, known));
 }
 
+/// `count = "point + spot"`: the counts by whose sum a varying is an array.
+void read_counts(TomlReader& reader, const toml::table& row, const std::string& what,
+                 const std::vector<Feature>& features, Varying& varying) {
+    std::vector<std::string> names;
+    for (const Feature& feature : features)
+        if (feature.kind == FeatureKind::count) names.push_back(feature.name);
+    for (const std::string& part : split(reader.string(row, "count").value_or(""), '+')) {
+        const std::string name(trim(part));
+        const auto feature = std::find_if(features.begin(), features.end(),
+                                          [&](const Feature& one) { return one.name == name; });
+        if (feature != features.end() && feature->kind == FeatureKind::count) {
+            varying.counts.push_back(static_cast<int>(feature - features.begin()));
+            continue;
+        }
+        reader.error(*row.get("count"), fmt::format("{} is counted by '{}', which is no count", what, name),
+                     suggestion(name, names));
+    }
+}
+
 /// `varyings` are sorted by location.
 void refuse_shared_locations(TomlReader& reader, const std::vector<Varying>& varyings) {
     for (std::size_t i = 1; i < varyings.size(); ++i) {
-        if (varyings[i].location != varyings[i - 1].location) continue;
+        if (!varyings[i].counts.empty() || varyings[i].location != varyings[i - 1].location) continue;
         reader.error(varyings[i].place,
                      fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
                                  varyings[i].location, varyings[i - 1].name),
@@ -60,7 +79,14 @@ void refuse_shared_locations(TomlReader& reader, const std::vector<Varying>& var
     }
 }
 
-std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) {
+/// Single varyings by location, counted ones behind them by name.
+bool lies_before(const Varying& a, const Varying& b) {
+    if (a.counts.empty() != b.counts.empty()) return a.counts.empty();
+    return a.counts.empty() && a.location < b.location;
+}
+
+std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
+                                   const std::vector<Feature>& features) {
     std::vector<Varying> varyings;
     const toml::table* table = reader.table(root, "varyings");
     if (table == nullptr) return varyings;
@@ -75,16 +101,22 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root) 
                          "write [varyings.NAME] with location, type, piece and value");
             break;
         }
-        reader.only(*row, what, {"location", "type", "interpolation", "piece", "value"});
-        read_location(reader, *row, what, varying);
+        reader.only(*row, what, {"location", "count", "type", "interpolation", "piece", "value"});
+        if (row->contains("count") && !row->contains("location"))
+            read_counts(reader, *row, what, features, varying);
+        else
+            read_location(reader, *row, what, varying);
+        if (row->contains("count") && row->contains("location")) {
+            reader.error(*row->get("location"), what + " has a location and a count",
+                         "leave the location out: counted varyings lie behind the others");
+        }
         varying.type = reader.required_string(*row, what, "type");
         varying.value = reader.required_string(*row, what, "value");
         varying.piece = reader.string(*row, "piece").value_or("");
         read_interpolation(reader, *row, what, varying);
         varyings.push_back(std::move(varying));
     }
-    std::stable_sort(varyings.begin(), varyings.end(),
-                     [](const Varying& a, const Varying& b) { return a.location < b.location; });
+    std::stable_sort(varyings.begin(), varyings.end(), lies_before);
     refuse_shared_locations(reader, varyings);
     return varyings;
 }
@@ -192,7 +224,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.fragment = reader.required_string(root, "the family", "fragment");
     family.features = read_features(reader, root);
     family.rules = read_rules(reader, root, family.features);
-    family.varyings = read_varyings(reader, root);
+    family.varyings = read_varyings(reader, root, family.features);
     family.domains = read_domains(reader, root);
     family.render = read_render(reader, root);
     family.relations = read_relations(reader, root, family.features);

@@ -27,6 +27,22 @@ bool is_value_name(std::string_view name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), is_identifier_part);
 }
 
+/// Keys hold indices, and everywhere index 0 is the default: where the family names another than the first
+/// value, that one moves to the front.
+void put_default_first(TomlReader& reader, const toml::table& table, Feature& feature,
+                       const std::string& what) {
+    const std::optional<std::string> name = reader.string(table, "default");
+    if (!name) return;
+    const std::optional<int> index = feature.index_of(*name);
+    if (!index) {
+        reader.error(*table.get("default"), fmt::format("{} has no value '{}' to default to", what, *name),
+                     suggestion(*name, feature.values));
+        return;
+    }
+    feature.default_place = *index;
+    std::rotate(feature.values.begin(), feature.values.begin() + *index, feature.values.begin() + *index + 1);
+}
+
 void read_choice(TomlReader& reader, const toml::table& table, Feature& feature, const std::string& what) {
     feature.kind = FeatureKind::choice;
     feature.values = reader.strings(table, "values");
@@ -46,6 +62,7 @@ void read_choice(TomlReader& reader, const toml::table& table, Feature& feature,
                          "list it once");
         }
     }
+    put_default_first(reader, table, feature, what);
     for (const std::string& value : feature.retired) {
         const auto index = feature.index_of(value);
         if (!index || *index == 0) {
@@ -87,10 +104,14 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
                      "write [features.NAME] with values, count or define");
         return feature;
     }
-    reader.only(*table, what, {"role", "values", "retired", "count", "constant", "define"});
+    reader.only(*table, what, {"role", "values", "default", "retired", "count", "constant", "define"});
     feature.role = read_role(reader, *table, what);
     const int kinds = (table->contains("values") ? 1 : 0) + (table->contains("count") ? 1 : 0) +
                       (table->contains("define") ? 1 : 0);
+    if (table->contains("default") && !table->contains("values")) {
+        reader.error(*table->get("default"), what + " cannot name its default",
+                     "only a choice can: a count's is 0, a define's is off");
+    }
     if (kinds != 1) {
         reader.error(node, what + " must be one of a choice, a count and a define",
                      "give it exactly one of values, count and define");

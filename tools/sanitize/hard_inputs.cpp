@@ -46,8 +46,9 @@ class PointMaker {
     }
 
     void draw(const InputField& field) {
-        const std::span<double> numbers = value(field);
+        const std::span<double> numbers = value(field).first(field.ranged());
         if (field.is_texture) return draw_texel(numbers);
+        if (field.ranged() < field.components) draw_last(field);
         if (field.domain.of_length) {
             hard_direction(numbers, random_);
             const double length = number(field);
@@ -59,6 +60,12 @@ class PointMaker {
         } else {
             for (double& component : numbers) component = number(field);
         }
+    }
+
+    void draw_last(const InputField& field) {
+        const Domain last = field.last_domain();
+        value(field).back() =
+            random_.unit() < hardness_ ? random_.pick(hard_numbers(last)) : ordinary_number(last, random_);
     }
 
     void draw_texel(std::span<double> texel) {
@@ -99,9 +106,11 @@ class PointMaker {
     }
 
     /// Equal where the domain lets it, otherwise along it.
-    void align(const InputField& to, std::span<const double> direction) {
+    void align(const InputField& to, std::span<const double> whole) {
+        const std::span<const double> direction =
+            whole.first(to.ranged());  // a last quantity keeps its value
         const double length = length_of(direction);
-        const std::span<double> numbers = value(to);
+        const std::span<double> numbers = value(to).first(to.ranged());
         if (to.domain.of_length) {
             const double factor = length > 0 ? length_of(numbers) / length : 0;
             for (std::size_t i = 0; i < numbers.size() && length > 0; ++i) numbers[i] = direction[i] * factor;

@@ -57,6 +57,14 @@ bool InputField::is_vector() const {
     return is_real() && (type == "vec2" || type == "vec3" || type == "vec4");
 }
 
+Domain InputField::last_domain() const {
+    Domain last;
+    last.name = name;
+    last.low = domain.last.at(0);
+    last.high = domain.last.at(1);
+    return last;
+}
+
 InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains) {
     InputSpace space;
     for (const auto* ports : {&program.inputs, &program.uniforms})
@@ -74,7 +82,11 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
     return space;
 }
 
-void bring_into_domain(const InputField& field, std::span<double> numbers) {
+void bring_into_domain(const InputField& field, std::span<double> all) {
+    if (field.ranged() < all.size())
+        all.back() =
+            static_cast<double>(static_cast<float>(nearest_allowed(field.last_domain(), all.back())));
+    const std::span<double> numbers = all.first(field.ranged());
     if (field.domain.of_length) {
         double square = 0;
         for (const double number : numbers) square += number * number;

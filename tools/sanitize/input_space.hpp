@@ -24,6 +24,10 @@ struct InputField {
 
     [[nodiscard]] bool is_real() const { return scalar == evaluate::Scalar::real; }
     [[nodiscard]] bool is_vector() const;
+    /// Components that the domain's range is of: all but a last one that is a quantity of its own.
+    [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }
+    /// The domain of that last component.
+    [[nodiscard]] Domain last_domain() const;
     [[nodiscard]] bool is_number() const { return is_real() && components == 1; }
 };
 

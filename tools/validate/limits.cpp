@@ -17,6 +17,11 @@ int components_of(const std::string& type) {
     return columns * (is_rectangular ? type[digit + 2] - '0' : columns);
 }
 
+/// Locations of a type that is no array: one per column of a matrix, 1 for all others.
+int columns_of(const std::string& type) {
+    return type.find("mat") == std::string::npos ? 1 : type[type.find_first_of("234")] - '0';
+}
+
 int elements_of(const std::vector<int>& array) {
     int count = 1;
     for (const int extent : array) count *= extent;
@@ -76,9 +81,14 @@ Diagnostics beyond_limits(const Interface& vertex, const Interface& fragment, co
     checker.stage(vertex, "vertex", limits);
     checker.stage(fragment, "fragment", limits);
     int components = 0;
-    for (const Variable& input : fragment.inputs)
+    int vectors = 0;
+    for (const Variable& input : fragment.inputs) {
         components += components_of(input.type) * elements_of(input.array);
+        vectors += columns_of(input.type) * elements_of(input.array);
+    }
     checker.at_most(components, limits.varying_components, "varying components:", "MAX_VARYING_COMPONENTS");
+    if (components <= limits.varying_components)
+        checker.at_most(vectors, limits.varying_vectors, "varying vectors:", "MAX_VARYING_VECTORS");
     checker.at_most(static_cast<int>(vertex.inputs.size()), limits.vertex_attributes,
                     "vertex attributes:", "MAX_VERTEX_ATTRIBS");
     return std::move(checker).found();

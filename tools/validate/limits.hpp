@@ -15,6 +15,7 @@ struct Limits {
     int uniform_blocks_per_stage = 12;  ///< MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS
     int uniform_buffer_bindings = 84;   ///< MAX_UNIFORM_BUFFER_BINDINGS
     int varying_components = 60;        ///< MAX_VARYING_COMPONENTS
+    int varying_vectors = 15;           ///< MAX_VARYING_VECTORS: locations of four components each
     int samplers_per_stage = 16;        ///< MAX_TEXTURE_IMAGE_UNITS
     int vertex_attributes = 16;         ///< MAX_VERTEX_ATTRIBS
 };
