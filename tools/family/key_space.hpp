@@ -42,13 +42,18 @@ class KeySpace {
     [[nodiscard]] std::size_t feature_count() const { return value_counts_.size(); }
     [[nodiscard]] int value_count(std::size_t feature) const { return value_counts_[feature]; }
 
-  private:
+    /// No key leads this way.
     static constexpr int dead = -1;
 
+    /// What may still follow once the features before a level are decided.
     struct Node {
         std::vector<int> next;  ///< per value of the level's feature: a node of the next level, or dead
     };
 
+    /// The nodes that decide a feature; level 0 holds the root alone. Every node lies on the way of some key.
+    [[nodiscard]] const std::vector<Node>& level(std::size_t feature) const { return levels_[feature]; }
+
+  private:
     std::vector<int> value_counts_;
     std::vector<std::vector<Node>>
         levels_;  ///< levels_[0] holds the root, or nothing where no key is allowed
