@@ -3,7 +3,7 @@
 // Model:  z = |p|.
 // Space:  eye. Range: positions within 1e20.
 // Edges:  the length does not overflow (H-F2).
-#include "guards/vector_length.glsl"
+#include <guards/vector_length>
 #include "surface/position.glsl"
 
 /// How much fog lies before the surface, as a distance; not negative.

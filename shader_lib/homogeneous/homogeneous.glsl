@@ -5,7 +5,7 @@
 // Space:  eye. Ranges: components within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
 // Edges:  |w| below 2^-20 counts as 0; a light at the surface's own position and a zero direction give no
 //         light (H-L1).
-#include "guards/polar.glsl"
+#include <guards/polar>
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
 #include "surface/position.glsl"

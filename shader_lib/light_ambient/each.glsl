@@ -8,7 +8,7 @@
 // Edges:  it needs neither a normal nor a direction to the light (H-N1, H-L1).
 #include <material>
 #include <vertex_color>
-#include "light_sum/plain.glsl"
+#include <light_sum>
 
 /// A_l of each light: first the directional ones, then point, spot and homogeneous lights.
 BLOCK(13, LightAmbients) {

@@ -11,7 +11,7 @@
 #include <sides>
 #include <specular>
 #include <vertex_color>
-#include "light_sum/plain.glsl"
+#include <light_sum>
 
 /// The normal that the lights are weighed against, and the scattered light so far.
 vec3 litNormal;

@@ -2,36 +2,22 @@
 //
 // Model:  s = (P - p) / d, attenuated by distance.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights.
-// Space:  eye. Ranges: positions within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
+// Space:  eye. Ranges: as the lights'.
 // Edges:  a light at the surface's own position gives no light (H-L1).
 #include <point_shadows>
-#include "guards/polar.glsl"
-#include "lighting/attenuation.glsl"
+#include <shading/point_ray>
 #include "lighting/response.glsl"
-#include "surface/position.glsl"
-
-/// `position` is in eye space, its w is 1 (L6); `attenuation` holds k_c, k_l, k_q.
-struct PointLight {
-    vec4 position;
-    vec3 color;
-    vec3 attenuation;
-};
-
-BLOCK(5, PointLights) {
-    PointLight lights[POINT_LIGHTS];
-} pointLights;
+#include "point/lights.glsl"
 
 /// Adds every point light to the surface's response.
 void addPointLights() {
     for (int i = 0; i < POINT_LIGHTS; ++i) {
-        PointLight light = pointLights.lights[i];
-        vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
-        float fading = attenuation(light.attenuation, ray.w);
-        float share = fading;
+        LightRay ray = pointRay(i);
+        float share = ray.share;
 #if POINT_SHADOWS > 0
         if (i < POINT_SHADOWS) share *= pointVisibility(i);
 #endif
-        addLightAmbient(fading);
-        addLight(ray.xyz, share * light.color);
+        addLightAmbient(ray.fading);
+        addLight(ray.toLight, share * pointLights.lights[i].color);
     }
 }

@@ -8,7 +8,7 @@
 // Edges:  nothing is mirrored where there is no normal, nor at the viewer itself (H-N1).
 #include <material>
 #include <sides>
-#include "viewer/local.glsl"
+#include <viewer>
 
 /// How much of the map is seen, and the rotation from eye space to its axes.
 BLOCK(18, Reflection) {

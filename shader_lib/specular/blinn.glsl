@@ -6,12 +6,18 @@
 // Space:  eye. Ranges: n and s unit, shininess 0 to 1e6; factor 0 to 1.
 // Edges:  no highlight from a light exactly behind the viewer's ray (H-N4), except at shininess 0, where the
 //         factor is 1 for every direction (H-S1); only called where n.s > 0 (S4, H-S4).
-#include "angle/halfway.glsl"
-#include "power/exact.glsl"
+#include <power/highlight>
+#include <shading/halfway>
 #include "specular/highlights.glsl"
 
-/// Adds the highlight of a light from the unit direction `toLight`.
+/// Prepares what all highlights share. To be called before the first light.
+void beginHighlights() {
+    beginHalfways();
+    reflected = emptySum();
+}
+
+/// Adds the highlight of a light from the direction `toLight`, unit where the key has directions made so.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
-    float versine = versineToHalfway(normal, toLight, toViewer);
-    addTerm(reflected, cosinePower(versine, material.shininess) * light);
+    float versine = versineOfHighlight(normal, toLight);
+    addTerm(reflected, highlightPower(versine, material.shininess) * light);
 }

@@ -5,12 +5,22 @@
 //         Cookbook, ch. 2, Implementing Per-vertex Ambient, Diffuse and Specular Shading.
 // Space:  eye. Ranges: n and s unit, shininess 0 to 1e6; factor 0 to 1.
 // Edges:  at shininess 0 the factor is 1 for every direction (H-S1); only called where n.s > 0 (S4, H-S4).
-#include "angle/versine.glsl"
-#include "power/exact.glsl"
+#include <normal/versine>
+#include <power/highlight>
+#include <viewer>
 #include "specular/highlights.glsl"
 
-/// Adds the highlight of a light from the unit direction `toLight`.
+/// The unit vector to the viewer.
+vec3 toViewer;
+
+/// Prepares what all highlights share. To be called before the first light.
+void beginHighlights() {
+    toViewer = towardViewer();
+    reflected = emptySum();
+}
+
+/// Adds the highlight of a light from the direction `toLight`, unit where the key has directions made so.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
     vec3 mirrored = reflect(-toLight, normal);
-    addTerm(reflected, cosinePower(versineBetween(mirrored, toViewer), material.shininess) * light);
+    addTerm(reflected, highlightPower(highlightVersine(mirrored, toViewer), material.shininess) * light);
 }

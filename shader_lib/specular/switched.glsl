@@ -3,9 +3,15 @@
 // Model:  that of the chosen highlight.
 // Source: as the highlights'.
 // Space:  eye. Edges: as the highlights'; an unknown number is no highlight.
-#include "specular/blinn.glsl" with addHighlight as addBlinnHighlight
-#include "specular/phong.glsl" with addHighlight as addPhongHighlight
+#include "specular/blinn.glsl" with addHighlight as addBlinnHighlight, beginHighlights as beginBlinnHighlights
+#include "specular/phong.glsl" with addHighlight as addPhongHighlight, beginHighlights as beginPhongHighlights
 #include "uber/switches.glsl"
+
+/// Prepares what all highlights share. To be called before the first light.
+void beginHighlights() {
+    beginBlinnHighlights();
+    beginPhongHighlights();
+}
 
 /// Adds the highlight of a light from the unit direction `toLight`.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {

@@ -6,7 +6,7 @@
 // Space:  any. Ranges: versines 0 to 2 (1 - cos of the half angle), exponent 0 to 1e6; result 0 to 1.
 // Edges:  outer angle 0 is nothing, 90 degrees the half space, 180 degrees everything (H-P2); inner = outer
 //         is a hard edge (H-P1); the edge is true to 0.3 % of the angle down to 1e-4 radians (H-P4).
-#include "angle/versine.glsl"
+#include <spot_edge>
 #include "power/exact.glsl"
 
 /// The edge at a versine: its order of questions leaves the division only where inner < outer.
@@ -19,6 +19,6 @@ float coneEdge(float versine, float innerVersine, float outerVersine) {
 
 /// The share of the light on the unit vector `ray`, which leads away from the light.
 float coneFactor(vec3 axis, vec3 ray, float innerVersine, float outerVersine, float exponent) {
-    float versine = min(versineBetween(axis, ray), 1.9999998);  // H-P2: 180 degrees holds all directions
+    float versine = min(coneVersine(axis, ray), 1.9999998);  // H-P2: 180 degrees holds all directions
     return coneEdge(versine, innerVersine, outerVersine) * cosinePower(versine, exponent);
 }

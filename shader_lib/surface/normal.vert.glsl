@@ -4,7 +4,7 @@
 // Spaces: attribute `normal` in object space, result in eye space. Range: normals of any length.
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2.
 // Edges:  a zero normal stays zero: no light, ambient and emission only (H-N1, H-G1).
-#include "guards/unit_vector.glsl"
+#include <guards/unit_vector>
 #include "surface/transform.vert.glsl"
 
 ATTRIBUTE(1) vec3 normal;

@@ -4,7 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
 // Space:  eye. Ranges: as those of directional, point and spot lights.
 // Edges:  as theirs.
-#include "guards/polar.glsl"
+#include <guards/polar>
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
 #include "spot/cone.glsl"

@@ -93,7 +93,7 @@ TEST_P(LitMatrix, TheMostShadowsOfEachKindAreValid) {
                       "directional_shadows", "point_shadows", "spot_shadows", "shadow_filter"};
     selection.where =
         "directional == 8 && point == 8 && spot == 8 && directional_shadows + point_shadows + spot_shadows "
-        "== 12";
+        "== 12 && (shading == fragment || shading == vertex)";
     const Composition composition = compose_lit(selection, GetParam());
     EXPECT_EQ(composition.permutations.size() % 6, 0U) << "2 shadings, 3 filters";
     EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");

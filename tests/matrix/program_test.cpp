@@ -146,7 +146,8 @@ TEST(Outputs, CountTheSelectionOfTheEvaluatedMatrix) {
         output_of(
             "gobo list lit --all --count --over shading,directional,point,spot,specular,diffuse,fog,depth "
             "--where 'directional <= 1 && point <= 5 && spot <= 1 && specular != phong && "
-            "(fog == none || fog == linear) && (diffuse == lambert || diffuse == toon)'"),
+            "(fog == none || fog == linear) && (diffuse == lambert || diffuse == toon) && "
+            "(shading == fragment || shading == vertex)'"),
         "1668\n");
 }
 

@@ -12,6 +12,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "oracle/power.hpp"
 
 namespace gobo::oracle {
 namespace {
@@ -233,7 +234,7 @@ TEST(Oracle, GivesNoLightWhereADirectionIsMissing) {
 
 TEST(Oracle, HasNoHighlightFromALightExactlyBehindTheViewersRay) {
     EXPECT_EQ(highlight_angle(Specular::blinn, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}), std::acos(0.0));
-    EXPECT_NEAR(lobe(std::acos(0.0), 10), 0, kRounding);
+    EXPECT_NEAR(lobe(Power::exact, versine_of(std::acos(0.0)), 10), 0, kRounding);
 }
 
 TEST(Oracle, TellsHowNearADecisionIsAndGivesTheOtherSideWithinTheEdge) {
@@ -294,8 +295,8 @@ TEST(Oracle, ApproachesSimplerModelsInTheLimit) {
 TEST(Oracle, MakesBlinnsHighlightAsWideAsPhongsAtFourTimesTheExponent) {
     // h is half as far from n as r is from v, and cos(a)^m is exp(-m a^2 / 2) to fourth order in a.
     for (const double degrees : {0.5, 1.0, 2.0}) {
-        const double phong = lobe(degrees * kDegree, 100);
-        const double blinn = lobe(degrees / 2 * kDegree, 400);
+        const double phong = lobe(Power::exact, versine_of(degrees * kDegree), 100);
+        const double blinn = lobe(Power::exact, versine_of(degrees / 2 * kDegree), 400);
         const double fourth_order = 100 * std::pow(degrees * kDegree, 4) / 12;
         EXPECT_NEAR(phong, blinn, 1.01 * fourth_order) << degrees << " degrees";
     }

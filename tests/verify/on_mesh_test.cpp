@@ -61,7 +61,7 @@ TEST(OnMesh, FindsWrongInterpolationsThatPointsCannotSee) {
 TEST(OnMesh, FindsAWrongPieceOfEitherStage) {
     const Family family = lit_family();
     const std::vector<std::pair<std::string, std::string>> pieces = {
-        {"surface/normal.frag.glsl", "unitVector(eyeNormal)"},
+        {"surface/normal.frag.glsl", "shadingDirection(eyeNormal)"},
         {"surface/normal.vert.glsl", "transform.normalMatrix * normal"}};
     verify::VerifyOptions meshes_alone = with_meshes();
     meshes_alone.vertices = meshes_alone.fragments = 0;

@@ -53,7 +53,7 @@ constexpr Disagreement disagreements[] = {
      "vec3 diffuse = 1.001 * tinted"},
     {"fog by another distance", "fog=linear", "fog_distance/radial.glsl", "vectorLength(surfacePosition())",
      "-surfacePosition().z"},
-    {"a normal not normalised", "directional=1", "surface/normal.frag.glsl", "unitVector(eyeNormal)",
+    {"a normal not normalised", "directional=1", "surface/normal.frag.glsl", "shadingDirection(eyeNormal)",
      "eyeNormal"},
     {"depth moved the wrong way", "depth=greater directional=1", "depth/greater.glsl",
      "gl_FragCoord.z + away", "1.0 - gl_FragCoord.z"},

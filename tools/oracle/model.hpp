@@ -13,7 +13,7 @@ enum class Diffuse { lambert, toon, toon_ceil, toon_thresholds };
 enum class Specular { none, phong, blinn };
 enum class Fog { none, linear, exponential, exponential_squared };
 enum class FogDistance { radial, planar };
-enum class Shading { fragment, vertex };
+enum class Shading { fragment, hybrid, vertex, flat };
 enum class Reflection { none, image };
 enum class ShadowFilter { bilinear, sampler, nearest };
 enum class OutputRange { unbounded, half_float, display };
@@ -28,6 +28,14 @@ enum class Sides { one, two, two_materials };
 enum class Cutout { none, threshold };
 enum class VertexColor { none, modulate };
 
+// Quality: the same model where it is evaluated, or what stands in for parts of it.
+enum class Normal { renormalised, interpolated };
+enum class Viewer { local, infinite };
+enum class Power { exact, near_exact, squaring, gaussian_fitted, gaussian, lyon, schlick };
+enum class LightSum { plain, compensated, pairwise };
+enum class Guards { full, ordinary };
+enum class SpotEdge { versine, angle, cosine };
+
 /// One model: everything about a key that the radiance and the depth depend on.
 struct Model {
     int directional = 0;
@@ -39,6 +47,12 @@ struct Model {
     FogDistance fog_distance = FogDistance::radial;
     Shading shading = Shading::fragment;
     Depth depth = Depth::untouched;
+    Normal normal = Normal::renormalised;
+    Viewer viewer = Viewer::local;
+    Power power = Power::exact;
+    LightSum light_sum = LightSum::plain;
+    Guards guards = Guards::full;
+    SpotEdge spot_edge = SpotEdge::versine;
     int directional_shadows = 0;  ///< the first so many lights of each kind
     int point_shadows = 0;
     int spot_shadows = 0;
@@ -56,6 +70,10 @@ struct Model {
     VertexColor vertex_color = VertexColor::none;
     OutputRange output_range = OutputRange::unbounded;
 
+    /// Whether normals are given per fragment, interpolated.
+    [[nodiscard]] bool is_per_fragment() const {
+        return shading == Shading::fragment || shading == Shading::hybrid;
+    }
     [[nodiscard]] int lights() const { return directional + point + spot + homogeneous; }
     [[nodiscard]] bool looks_up_images() const {
         return ambient == Ambient::image || reflection == Reflection::image;

@@ -45,6 +45,10 @@ glm::dvec3 limited(const Model& model, const Scene& scene, const std::vector<Lig
 
 }  // namespace
 
+glm::dvec3 to_viewer(const Model& model, const glm::dvec3& position) {
+    return model.viewer == Viewer::infinite ? glm::dvec3(0, 0, 1) : direction_of(-position);
+}
+
 const Material& material_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
     if (model.material == MaterialChoice::uniform) return scene.material;
     const int rows = static_cast<int>(scene.materials.size());
@@ -64,19 +68,22 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
         return radiance;
     }
     const bool is_flipped = model.sides != Sides::one && point.is_back;
-    const glm::dvec3 normal = direction_of(is_flipped ? -point.normal : point.normal);
-    const glm::dvec3 to_viewer = direction_of(-point.position);
+    const bool is_hybrid = model.shading == Shading::hybrid;
+    const glm::dvec3 normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
+    const View view{normal, to_viewer(model, point.position), material.shininess,
+                    is_hybrid ? point.halfways : std::vector<glm::dvec3>()};
     const glm::dvec3 highlight = material.strength * material.specular;
     radiance.ambient = ambient_light(model, scene, normal);
     if (model.reflection == Reflection::image)
-        radiance.reflected = reflection_from_image(scene.reflection, normal, to_viewer);
+        radiance.reflected = reflection_from_image(scene.reflection, normal, view.to_viewer);
     const glm::dvec3 mirrored = highlight * radiance.reflected.value;
     radiance.value = material.emission + material.ambient * radiance.ambient.value + mirrored;
     radiance.largest = material.emission + material.ambient * radiance.ambient.largest + mirrored;
-    std::vector<Arrival> lights = arrivals(scene, point.position, decisions);
+    std::vector<Arrival> lights = is_hybrid ? interpolated_arrivals(model, scene, point)
+                                            : arrivals(model, scene, point.position, decisions);
     cast_shadows(model, scene, point.position, lights, decisions);
     for (const Arrival& arrival : lights) {
-        LightTerm term = respond(model, scene, material.shininess, normal, to_viewer, arrival, decisions);
+        LightTerm term = respond(model, scene, view, arrival, radiance.terms.size(), decisions);
         if (model.light_ambient == LightAmbient::each)
             term.ambient = arrival.fading * scene.light_ambients.at(radiance.terms.size());
         radiance.value += highlight * term.specular * arrival.radiance + material.ambient * term.ambient;

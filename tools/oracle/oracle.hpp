@@ -29,6 +29,9 @@ struct Radiance {
 /// and 2 i + 1 at the back; where the index is beyond the table, of the nearest row or pair.
 [[nodiscard]] const Material& material_of(const Model& model, const Scene& scene, const SurfacePoint& point);
 
+/// The unit vector to the viewer, at the origin or infinitely far along +z; zero at the viewer itself.
+[[nodiscard]] glm::dvec3 to_viewer(const Model& model, const glm::dvec3& position);
+
 /// emission + K_a (A + sum A_l fading) + K_d sum f_d L + strength K_s sum f_s L, over exactly the lights of
 /// the scene, with K_a and K_d tinted and the normal flipped on the back where the model says so; unlit, K_d
 /// alone. Toon tones by thresholds add up to no more than the brightest tone of the brightest light that

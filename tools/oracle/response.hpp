@@ -18,24 +18,37 @@ namespace gobo::oracle {
 [[nodiscard]] double highlight_angle(Specular specular, const glm::dvec3& normal, const glm::dvec3& to_light,
                                      const glm::dvec3& to_viewer);
 
-/// max(cos(angle), 0)^shininess, with 0^0 = 1.
-[[nodiscard]] double lobe(double angle, double shininess);
+/// 1 - cos of an angle.
+[[nodiscard]] double versine_of(double angle);
+
+/// How the surface is seen: what every light's highlight hangs on.
+struct View {
+    glm::dvec3 normal{0};     ///< unit, unless it is interpolated as it is
+    glm::dvec3 to_viewer{0};  ///< unit; zero: in no direction
+    double shininess = 0;
+    /// Per light, what hybrid shading interpolates; empty where it is found from light and viewer.
+    std::vector<glm::dvec3> halfways;
+};
+
+/// 1 - cos of the highlight's angle for light number `light`. Directions that are interpolated as they are
+/// count by their length: the cosine is the dot product then.
+[[nodiscard]] double highlight_versine(const Model& model, const View& view, const glm::dvec3& to_light,
+                                       std::size_t light);
 
 /// One light's part of the radiance, with what its accuracy hangs on.
 struct LightTerm {
     Arrival arrival;
     double cosine = 0;  ///< between normal and light
     bool is_lit = false;
-    double diffuse = 0;          ///< scattered share
-    double specular = 0;         ///< reflected share
-    double highlight_angle = 0;  ///< as above
-    double half_length = 2;      ///< |s + v|: near 0 the half vector is ill-defined
-    glm::dvec3 ambient{0};       ///< what the light adds to the ambient light
+    double diffuse = 0;            ///< scattered share
+    double specular = 0;           ///< reflected share
+    double highlight_versine = 0;  ///< as above
+    double half_length = 2;        ///< |s + v|: near 0 the half vector is ill-defined
+    glm::dvec3 ambient{0};         ///< what the light adds to the ambient light
 };
 
-/// What the light does at a surface of this shininess with this unit normal.
-[[nodiscard]] LightTerm respond(const Model& model, const Scene& scene, double shininess,
-                                const glm::dvec3& normal, const glm::dvec3& to_viewer, const Arrival& arrival,
-                                Decisions& decisions);
+/// What light number `light`, arriving so, does at the surface.
+[[nodiscard]] LightTerm respond(const Model& model, const Scene& scene, const View& view,
+                                const Arrival& arrival, std::size_t light, Decisions& decisions);
 
 }  // namespace gobo::oracle

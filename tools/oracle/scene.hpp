@@ -22,6 +22,10 @@ struct SurfacePoint {
     double opacity = 1;    ///< the alpha of the opacity map there
     int material = 0;      ///< index into the table of materials, or of its pairs
     bool is_back = false;  ///< which side is seen
+
+    // What hybrid shading is given besides, interpolated between vertices.
+    std::vector<glm::dvec4> rays = {};      ///< per local light: its direction, and the share that arrives
+    std::vector<glm::dvec3> halfways = {};  ///< per light: between its direction and the viewer's
 };
 
 /// Reflectivities per colour channel, 0 to 1; emission in radiance.

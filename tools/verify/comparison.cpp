@@ -14,7 +14,7 @@ constexpr int kMostOpen = 6;
 struct Deviation {
     double ratio = 0;
     double of_largest = 0;  ///< error relative to the largest term, over all components
-    std::string_view output;
+    std::string output;
     std::uint32_t component = 0;
     double expected = 0;
     double actual = 0;
@@ -91,9 +91,8 @@ std::vector<Expected> Comparison::judge(const Sample& sample, const evaluate::In
     largest = std::max(largest, precision_ == Precision::fp64 ? least.of_largest : least.ratio);
     if (least.ratio <= 1) return expected;
     marks.failed[mark] = true;
-    add_failure(report_,
-                {stage_, precision_, std::string(plain.output), plain.component, plain.expected, plain.actual,
-                 plain.tolerance, plain.ratio, point_inputs(program_, invocations, index)});
+    add_failure(report_, {stage_, precision_, plain.output, plain.component, plain.expected, plain.actual,
+                          plain.tolerance, plain.ratio, point_inputs(program_, invocations, index)});
     return expected;
 }
 

@@ -8,14 +8,15 @@
 #include <glm/matrix.hpp>
 
 #include "oracle/output_range.hpp"
+#include "verify/hybrid.hpp"
 #include "verify/rounding.hpp"
 
 namespace gobo::verify {
 namespace {
 
-Expected expected(std::string_view output, const glm::dvec3& value, const glm::dvec3& largest,
+Expected expected(std::string output, const glm::dvec3& value, const glm::dvec3& largest,
                   const glm::dvec3& float_error) {
-    Expected result{output, 3, {}, {}, {}};
+    Expected result{std::move(output), 3, {}, {}, {}};
     for (int i = 0; i < 3; ++i) {
         const auto index = static_cast<std::size_t>(i);
         result.value[index] = value[i];
@@ -102,7 +103,14 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
     add_handed_on(sample, outputs);
-    if (model.shading != oracle::Shading::vertex) return outputs;
+    if (model.shading == oracle::Shading::fragment) return outputs;
+    if (model.shading == oracle::Shading::hybrid) {
+        for (Expected& handed_on :
+             expect_handed_on(model, sample.scene, placed.value, glm::length(position_error), decisions))
+            outputs.push_back(std::move(handed_on));
+        return outputs;
+    }
+    const bool is_flat = model.shading == oracle::Shading::flat;
     oracle::SurfacePoint point = sample.surface;
     point.position = placed.value;
     point.normal = normal.value;
@@ -111,8 +119,11 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         if (is_back && model.sides == oracle::Sides::one) break;
         point.is_back = is_back;
         const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
-        outputs.push_back(expected(is_back ? "backRadiance" : "litRadiance", radiance.value, radiance.largest,
+        const std::string front = is_flat ? "flatRadiance" : "litRadiance";
+        const std::string back = is_flat ? "flatBackRadiance" : "backRadiance";
+        outputs.push_back(expected(is_back ? back : front, radiance.value, radiance.largest,
                                    radiance_error(model, sample.scene, point, radiance, errors)));
+        outputs.back().is_flat = is_flat;
     }
     return outputs;
 }
@@ -120,10 +131,12 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
 Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::Decisions& decisions) {
     const oracle::SurfacePoint point = seen_point(sample);
     const bool is_back = model.sides != oracle::Sides::one && point.is_back;
-    glm::dvec3 value = glm::max(is_back ? sample.back_radiance : sample.lit_radiance, glm::dvec3(0));
-    glm::dvec3 largest = value;
+    glm::dvec3 value = is_back ? sample.back_radiance : sample.lit_radiance;
+    // Interpolation may leave radiance's range; what a face has of one vertex does not.
+    if (model.shading == oracle::Shading::vertex) value = glm::max(value, glm::dvec3(0));
+    glm::dvec3 largest = glm::abs(value);
     glm::dvec3 error{0};
-    if (model.shading == oracle::Shading::fragment) {
+    if (model.is_per_fragment()) {
         const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
         value = radiance.value;
         largest = radiance.largest;
@@ -143,7 +156,7 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
 std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,
                                       oracle::Decisions& decisions) {
     const bool is_cut = oracle::is_cut_out(model, sample.scene, seen_point(sample), decisions);
-    std::vector<Expected> outputs = {{kDiscard, 1, {is_cut ? 1.0 : 0.0}, {}, {}}};
+    std::vector<Expected> outputs = {{std::string(kDiscard), 1, {is_cut ? 1.0 : 0.0}, {}, {}}};
     if (is_cut) return outputs;
     outputs.push_back(expect_color(model, sample, decisions));
     if (const auto depth = oracle::written_depth(model, sample.scene, sample.depth)) {

@@ -15,7 +15,7 @@ namespace gobo::verify {
 
 /// One output.
 struct Expected {
-    std::string_view output;  ///< reflected name
+    std::string output;  ///< reflected name
     std::uint32_t components = 0;
     std::array<double, 4> value{};
     std::array<double, 4> largest{};      ///< sum of the absolute terms: doubles are judged by it

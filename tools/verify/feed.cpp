@@ -24,6 +24,7 @@ Fields plain_fields() {
         {"eyePosition", field([](auto& s) -> auto& { return s.surface.position; })},
         {"eyeNormal", field([](auto& s) -> auto& { return s.surface.normal; })},
         {"litRadiance", field([](auto& s) -> auto& { return s.lit_radiance; })},
+        {"flatRadiance", field([](auto& s) -> auto& { return s.lit_radiance; })},
         {"gl_FragCoord",
          {[](const Sample& s) {
               return std::vector<double>{0.5, 0.5, s.depth, 1};
@@ -54,6 +55,21 @@ Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, 
                 if (all.size() <= index) all.resize(index + 1);
                 assign(access(all[index]), values);
             }};
+}
+
+/// An element of what hybrid shading hands on: "lightRays[2]". Setting it makes those before it too.
+template <class Vector>
+std::optional<Field> handed_on_field(const std::string& name, std::string_view array,
+                                     std::vector<Vector> oracle::SurfacePoint::*elements) {
+    const auto element = element_name(name, array);
+    if (!element) return std::nullopt;
+    const std::size_t index = element->index;
+    return Field{[=](const Sample& sample) { return numbers((sample.surface.*elements)[index]); },
+                 [=](Sample& sample, const std::vector<double>& values) {
+                     std::vector<Vector>& all = sample.surface.*elements;
+                     if (all.size() <= index) all.resize(index + 1);
+                     assign(all[index], values);
+                 }};
 }
 
 std::optional<Field> directional_field(const ElementName& name) {
@@ -110,6 +126,8 @@ Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> sampl
 std::optional<Field> field_of(const std::string& name) {
     static const Fields plain = plain_fields();
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
+    if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
+    if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
     if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
     if (const auto light = element_name(name, "PointLights.lights"))
         return point_field(&oracle::Scene::point, *light);

@@ -18,6 +18,7 @@ Fields plain_fields() {
         {"handedness", field([](auto& s) -> auto& { return s.handedness; })},
         {"gl_FrontFacing", field([](auto& s) -> auto& { return s.is_front_facing; })},
         {"backRadiance", field([](auto& s) -> auto& { return s.back_radiance; })},
+        {"flatBackRadiance", field([](auto& s) -> auto& { return s.back_radiance; })},
         {"Hemisphere.up", field([](auto& s) -> auto& { return s.scene.hemisphere.up; })},
         {"Hemisphere.sky", field([](auto& s) -> auto& { return s.scene.hemisphere.sky; })},
         {"Hemisphere.ground", field([](auto& s) -> auto& { return s.scene.hemisphere.ground; })},

@@ -24,6 +24,25 @@ inline constexpr double kDirectionError = 6 * kUnitRoundoff;
                                         const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
                                         const PointErrors& errors);
 
+/// What a light's arrival is known to: the length of its direction's error, each channel's error.
+struct ArrivalErrors {
+    double direction = 0;
+    double fading = 0;  ///< relative
+    glm::dvec3 radiance{0};
+};
+
+/// Bounds for a light whose distance is computed from a position that is itself off by so much.
+[[nodiscard]] ArrivalErrors arrival_errors(const oracle::Model& model, const oracle::Arrival& arrival,
+                                           double position_error);
+
+/// Bound of the error of the direction to the viewer.
+[[nodiscard]] double viewer_error(const oracle::Model& model, const glm::dvec3& position,
+                                  double position_error);
+
+/// Bound of the error of the half vector between two directions of those errors; `half_length` is their
+/// sum's.
+[[nodiscard]] double halfway_error(double to_light, double to_viewer, double half_length);
+
 /// Bound of each channel's error of seen_through_fog(), given that of the radiance it blends.
 [[nodiscard]] glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene,
                                    const oracle::Seen& seen, const glm::dvec3& radiance,

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "oracle/oracle.hpp"
+#include "verify/hybrid.hpp"
 #include "verify/image_light_feed.hpp"
 #include "verify/random.hpp"
 #include "verify/sample_surface.hpp"
@@ -48,11 +49,13 @@ class SampleMaker {
                 vertices_.emplace_back(sample.model_view * glm::dvec4(position, 1));
         fill_surface(model_, stage_, random_, sample);
         normal_ = glm::normalize(sample.surface.is_back ? -sample.surface.normal : sample.surface.normal);
-        const glm::dvec3 to_viewer = -glm::normalize(sample.surface.position);
+        const glm::dvec3 to_viewer = oracle::to_viewer(model_, sample.surface.position);
         mirrored_ = 2 * glm::dot(normal_, to_viewer) * normal_ - to_viewer;
         fill_materials(sample);
         sample.scene.ambient = random_.components(0, 1);
         add_lights(sample);
+        if (model_.shading == oracle::Shading::hybrid && !is_vertex_)
+            hand_on(model_, sample.scene, random_, sample.surface);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
@@ -327,6 +330,9 @@ Sample rounded_to_float(Sample sample) {
             if (column < 3 && row < 3) to_float(sample.normal_matrix[column][row]);
         }
     to_float(sample.depth);
+    for (glm::dvec4& ray : sample.surface.rays)
+        for (int i = 0; i < 4; ++i) to_float(ray[i]);
+    for (glm::dvec3& halfway : sample.surface.halfways) to_float(halfway);
     round_surface(sample);
     return sample;
 }

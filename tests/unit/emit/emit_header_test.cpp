@@ -118,8 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST(Domains, AreCommentsWhateverTheIndex) {
-    const std::vector<Domain> domains = {{"L.lights[].k", 0.001, 10, false, {0}, {}},
-                                         {"n", 0.5, 2, true, {}, {}}};
+    const std::vector<Domain> domains = {{"L.lights[].k", 0.001, 10, false, {}, {0}, {}},
+                                         {"n", 0.5, 2, true, {}, {}, {}}};
     EXPECT_EQ(domain_text(domains, "L.lights.k"), "[0.001, 10], or 0");
     EXPECT_EQ(domain_text(domains, "n"), "length in [0.5, 2]");
     EXPECT_EQ(domain_text(domains, "other"), "");

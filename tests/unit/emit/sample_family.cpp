@@ -97,9 +97,9 @@ Built lit() {
         forbid(family, "shading == hybrid && directional + point > 12",
                "more than the 60 varying components that OpenGL guarantees"),
     };
-    family.domains = {{"Fog.near", 0, 1e6, false, {}, {}},
-                      {"PointLights.lights[].attenuation", 0.001, 10, false, {0}, {}},
-                      {"normal", 0.5, 2, true, {}, {}}};
+    family.domains = {{"Fog.near", 0, 1e6, false, {}, {}, {}},
+                      {"PointLights.lights[].attenuation", 0.001, 10, false, {}, {0}, {}},
+                      {"normal", 0.5, 2, true, {}, {}, {}}};
     built.interface = lit_interface();
     compose_keys(built,
                  {"default", "fog=linear", "point=3 shading=vertex fog=linear", "point=3", "directional=2"});

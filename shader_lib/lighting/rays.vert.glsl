@@ -1,0 +1,26 @@
+// The rays to all local lights, at a vertex, for hybrid shading (E3).
+//
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Moving Calculations to the Vertex Shader.
+// Space:  eye. Ranges, edges: pointRay(), spotRay().
+#include <point/ray>
+#include <spot/ray>
+
+#if POINT_LIGHTS + SPOT_LIGHTS > 0
+/// Once raysToLights() has been called: point lights first, the unit vector to the light in xyz, the share of
+/// its light that arrives in w.
+vec4 rayToLight[POINT_LIGHTS + SPOT_LIGHTS];
+
+/// A ray as it is handed on.
+vec4 packedRay(LightRay ray) { return vec4(ray.toLight, ray.share); }
+
+/// Finds the rays to all local lights, once for all who ask.
+vec4[POINT_LIGHTS + SPOT_LIGHTS] raysToLights() {
+#if POINT_LIGHTS > 0
+    for (int i = 0; i < POINT_LIGHTS; ++i) rayToLight[i] = packedRay(pointRay(i));
+#endif
+#if SPOT_LIGHTS > 0
+    for (int i = 0; i < SPOT_LIGHTS; ++i) rayToLight[POINT_LIGHTS + i] = packedRay(spotRay(i));
+#endif
+    return rayToLight;
+}
+#endif

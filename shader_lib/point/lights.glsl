@@ -1,0 +1,14 @@
+// The point lights themselves (L4).
+//
+// Space:  eye. Ranges: positions within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
+
+/// `position` is in eye space, its w is 1 (L6); `attenuation` holds k_c, k_l, k_q.
+struct PointLight {
+    vec4 position;
+    vec3 color;
+    vec3 attenuation;
+};
+
+BLOCK(5, PointLights) {
+    PointLight lights[POINT_LIGHTS];
+} pointLights;

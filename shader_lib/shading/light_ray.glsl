@@ -1,0 +1,11 @@
+// How a light reaches the surface: from which side, and how much of it.
+//
+// Space:  eye. Ranges: fading and share 0 to 1e18.
+
+/// The direction to the light, unit where the key has directions made so (zero: from nowhere); its attenuation,
+/// by which its own ambient light fades; and the share of its light that arrives, its cone counted in.
+struct LightRay {
+    vec3 toLight;
+    float fading;
+    float share;
+};
