@@ -3,14 +3,14 @@
 // Model:  that of the chosen highlight.
 // Source: as the highlights'.
 // Space:  eye. Edges: as the highlights'; an unknown number is no highlight.
-#include "specular/blinn.glsl" with addHighlight as addBlinnHighlight, beginHighlights as beginBlinnHighlights
-#include "specular/phong.glsl" with addHighlight as addPhongHighlight, beginHighlights as beginPhongHighlights
+#include "specular/blinn.glsl" with addHighlight as addBlinnHighlight, beginHighlights as beginBlinn
+#include "specular/phong.glsl" with addHighlight as addPhongHighlight, beginHighlights as beginPhong
 #include "uber/switches.glsl"
 
 /// Prepares what all highlights share. To be called before the first light.
 void beginHighlights() {
-    beginBlinnHighlights();
-    beginPhongHighlights();
+    beginBlinn();
+    beginPhong();
 }
 
 /// Adds the highlight of a light from the unit direction `toLight`.
