@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "oracle/lights.hpp"
 
@@ -41,14 +42,15 @@ int last_order(Harmonics order) {
 
 }  // namespace
 
-double sky_share(Hemisphere kind, double angle) {
-    if (kind == Hemisphere::cosine) return 0.5 + 0.5 * std::cos(angle);
-    const double half = 0.5 * std::sin(angle);
+double sky_share(Hemisphere kind, double angle, double length) {
+    if (length == 0) return 0.5;
+    if (kind == Hemisphere::cosine) return 0.5 + 0.5 * length * std::cos(angle);
+    const double half = 0.5 * length * std::sin(angle);
     return angle <= std::numbers::pi / 2 ? 1 - half : half;
 }
 
 AmbientLight hemisphere_light(Hemisphere kind, const HemisphereLight& light, const glm::dvec3& normal) {
-    const double share = sky_share(kind, angle_between(normal, light.up));
+    const double share = sky_share(kind, angle_between(normal, light.up), glm::length(normal));
     return {share * light.sky + (1 - share) * light.ground, light.sky + light.ground,
             0.5 * glm::abs(light.sky - light.ground)};
 }

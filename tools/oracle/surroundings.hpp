@@ -33,8 +33,9 @@ struct AmbientLight {
 };
 
 /// The share of the sky that a surface at this angle (radians) from straight up sees: 1 - sin / 2 up to a
-/// right angle and sin / 2 beyond it, exactly; (1 + cos) / 2 approximately.
-[[nodiscard]] double sky_share(Hemisphere kind, double angle);
+/// right angle and sin / 2 beyond it, exactly; (1 + cos) / 2 approximately. Sine and cosine count by the
+/// length of a normal that is interpolated as it is.
+[[nodiscard]] double sky_share(Hemisphere kind, double angle, double length = 1);
 
 /// mix(G, S, share of the sky). A zero normal sees half of each.
 [[nodiscard]] AmbientLight hemisphere_light(Hemisphere kind, const HemisphereLight& light,
