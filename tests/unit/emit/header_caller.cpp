@@ -263,7 +263,7 @@ void test_check() {
         expect_text(more[1].member, "std140.rows[3]");
         expect_text(more[2].member, "std140.outer.inner[1].switch");
     }
-    block.outer.Inner = glm::vec2(3, 4);
+    block.outer.Inner_ = glm::vec2(3, 4);
     expect(nasty::check(block).size() == 4, "a length");
     expect_text(gobo::to_text(nasty::check(block).back()),
                 "std140.outer.Inner is 5, allowed is a length in [0, 4]");
