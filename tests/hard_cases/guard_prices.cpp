@@ -23,18 +23,28 @@ struct Pair {
     LitUnderTest guarded;
     LitUnderTest plain;
     std::size_t permutation = 0;
+    bool is_in_fragment = true;
 };
 
-/// The first permutation whose fragment stage the guard is in.
-std::size_t first_with(const LitUnderTest& lit, const std::string& piece) {
-    const Composition& composition = lit.composition();
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        const int fragment = composition.permutations[i].fragment;
-        for (const int at : composition.stages[static_cast<std::size_t>(fragment)].pieces)
-            if (composition.pieces[static_cast<std::size_t>(at)].path.ends_with("/" + piece)) return i;
-    }
-    ADD_FAILURE() << "no permutation of the case has " << piece << " in its fragment stage";
-    return 0;
+bool has_piece(const Composition& composition, int stage, const std::string& piece) {
+    const std::vector<int>& pieces = composition.stages[static_cast<std::size_t>(stage)].pieces;
+    return std::any_of(pieces.begin(), pieces.end(), [&](int at) {
+        return composition.pieces[static_cast<std::size_t>(at)].path.ends_with("/" + piece);
+    });
+}
+
+/// Finds the first permutation whose fragment stage the guard is in, or else whose vertex stage.
+void find_permutation(Pair& pair, const std::string& piece) {
+    const Composition& composition = pair.guarded.composition();
+    for (const bool is_in_fragment : {true, false})
+        for (std::size_t i = 0; i < pair.guarded.size(); ++i) {
+            const Permutation& stages = composition.permutations[i];
+            if (!has_piece(composition, is_in_fragment ? stages.fragment : stages.vertex, piece)) continue;
+            pair.permutation = i;
+            pair.is_in_fragment = is_in_fragment;
+            return;
+        }
+    ADD_FAILURE() << "no permutation of the case has " << piece;
 }
 
 Pair pair_of(const Guard& guard) {
@@ -44,15 +54,17 @@ Pair pair_of(const Guard& guard) {
     const Case& concerned = tested == nullptr ? none : *tested;
     Pair pair{LitUnderTest(concerned.where, concerned.features, {}),
               LitUnderTest(concerned.where, concerned.features, {{guard.piece, without_guard(guard)}})};
-    pair.permutation = first_with(pair.guarded, guard.piece);
+    find_permutation(pair, guard.piece);
     return pair;
 }
 
-evaluate::Counts counts_of(const LitUnderTest& lit, std::size_t permutation) {
+evaluate::Counts counts_of(const LitUnderTest& lit, std::size_t permutation, bool is_in_fragment) {
     evaluate::Options options;
     options.count = true;
     const StageInputs inputs = lit.inputs_of(permutation, {}, sanitize::Machine::ieee);
-    const auto outputs = evaluate::run<float>(lit.fragment(permutation), inputs.fragment, options);
+    const auto outputs = is_in_fragment
+                             ? evaluate::run<float>(lit.fragment(permutation), inputs.fragment, options)
+                             : evaluate::run<float>(lit.vertex(permutation), inputs.vertex, options);
     EXPECT_TRUE(outputs);
     return outputs ? outputs->counts.front() : evaluate::Counts{};
 }
@@ -86,8 +98,9 @@ double time_of(LitDrawing& drawing, const Context& context) {
 
 GuardOperations operations_of(const Guard& guard) {
     const Pair pair = pair_of(guard);
-    return {pair.guarded.key(pair.permutation), counts_of(pair.guarded, pair.permutation),
-            counts_of(pair.plain, pair.permutation)};
+    return {pair.guarded.key(pair.permutation),
+            counts_of(pair.guarded, pair.permutation, pair.is_in_fragment),
+            counts_of(pair.plain, pair.permutation, pair.is_in_fragment)};
 }
 
 std::uint64_t computing(const evaluate::Counts& counts) {
@@ -113,6 +126,7 @@ bool GuardTime::is_measurable() const {
 
 GuardTime measure(const Guard& guard, const Context& context) {
     const Pair pair = pair_of(guard);
+    if (!pair.is_in_fragment) return {{}, {}, context.renderer()};
     LitDrawing guarded(context, pair.guarded, pair.permutation);
     LitDrawing plain(context, pair.plain, pair.permutation);
     const Result<Framebuffer> target = make_framebuffer(context, kPixels, kPixels);

@@ -12,7 +12,7 @@
 
 namespace gobo {
 
-/// The operations of one invocation of the fragment stage, with a guard and without it.
+/// The operations of one invocation of the stage that a guard is in, with the guard and without it.
 struct GuardOperations {
     std::string key;  ///< the permutation: of those that the guard's case concerns the first with its piece
     evaluate::Counts guarded{};
@@ -43,6 +43,7 @@ struct GuardTime {
     [[nodiscard]] bool is_measurable() const;
 };
 
+/// All zero for guards of the vertex stage: shading a few vertices takes no time that could be told.
 [[nodiscard]] GuardTime measure(const Guard& guard, const Context& context);
 
 /// By the guard's name.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <spirv/unified1/spirv.hpp>
 
 namespace gobo {
 namespace {
@@ -84,15 +85,20 @@ GLuint depth_texture(const GladGLContext& gl, float depth) {
     return texture;
 }
 
-/// A picture of one grey, bound to the active unit.
-GLuint color_texture(const GladGLContext& gl, float grey) {
-    const std::vector<float> texels(kSide * kSide * 4, grey);
+/// A picture of one colour, or a cube of six, bound to the active unit.
+GLuint color_texture(const GladGLContext& gl, const std::array<double, 4>& color, bool is_cube) {
+    std::vector<float> texels;
+    for (int texel = 0; texel < kSide * kSide; ++texel)
+        for (const double channel : color) texels.push_back(static_cast<float>(channel));
+    const GLenum target = is_cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, kSide, kSide, 0, GL_RGBA, GL_FLOAT, texels.data());
+    gl.BindTexture(target, texture);
+    for (GLenum face = 0; face < (is_cube ? 6U : 1U); ++face)
+        gl.TexImage2D(is_cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + face : target, 0, GL_RGBA32F, kSide, kSide,
+                      0, GL_RGBA, GL_FLOAT, texels.data());
     for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl.TexParameteri(GL_TEXTURE_2D, name, GL_NEAREST);
+        gl.TexParameteri(target, name, GL_NEAREST);
     return texture;
 }
 
@@ -154,8 +160,9 @@ void LitDrawing::set_textures(const Program& program, const evaluate::Program& s
         const std::array<double, 4> color = image->second(request);
         context_.gl().Uniform1i(location, static_cast<GLint>(textures_.size()));
         context_.gl().ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(textures_.size()));
+        const bool is_cube = port.type.dimension == spv::DimCube;
         textures_.push_back(port.type.depth ? depth_texture(context_.gl(), static_cast<float>(color[0]))
-                                            : color_texture(context_.gl(), static_cast<float>(color[0])));
+                                            : color_texture(context_.gl(), color, is_cube));
     }
 }
 

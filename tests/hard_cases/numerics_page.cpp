@@ -53,6 +53,7 @@ std::string time_text(const GuardTimes& times, const std::string& name) {
     const auto found = times.find(name);
     if (found == times.end()) return "not measured";
     const GuardTime& time = found->second;
+    if (time.guarded.median == 0) return "not timed: vertex stage";
     if (!time.is_measurable()) return "no measurable difference";
     return fmt::format("{:+.0f} %", 100 * (time.guarded.median / time.plain.median - 1));
 }
