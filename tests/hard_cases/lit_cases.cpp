@@ -284,7 +284,7 @@ const std::vector<Case> kCases = {
      same_as(kNoHighlight),
      kHighlightQuality},
     {"H_S3_near_exact", "directional > 0 && power == near_exact && fog == none", sharp_highlights(),
-     is_sharp_to_rounding, kHighlightQuality},
+     is_sharp_to_rounding(), kHighlightQuality},
     {"H_L3_shininess_of_a_million",
      "directional + point + spot > 0 && specular != none",
      {{{"Material.shininess", {1e6}}}, {{"Material.shininess", {1e6}}, {"position", {-9, 0, 9}}}},

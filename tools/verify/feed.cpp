@@ -57,14 +57,18 @@ Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, 
             }};
 }
 
-/// An element of what hybrid shading hands on: "lightRays[2]". Setting it makes those before it too.
+/// An element of what hybrid shading hands on: "lightRays[2]". Setting it makes those before it too; one that was
+/// never set is zero, as where the vertex stage is about to hand it on.
 template <class Vector>
 std::optional<Field> handed_on_field(const std::string& name, std::string_view array,
                                      std::vector<Vector> oracle::SurfacePoint::*elements) {
     const auto element = element_name(name, array);
     if (!element) return std::nullopt;
     const std::size_t index = element->index;
-    return Field{[=](const Sample& sample) { return numbers((sample.surface.*elements)[index]); },
+    return Field{[=](const Sample& sample) {
+                     const std::vector<Vector>& all = sample.surface.*elements;
+                     return numbers(index < all.size() ? all[index] : Vector(0));
+                 },
                  [=](Sample& sample, const std::vector<double>& values) {
                      std::vector<Vector>& all = sample.surface.*elements;
                      if (all.size() <= index) all.resize(index + 1);

@@ -143,10 +143,10 @@ Built nasty() {
         forbid(family, "!(int <= 6) || (switch == requires && key == co_await)",
                "because \"quoted\" \\ \t odd ?\?/"),
     };
-    family.domains = {{"std140.outer.Inner", 0, 4, true, {}, {}},
-                      {"std140.outer.inner[].switch", 0, 1, false, {}, {}},
-                      {"std140.rows", -5, 5, false, {}, {}},
-                      {"std140.weights", 0, 1, false, {}, {}}};
+    family.domains = {{"std140.outer.Inner", 0, 4, true, {}, {}, {}},
+                      {"std140.outer.inner[].switch", 0, 1, false, {}, {}, {}},
+                      {"std140.rows", -5, 5, false, {}, {}, {}},
+                      {"std140.weights", 0, 1, false, {}, {}, {}}};
     built.interface = nasty_interface();
     compose_keys(built,
                  {"default", "switch=default default=on int=5", "z10=15 z29=7 2d=8x", "z29=8 Key=linux"});
