@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,17 +20,38 @@ bool is_handed_on(const evaluate::Port& port) {
     return !port.name.starts_with("gl_");
 }
 
+/// A varying as it is declared: an element of an array stands for all of it.
+struct Declared {
+    const evaluate::Port* first = nullptr;
+    int elements = 0;  ///< 0: no array
+};
+
+std::map<std::string, Declared> declared_varyings(const evaluate::Program& fragment) {
+    std::map<std::string, Declared> declared;
+    for (const evaluate::Port& port : fragment.inputs) {
+        if (!is_handed_on(port)) continue;
+        const std::size_t bracket = port.name.find('[');
+        Declared& whole = declared[port.name.substr(0, bracket)];
+        const int index = bracket == std::string::npos ? -1 : std::stoi(port.name.substr(bracket + 1));
+        if (whole.first == nullptr || index == 0) whole.first = &port;
+        whole.elements = std::max(whole.elements, index + 1);
+    }
+    return declared;
+}
+
 /// A vertex stage that gives the fragment stage what uniforms hold, at one pixel or over the whole target.
 std::string feeding_stage(const evaluate::Program& fragment) {
     std::string outputs;
     std::string body;
     int index = 0;
+    for (const auto& [name, varying] : declared_varyings(fragment))
+        outputs += fmt::format("layout(location = {}) {}out {} {}{};\n", varying.first->location,
+                               varying.first->scalar == evaluate::Scalar::real ? "" : "flat ",
+                               varying.first->type, name,
+                               varying.elements > 0 ? fmt::format("[{}]", varying.elements) : "");
     for (const evaluate::Port& port : fragment.inputs) {
         if (!is_handed_on(port)) continue;
-        const bool is_real = port.scalar == evaluate::Scalar::real;
         const std::string parts = std::string("xyzw").substr(0, port.components);
-        outputs += fmt::format("layout(location = {}) {}out {} {};\n", port.location, is_real ? "" : "flat ",
-                               port.type, port.name);
         body += fmt::format("    {} = {}(given[{}].{});\n", port.name, port.type, index++, parts);
     }
     return "#version 450\n" + outputs +
@@ -199,7 +221,9 @@ void LitDrawing::set_handed_on(const evaluate::Invocations& fragment, double dep
 bool LitDrawing::names_fragment_input(const Inputs& inputs) const {
     const auto& ports = lit_.fragment(permutation_).inputs;
     return std::any_of(ports.begin(), ports.end(), [&](const evaluate::Port& port) {
-        return is_handed_on(port) && inputs.find(port.name) != inputs.end();
+        // A case names all elements of an array at once: "lightRays[]".
+        const std::string all = port.name.substr(0, port.name.find('[')) + "[]";
+        return is_handed_on(port) && (inputs.contains(port.name) || inputs.contains(all));
     });
 }
 

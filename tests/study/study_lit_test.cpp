@@ -134,9 +134,10 @@ TEST(Choices, SayWhatIsDominatedEverywhere) {
     Journal journal;
     StudyOptions small_options = quick_options({"default"});
     small_options.plan = default_plan(family);
-    const Study study = run_study(source_files(), family, search, small_options, journal).value();
+    const Result<Study> study = run_study(source_files(), family, search, small_options, journal);
+    ASSERT_TRUE(study) << to_text(study.error().front());
     std::map<std::string, std::string> dominated;
-    for (const ChoiceSummary& choice : summarise_choices(family, study, lit_under_study().weights))
+    for (const ChoiceSummary& choice : summarise_choices(family, *study, lit_under_study().weights))
         dominated[choice.value] = choice.dominated_by;
     EXPECT_EQ(dominated, (std::map<std::string, std::string>{{"good", ""}, {"rough", ""}, {"slow", "good"}}));
 }

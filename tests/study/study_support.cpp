@@ -32,10 +32,11 @@ class SourceFiles final : public FileSystem {
 const MemoryFileSystem& small_pieces() {
     static const MemoryFileSystem pieces({
         {"small/small.vert",
-         "#include <varyings>\nATTRIBUTE(0) vec3 position;\nBLOCK(0, Transform) { mat4 modelViewProjection; "
+         "#include \"place.glsl\"\n#include <varyings>\nBLOCK(0, Transform) { mat4 modelViewProjection; "
          "} transform;\n"
          "void main() { gl_Position = transform.modelViewProjection * vec4(position, 1.0); writeVaryings(); "
          "}\n"},
+        {"small/place.glsl", "ATTRIBUTE(0) vec3 position;\n"},
         {"small/small.frag",
          "#include <shape>\nOUTPUT(0) vec4 color;\nvoid main() { color = vec4(shape(place), 0.0, 0.0, 1.0); "
          "}\n"},
@@ -59,6 +60,7 @@ values = ["good", "slow", "rough"]
 [varyings.place]
 location = 0
 type = "vec3"
+piece = "place.glsl"
 value = "position"
 )",
                        "small/small.toml")

@@ -231,9 +231,9 @@ const BadRow bad_rows[] = {
     {"domain_last_is_no_range",
      "[domain]\n"
      "\"rays[]\" = { length = [0, 1], last = [2] }\n",
-     "tiny.toml:5:39: error: the domain of 'rays[]' is no range\n"
+     "tiny.toml:5:38: error: the domain of 'rays[]' is no range\n"
      "    \"rays[]\" = { length = [0, 1], last = [2] }\n"
-     "                                          ^\n"
+     "                                         ^\n"
      "  remedy: write last = [low, high]\n"},
     {"default_unknown",
      "[features.fog]\n"
