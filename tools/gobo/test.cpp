@@ -12,6 +12,7 @@
 #include "gobo/witness.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
+#include "verify/figures_json.hpp"
 #include "verify/test_meshes.hpp"
 #include "verify/verify.hpp"
 
@@ -24,6 +25,7 @@ struct TestOptions {
     std::string family;
     std::string folder = "failed_points";
     std::string shard;
+    std::string figures_file;
     WitnessOptions witness;
 };
 
@@ -215,7 +217,13 @@ Outcome run(const TestOptions& options, const World& world) {
         verify::verify(family->family, *composition, validated, verify_options);
     const Result<std::string> size = size_text(family->family, report.permutations.size(), Dialect::own);
     if (!size) return failed(size.error());
-    return {*size + "\n" + figures_text(report), report_failures(world, options, family->family, report), {}};
+    Diagnostics diagnostics = report_failures(world, options, family->family, report);
+    if (!options.figures_file.empty()) {
+        const Result<bool> written =
+            world.disk.write(options.figures_file, verify::figures_json(family->family, report));
+        if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
+    }
+    return {*size + "\n" + figures_text(report), std::move(diagnostics), {}};
 }
 
 }  // namespace
@@ -231,7 +239,10 @@ Command test_command(CLI::App& gobo) {
         ->type_name("FOLDER")
         ->capture_default_str();
     app->add_option("--shard", options->shard, "Only every N-th key, from the I-th on")->type_name("I/N");
-    add_witness_options(*app, options->witness);
+    app->add_option("--figures", options->figures_file,
+                    "Write each key's points and largest errors to this file, as JSON")
+        ->type_name("FILE")
+        ->excludes(add_witness_options(*app, options->witness));
     add_common_options(*app, options->common);
     app->footer(
         "The stages are evaluated in fp32 and fp64 over points made to exercise each model. Families of your "
@@ -241,6 +252,7 @@ Command test_command(CLI::App& gobo) {
         "  gobo test lit                               the family's default set\n"
         "  gobo test lit --cover 3\n"
         "  gobo test lit --cover 2 --render            every key drawn, too\n"
+        "  gobo test lit --figures figures.json\n"
         "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
         "  gobo test game.toml -o build/failed_points");
     return {app, [options](const World& world) { return run(*options, world); }};

@@ -86,7 +86,7 @@ std::string totals_text(const Totals& totals, std::size_t permutations, const st
 
 }  // namespace
 
-void add_witness_options(CLI::App& app, WitnessOptions& options) {
+CLI::Option* add_witness_options(CLI::App& app, WitnessOptions& options) {
     CLI::Option* render =
         app.add_flag("--render", options.render,
                      "Draw every key, 64 x 64, and hold each pixel against the evaluation instead");
@@ -94,6 +94,7 @@ void add_witness_options(CLI::App& app, WitnessOptions& options) {
         ->type_name("osmesa|egl")
         ->capture_default_str()
         ->needs(render);
+    return render;
 }
 
 Outcome run_witness(const World& world, const WitnessOptions& options, const Family& family,

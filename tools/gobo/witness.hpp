@@ -11,7 +11,8 @@ struct WitnessOptions {
     std::string backend = "osmesa";
 };
 
-void add_witness_options(CLI::App& app, WitnessOptions& options);
+/// The option that asks for pictures is returned.
+CLI::Option* add_witness_options(CLI::App& app, WitnessOptions& options);
 
 /// Draws every permutation and holds each picture against its evaluation. A picture that fails is an error
 /// for its key, and three images in `folder`.

@@ -66,6 +66,7 @@ Result<Evaluations> evaluate_all(const evaluate::Program& program, const std::ve
 struct Judgement {
     std::optional<Failure> failure;
     double ratio = 0;
+    double of_largest = 0;  ///< error relative to the output's largest component
     bool is_edge = false;
 };
 
@@ -85,6 +86,7 @@ Judgement judge(const Evaluations& all, std::size_t index) {
                 static_cast<double>(std::numeric_limits<float>::min());  // below it floats lose digits
             if (error <= limit || all.in_float.values.at(name)[k] == values[k]) {
                 result.ratio = std::max(result.ratio, error / limit);
+                if (size > 0) result.of_largest = std::max(result.of_largest, error / size);
             } else if (error <= 2 * all.by_edge.at(name)[k]) {
                 result.is_edge = true;
             } else {
@@ -114,7 +116,9 @@ Result<StageReport> check_alone(const evaluate::Program& program, StageKind stag
     for (std::size_t i = 0; i < report.figures.points; ++i) {
         Judgement judgement = judge(*all, i);
         if (judgement.is_edge) ++report.figures.edges;
-        report.figures.largest_fp32_ratio = std::max(report.figures.largest_fp32_ratio, judgement.ratio);
+        Figures& figures = report.figures;
+        figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, judgement.ratio);
+        figures.largest_fp32_error = std::max(figures.largest_fp32_error, judgement.of_largest);
         if (!judgement.failure) continue;
         judgement.failure->stage = stage;
         judgement.failure->point = point_inputs(program, all->invocations, i);

@@ -86,14 +86,20 @@ std::vector<Expected> Comparison::judge(const Sample& sample, const evaluate::In
         least = deviated;
         expected = std::move(there);
     }
-    double& largest = precision_ == Precision::fp64 ? report_.figures.largest_fp64_error
-                                                    : report_.figures.largest_fp32_ratio;
-    largest = std::max(largest, precision_ == Precision::fp64 ? least.of_largest : least.ratio);
+    note_largest(least.of_largest, least.ratio);
     if (least.ratio <= 1) return expected;
     marks.failed[mark] = true;
     add_failure(report_, {stage_, precision_, plain.output, plain.component, plain.expected, plain.actual,
                           plain.tolerance, plain.ratio, point_inputs(program_, invocations, index)});
     return expected;
+}
+
+void Comparison::note_largest(double error, double ratio) {
+    Figures& figures = report_.figures;
+    double& largest = precision_ == Precision::fp64 ? figures.largest_fp64_error : figures.largest_fp32_error;
+    largest = std::max(largest, error);
+    if (precision_ == Precision::fp32)
+        figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, ratio);
 }
 
 void count(const Marks& marks, StageReport& report) {

@@ -36,6 +36,9 @@ class Comparison {
                                 std::size_t mark);
 
   private:
+    /// `error` is relative to the largest term, `ratio` to the tolerance.
+    void note_largest(double error, double ratio);
+
     const evaluate::Program& program_;
     StageKind stage_;
     const oracle::Model& model_;

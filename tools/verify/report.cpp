@@ -37,6 +37,7 @@ Figures& Figures::operator+=(const Figures& other) {
     points += other.points;
     edges += other.edges;
     largest_fp64_error = std::max(largest_fp64_error, other.largest_fp64_error);
+    largest_fp32_error = std::max(largest_fp32_error, other.largest_fp32_error);
     largest_fp32_ratio = std::max(largest_fp32_ratio, other.largest_fp32_ratio);
     return *this;
 }

@@ -41,6 +41,7 @@ struct Figures {
     std::size_t points = 0;         ///< invocations, each evaluated as fp32 and as fp64
     std::size_t edges = 0;          ///< of them, so near a discontinuity that either side is right
     double largest_fp64_error = 0;  ///< relative to the largest term
+    double largest_fp32_error = 0;  ///< as well; without an oracle, to the output's largest component
     double largest_fp32_ratio = 0;  ///< of the error to its derived bound
 
     Figures& operator+=(const Figures& other);
