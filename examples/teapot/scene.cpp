@@ -63,8 +63,8 @@ lit::Fog_block mist() {
     return mist;
 }
 
-lit::Material_block matte(glm::vec3 color) {
-    lit::Material_block material{};
+lit::Material matte(glm::vec3 color) {
+    lit::Material material{};
     material.ambient = color;
     material.diffuse = color;
     material.specular = glm::vec3(0.10f);
@@ -73,15 +73,15 @@ lit::Material_block matte(glm::vec3 color) {
     return material;
 }
 
-lit::Material_block porcelain() {
-    lit::Material_block material = matte(glm::vec3(0.80f, 0.78f, 0.74f));
+lit::Material porcelain() {
+    lit::Material material = matte(glm::vec3(0.80f, 0.78f, 0.74f));
     material.specular = glm::vec3(0.9f);
     material.shininess = 90;
     return material;
 }
 
-lit::Material_block glowing(glm::vec3 radiance) {
-    lit::Material_block material{};
+lit::Material glowing(glm::vec3 radiance) {
+    lit::Material material{};
     material.emission = radiance;
     return material;
 }
@@ -104,7 +104,7 @@ Scene::Scene(const std::string& teapot_file)
 
 void Scene::draw(Renderer& renderer, const lit::Key& key, float aspect) const {
     const glm::mat4 view = camera();
-    renderer.set(lit::Ambient_block{glm::vec3(0.030f, 0.040f, 0.065f), {}});
+    renderer.set(lit::Ambient{glm::vec3(0.030f, 0.040f, 0.065f), {}});
     renderer.set(moon(view));
     renderer.set(lamp(view));
     renderer.set(spot(view));

@@ -110,7 +110,7 @@ void Renderer::draw(std::size_t number, const Settings& settings, const glm::dma
     const LightBlocks lights = light_blocks(stage_, draw, view);
     set(transform_block(view * draw.model, projection));
     set(draw.material);
-    set(lit::Ambient_block{glm::vec3(stage_.scene.ambient), {}});
+    set(lit::Ambient{glm::vec3(stage_.scene.ambient), {}});
     set(lights.directional);
     set(lights.point);
     set(lights.spot);

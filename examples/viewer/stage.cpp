@@ -14,8 +14,8 @@ using gobo::scene::Draw;
 using gobo::scene::Effect;
 using gobo::scene::Scene;
 
-lit::Material_block material_block(const gobo::scene::Material& material) {
-    lit::Material_block block{};
+lit::Material material_block(const gobo::scene::Material& material) {
+    lit::Material block{};
     block.emission = glm::vec3(material.emission);
     block.ambient = glm::vec3(material.ambient);
     block.diffuse = glm::vec3(material.diffuse);

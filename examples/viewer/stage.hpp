@@ -33,7 +33,7 @@ struct StageDraw {
     gobo::Mesh mesh;
     glm::dmat4 model{1};
     bool double_sided = false;
-    lit::Material_block material{};
+    lit::Material material{};
     lit::Fog_block fog{};
     lit::Toon toon{};
     DrawState state;

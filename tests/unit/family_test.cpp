@@ -252,6 +252,22 @@ const BadRow bad_rows[] = {
      "    default = \"1\"\n"
      "              ^\n"
      "  remedy: only a choice can: a count's is 0, a define's is off\n"},
+    {"enum_of_a_define",
+     "[features.bump]\n"
+     "define = \"BUMP\"\n"
+     "enum = \"Bump\"\n",
+     "tiny.toml:6:8: error: feature 'bump' cannot name an enum\n"
+     "    enum = \"Bump\"\n"
+     "           ^\n"
+     "  remedy: only a choice has one: a count is an int, a define a bool\n"},
+    {"enum_that_is_no_type",
+     "[features.fog]\n"
+     "values = [\"a\", \"b\"]\n"
+     "enum = \"Fog kind\"\n",
+     "tiny.toml:6:8: error: feature 'fog' has 'Fog kind' for an enum\n"
+     "    enum = \"Fog kind\"\n"
+     "           ^\n"
+     "  remedy: name it as C++ names a type, such as FogKind\n"},
     {"retired_explicit_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"

@@ -17,7 +17,8 @@ int bits_for(std::size_t count) {
 std::string type_of(const Feature& feature, CppScope& scope) {
     if (feature.kind == FeatureKind::count) return "int";
     if (feature.kind == FeatureKind::define) return "bool";
-    return scope.claim(cpp_type_name(feature.name));
+    const std::string name = feature.enum_name.empty() ? feature.name : feature.enum_name;
+    return scope.claim(cpp_type_name(name));
 }
 
 std::vector<std::string> name_values(const Feature& feature) {

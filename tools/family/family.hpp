@@ -35,8 +35,9 @@ struct Feature {
         values;             ///< the default, then the others as the family lists them. Counts: "0", ...
     int default_place = 0;  ///< where the family's list has the default: 0 unless it names another
     std::vector<std::string> retired;  ///< values that measurement has shown to be dominated
-    std::string macro;  ///< the constant of a count or the macro of a define; empty for a choice
-    Place place;        ///< where the family declares it
+    std::string macro;      ///< the constant of a count or the macro of a define; empty for a choice
+    Place place;            ///< where the family declares it
+    std::string enum_name;  ///< of a choice in generated headers; empty: its own in PascalCase
 
     /// The index of a value; nothing where there is no such value.
     [[nodiscard]] std::optional<int> index_of(std::string_view value) const;

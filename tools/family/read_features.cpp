@@ -43,6 +43,17 @@ void put_default_first(TomlReader& reader, const toml::table& table, Feature& fe
     std::rotate(feature.values.begin(), feature.values.begin() + *index, feature.values.begin() + *index + 1);
 }
 
+/// Generated headers hold enums and uniform blocks side by side: where a block has a feature's name already,
+/// the family names the enum otherwise.
+void read_enum_name(TomlReader& reader, const toml::table& table, Feature& feature, const std::string& what) {
+    const std::optional<std::string> name = reader.string(table, "enum");
+    if (!name) return;
+    feature.enum_name = *name;
+    if (is_identifier(*name)) return;
+    reader.error(*table.get("enum"), fmt::format("{} has '{}' for an enum", what, *name),
+                 "name it as C++ names a type, such as FogKind");
+}
+
 void read_choice(TomlReader& reader, const toml::table& table, Feature& feature, const std::string& what) {
     feature.kind = FeatureKind::choice;
     feature.values = reader.strings(table, "values");
@@ -63,6 +74,7 @@ void read_choice(TomlReader& reader, const toml::table& table, Feature& feature,
         }
     }
     put_default_first(reader, table, feature, what);
+    read_enum_name(reader, table, feature, what);
     for (const std::string& value : feature.retired) {
         const auto index = feature.index_of(value);
         if (!index || *index == 0) {
@@ -104,13 +116,18 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
                      "write [features.NAME] with values, count or define");
         return feature;
     }
-    reader.only(*table, what, {"role", "values", "default", "retired", "count", "constant", "define"});
+    reader.only(*table, what,
+                {"role", "values", "default", "retired", "enum", "count", "constant", "define"});
     feature.role = read_role(reader, *table, what);
     const int kinds = (table->contains("values") ? 1 : 0) + (table->contains("count") ? 1 : 0) +
                       (table->contains("define") ? 1 : 0);
     if (table->contains("default") && !table->contains("values")) {
         reader.error(*table->get("default"), what + " cannot name its default",
                      "only a choice can: a count's is 0, a define's is off");
+    }
+    if (table->contains("enum") && !table->contains("values")) {
+        reader.error(*table->get("enum"), what + " cannot name an enum",
+                     "only a choice has one: a count is an int, a define a bool");
     }
     if (kinds != 1) {
         reader.error(node, what + " must be one of a choice, a count and a define",

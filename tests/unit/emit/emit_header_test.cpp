@@ -132,6 +132,17 @@ TEST(EmitHeader, GivesTheSameBytesWhateverTheOrderOfTheKeys) {
     EXPECT_EQ(header_of(built), header_of(shuffled));
 }
 
+TEST(EmitHeader, AFeatureWithAnEnumOfItsOwnLeavesABlockItsName) {
+    Built built = sample::lit();
+    EXPECT_NE(header_of(built).find("struct Fog_block {"), std::string::npos);
+    built.family.features[2].enum_name = "FogFeature";
+    const std::string header = header_of(built);
+    EXPECT_NE(header.find("enum class FogFeature : std::uint8_t { none, linear, exponential };"),
+              std::string::npos);
+    EXPECT_NE(header.find("    FogFeature fog = FogFeature::none;"), std::string::npos);
+    EXPECT_NE(header.find("struct Fog {"), std::string::npos);
+}
+
 TEST(EmitHeader, LeavesOutWhatNoPermutationUses) {
     Built built = sample::lit();
     built.composition.permutations.resize(1);
