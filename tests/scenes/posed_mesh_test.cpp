@@ -15,6 +15,7 @@ Scene triangle() {
     primitive.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     primitive.indices = {0, 1, 2};
     scene.meshes.push_back({"triangle", {primitive}, {}});
+    scene.materials.emplace_back();
     Node node;
     node.mesh = 0;
     node.world = glm::translate(glm::dmat4(1), glm::dvec3(0, 1, 0));
@@ -40,6 +41,49 @@ TEST(PosedMesh, IsMorphedByItsNodesWeightsOrItsOwn) {
     EXPECT_EQ(posed(scene).mesh.positions[1], glm::vec3(1, 0, 1));
     scene.nodes[0].weights = {-1};
     EXPECT_EQ(posed(scene).mesh.positions[1], glm::vec3(1, 0, -2));
+}
+
+TEST(PosedMesh, MorphedNormalsAreUnitAgain) {
+    Scene scene = triangle();
+    Primitive& primitive = scene.meshes[0].primitives[0];
+    primitive.target_positions = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    primitive.target_normals = {{{1, 0, 0}, {0, 0, 0}, {0, 0, -1}}};
+    scene.meshes[0].weights = {1};
+    const PosedMesh mesh = posed(scene);
+    EXPECT_LT(glm::distance(mesh.mesh.normals[0], glm::normalize(glm::vec3(1, 0, 1))), 1e-6F);
+    EXPECT_EQ(mesh.mesh.normals[1], glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh.mesh.normals[2], glm::vec3(0)) << "where a morph leaves no normal there is none";
+}
+
+TEST(PosedMesh, FlatNormalsFollowTheMorph) {
+    Scene scene = triangle();
+    Primitive& primitive = scene.meshes[0].primitives[0];
+    primitive.has_flat_normals = true;
+    primitive.target_positions = {{{0, 0, 0}, {0, 0, 0}, {0, -1, 1}}};
+    scene.meshes[0].weights = {1};
+    for (const glm::vec3& normal : posed(scene).mesh.normals)
+        EXPECT_LT(glm::distance(normal, glm::vec3(0, -1, 0)), 1e-6F);
+}
+
+TEST(PosedMesh, InstancesAreLaidOutAndMirroredOnesTurned) {
+    Scene scene = triangle();
+    scene.nodes[0].instances = {glm::translate(glm::dmat4(1), glm::dvec3(0, 5, 0)),
+                                glm::scale(glm::dmat4(1), glm::dvec3(-1, 2, 1))};
+    const PosedMesh mesh = posed(scene);
+    ASSERT_EQ(mesh.mesh.positions.size(), 6U);
+    EXPECT_EQ(mesh.mesh.positions[1], glm::vec3(1, 5, 0));
+    EXPECT_EQ(mesh.mesh.positions[4], glm::vec3(-1, 0, 0));
+    EXPECT_EQ(mesh.mesh.normals[4], glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh.mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 3, 5, 4}));
+    EXPECT_EQ(mesh.model, scene.nodes[0].world);
+}
+
+TEST(PosedMesh, OpaqueMaterialsIgnoreTheAlphaOfVertices) {
+    Scene scene = triangle();
+    scene.meshes[0].primitives[0].colors = {{1, 0, 0, 0.5F}, {1, 1, 1, 0}, {0, 0, 0, 1}};
+    EXPECT_EQ(posed(scene).mesh.colors[0], glm::vec4(1, 0, 0, 1));
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(posed(scene).mesh.colors[0], glm::vec4(1, 0, 0, 0.5F));
 }
 
 TEST(PosedMesh, IsTakenToTheWorldByItsJoints) {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "render/stage_text.hpp"
 #include "scene/read_scene.hpp"
 
 namespace gobo::scene {
@@ -39,6 +41,21 @@ ShippedFamily::ShippedFamily(const std::string& name) {
     family = std::move(*read);
     for (const std::string folder : {"shader_lib", "templates"})
         search.add(files, source + "/" + folder, folder + "/", false);
+}
+
+DepthPass shipped_depth_pass(int side) {
+    const ShippedFamily depth("depth");
+    const auto shaders = shaders_of(depth.family, depth.search, std::vector<Draw>(1),
+                                    {default_key(depth.family)}, Dialect::own, 1);
+    EXPECT_TRUE(shaders) << text_of(shaders.error());
+    const Composition& composition = shaders->composition;
+    DepthPass pass;
+    pass.stages = {stage_text(composition, composition.permutations[0].vertex),
+                   stage_text(composition, composition.permutations[0].fragment)};
+    pass.interface = shaders->interfaces[0];
+    pass.values = depth.family.render;
+    pass.side = side;
+    return pass;
 }
 
 Scene shipped_scene(const std::string& file) {

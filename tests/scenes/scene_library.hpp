@@ -7,6 +7,7 @@
 #include "common/file_system.hpp"
 #include "compose/search_path.hpp"
 #include "family/family.hpp"
+#include "render/shadow_maps.hpp"
 #include "scene_picture/scene_shaders.hpp"
 #include "scene_picture/scene_view.hpp"
 
@@ -19,6 +20,9 @@ struct ShippedFamily {
     Family family;
     SearchPath search;
 };
+
+/// What shadow maps of that size are drawn with: the family `depth`.
+[[nodiscard]] DepthPass shipped_depth_pass(int side);
 
 [[nodiscard]] std::string text_of(const Diagnostics& diagnostics);
 

@@ -25,17 +25,26 @@ bool may_be_seen(const Effect& light) {
            light.reason.find("gives back no light") == std::string::npos;
 }
 
+/// Whether the file asks for the effect, be it to be seen or not.
+bool is_asked_for(const Scene& scene, const Draw& draw, const Effect& effect) {
+    const Wishes wishes = wishes_of(scene, draw);
+    const Material& material = material_of(scene, draw);
+    const bool is_toon = wishes.toon_levels.value_or(0) > 0;
+    if (effect.name == "toon") return is_toon;
+    if (effect.name == "specular") return effect.value != "none" && !is_toon;
+    if (effect.name == "fog" || effect.name == "probe") return effect.value != "none";
+    if (effect.name == "reflection") return wishes.reflection.value_or(0) > 0;
+    if (effect.name == "vertex_color") return !primitive_of(scene, draw).colors.empty();
+    if (effect.name == "cutout") return material.alpha_mode == AlphaMode::mask;
+    if (effect.name.starts_with("shadow of ")) return wishes.shadow.value_or(true);
+    return effect.is_in;
+}
+
 /// What the draw would call for if nothing were out of reach: every light, and whatever the file asks for.
 Draw everything_on(const Scene& scene, Draw draw) {
-    const Wishes wishes = wishes_of(scene, draw);
-    const bool is_toon = wishes.toon_levels.value_or(0) > 0;
-    for (Effect& effect : draw.effects) {
-        const bool is_light = effect.value.empty();
-        const bool is_shading = (effect.name == "toon" && is_toon) ||
-                                (effect.name == "specular" && effect.value != "none" && !is_toon) ||
-                                (effect.name == "fog" && effect.value != "none");
-        if (is_light || is_shading) effect.is_in = true;
-    }
+    const std::size_t lights = place_lights(scene).size();
+    for (std::size_t i = 0; i < draw.effects.size(); ++i)
+        draw.effects[i].is_in = i < lights || is_asked_for(scene, draw, draw.effects[i]);
     return draw;
 }
 
@@ -65,6 +74,57 @@ double allowed(const Scene& scene, const Draw& draw, double brightest) {
     return sum;
 }
 
+/// How everything is drawn.
+struct Everything {
+    SceneShaders shaders;
+    std::vector<Object> objects;
+};
+
+bool has_shadows(const Family& family, const Key& key) {
+    for (const char* feature : {"directional_shadows", "point_shadows", "spot_shadows"}) {
+        const auto index = family.index_of(feature);
+        if (index && key[static_cast<std::size_t>(*index)] > 0) return true;
+    }
+    return false;
+}
+
+/// By the permutations of lit: where shadows fall, which the ubershader has none of.
+Result<Everything> everything_by_lit(const ShippedFamily& lit, const Scene& scene,
+                                     const std::vector<Draw>& draws,
+                                     const std::vector<std::optional<DrawKey>>& lit_keys) {
+    Everything everything;
+    std::vector<std::optional<Key>> keys;
+    for (const auto& key : lit_keys) keys.push_back(key ? std::optional(key->key) : std::nullopt);
+    auto shaders = shaders_of(lit.family, lit.search, draws, keys, Dialect::own, 1);
+    if (!shaders) return tl::unexpected(shaders.error());
+    everything.shaders = std::move(*shaders);
+    everything.objects = objects_of(scene, everything.shaders);
+    return everything;
+}
+
+/// By the ubershader, its lights in one array with switches.
+Result<Everything> everything_by_uber(const ShippedFamily& lit, const ShippedFamily& uber, const Scene& scene,
+                                      const std::vector<Draw>& draws,
+                                      const std::vector<std::optional<DrawKey>>& lit_keys) {
+    Everything everything;
+    std::vector<std::optional<Key>> keys;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        keys.emplace_back();
+        everything.objects.emplace_back();
+        if (!lit_keys[i]) continue;
+        const Key& key = lit_keys[i]->key;
+        EXPECT_LE(lights_of(lit.family, key), kSwitchedLights);
+        keys.back() = uber_key(uber.family, lit.family, key, UberLights::switched);
+        everything.objects.back() = object_of(scene, draws[i]);
+        everything.objects.back().values =
+            uber_values(uber.family, lit.family, key, std::move(everything.objects.back().values));
+    }
+    auto shaders = shaders_of(uber.family, uber.search, draws, keys, Dialect::own, 1);
+    if (!shaders) return tl::unexpected(shaders.error());
+    everything.shaders = std::move(*shaders);
+    return everything;
+}
+
 class Sound : public testing::TestWithParam<std::string> {};
 
 TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
@@ -80,32 +140,26 @@ TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
     for (const Draw& draw : draws) full.push_back(draw.excluded.empty() ? everything_on(scene, draw) : draw);
     const auto full_keys = keys_called_for(lit.family, full, {}, "450");
     ASSERT_TRUE(full_keys) << text_of(full_keys.error());
-    std::vector<std::optional<Key>> uber_keys;
-    std::vector<Object> uber_objects;
-    for (std::size_t i = 0; i < full.size(); ++i) {
-        const auto& key = (*full_keys)[i];
-        uber_keys.emplace_back();
-        uber_objects.emplace_back();
-        if (!key) continue;
-        ASSERT_LE(lights_of(lit.family, key->key), kSwitchedLights);
-        uber_keys.back() = uber_key(uber.family, lit.family, key->key, UberLights::switched);
-        uber_objects.back() = object_of(scene, full[i]);
-        uber_objects.back().values =
-            uber_values(uber.family, lit.family, key->key, std::move(uber_objects.back().values));
-    }
-    const auto everything = shaders_of(uber.family, uber.search, full, uber_keys, Dialect::own, 1);
+    const bool are_shadows = std::any_of(full_keys->begin(), full_keys->end(), [&](const auto& key) {
+        return key && has_shadows(lit.family, key->key);
+    });
+    auto everything = are_shadows ? everything_by_lit(lit, scene, full, *full_keys)
+                                  : everything_by_uber(lit, uber, scene, full, *full_keys);
     ASSERT_TRUE(everything) << text_of(everything.error());
 
     const auto chosen_programs = software_programs(*chosen);
-    const auto uber_programs = software_programs(*everything);
+    const auto uber_programs = software_programs(everything->shaders);
     ASSERT_TRUE(chosen_programs && uber_programs);
     const std::vector<Object> objects = objects_of(scene, *chosen);
     const auto values = values_beside_scene(lit.family.render);
+    const SoftwareImages images = software_images(images_of(scene, draws), objects);
+    const SoftwareImages uber_images = software_images(images_of(scene, full), everything->objects);
     std::size_t seen = 0;
     for (const Vantage& vantage : from) {
-        const auto actual = draw_in_software(*chosen, *chosen_programs, objects, values, vantage.view);
-        const auto expected =
-            draw_in_software(*everything, *uber_programs, uber_objects, values, vantage.view);
+        const auto actual =
+            draw_in_software(*chosen, *chosen_programs, objects, values, vantage.view, false, images);
+        const auto expected = draw_in_software(everything->shaders, *uber_programs, everything->objects,
+                                               values, vantage.view, false, uber_images);
         ASSERT_TRUE(actual && expected);
         EXPECT_EQ(actual->draw, expected->draw);
         for (std::size_t i = 0; i < actual->draw.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <lodepng.h>
 
 #include "scene/effects.hpp"
 #include "scene/lit_volume.hpp"
@@ -56,6 +57,42 @@ constexpr std::string_view sun = R"({"type": "directional"})";
 constexpr std::string_view spot =
     R"({"type": "spot", "spot": {"outerConeAngle": 0.4636476}})";  // its tangent is 1/2
 constexpr std::string_view behind = R"("translation": [0, 0, -2])";
+
+/// The quad with colours: three vertices white, the last one as given, in bytes.
+std::string colored(std::string_view color, std::string_view mode,
+                    std::string_view surface = R"({"metallicFactor": 0})") {
+    std::string bytes(12, '\xff');
+    for (const auto& part : nlohmann::json::parse(color))
+        bytes += static_cast<char>(std::lround(255 * part.get<double>()));
+    std::string uri = "data:;base64," + base64(bytes);
+    return fmt::format(
+        R"([{{"op": "add", "path": "/buffers/-", "value": {{"byteLength": 16, "uri": "{}"}}}},
+            {{"op": "add", "path": "/bufferViews/-", "value": {{"buffer": 1, "byteLength": 16}}}},
+            {{"op": "add", "path": "/accessors/-", "value": {{"bufferView": 3, "componentType": 5121, "count": 4,
+              "type": "VEC4", "normalized": true}}}},
+            {{"op": "add", "path": "/meshes/0/primitives/0/attributes/COLOR_0", "value": 4}},
+            {{"op": "add", "path": "/materials/0/alphaMode", "value": "{}"}},
+            {{"op": "add", "path": "/materials/0/pbrMetallicRoughness", "value": {}}}])",
+        uri, mode, surface);
+}
+
+/// A picture of two pixels, in alpha 64 and 255, and one that is opaque, as PNG.
+std::string png(unsigned char alpha) {
+    std::vector<unsigned char> file;
+    lodepng::encode(file, std::vector<unsigned char>{9, 9, 9, alpha, 9, 9, 9, 255}, 2, 1);
+    return "data:image/png;base64," + base64(std::string(file.begin(), file.end()));
+}
+
+/// A masked material whose base colour is that texture times that factor.
+std::string masked(std::string_view texture, std::string_view factor) {
+    return fmt::format(
+        R"([{{"op": "add", "path": "/images", "value": [{{"uri": "{}"}}, {{"uri": "{}"}}]}},
+            {{"op": "add", "path": "/textures", "value": [{{"source": 0}}, {{"source": 1}}]}},
+            {{"op": "add", "path": "/materials/0/alphaMode", "value": "MASK"}},
+            {{"op": "add", "path": "/materials/0/pbrMetallicRoughness",
+              "value": {{"baseColorTexture": {}, "baseColorFactor": {}}}}}])",
+        png(64), png(255), texture, factor);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Lights, Effects,
@@ -141,19 +178,69 @@ INSTANTIATE_TEST_SUITE_P(
                R"([{"op": "add", "path": "/scenes/0/extras", "value": {"gobo": {"toon": 3}}},
                    {"op": "add", "path": "/nodes/0/extras", "value": {"gobo": {"toon": 0}}}])",
                "toon", "out, not asked for"},
-        Judged{"two_sided", put("/materials/0/doubleSided", "true"), "two_sided",
+        Judged{"two_sided", put("/materials/0/doubleSided", "true"), "sides",
                "in, its material is marked doubleSided"},
-        Judged{"one_sided", "[]", "two_sided", "out, not marked"},
-        Judged{"cutout", put("/materials/0/alphaMode", R"("MASK")"), "cutout",
-               "in, its material's alphaMode is MASK"},
+        Judged{"one_sided", "[]", "sides", "out, not marked"},
+        Judged{"cutout_by_vertices", colored("[1, 1, 1, 0.25]", "MASK"), "cutout",
+               "in, its alpha falls to 0.251, below 0.5"},
+        Judged{"cutout_by_a_picture_unknown", masked(R"({"index": 0, "texCoord": 1})", "[1, 1, 1, 1]"),
+               "cutout", "in, its alpha falls to 0, below 0.5"},
+        Judged{"cutout_by_a_picture", masked(R"({"index": 0})", "[1, 1, 1, 0.9]"), "cutout",
+               "in, its alpha falls to 0.226, below 0.5"},
+        Judged{"mask_of_an_opaque_picture", masked(R"({"index": 1})", "[1, 1, 1, 1]"), "cutout",
+               "out, its alpha is nowhere below 0.5"},
+        Judged{"mask_that_cuts_nothing", put("/materials/0/alphaMode", R"("MASK")"), "cutout",
+               "out, its alpha is nowhere below 0.5"},
         Judged{"blend_is_no_cutout", put("/materials/0/alphaMode", R"("BLEND")"), "cutout",
                "out, alphaMode is not MASK"},
-        Judged{"colored", put("/meshes/0/primitives/0/attributes/COLOR_0", "0"), "vertex_color",
+        Judged{"colored", colored("[1, 0.5, 1, 1]", "OPAQUE"), "vertex_color",
                "in, its vertices have colours"},
+        Judged{"colored_white", colored("[1, 1, 1, 1]", "OPAQUE"), "vertex_color", "out, all are white"},
+        Judged{"alpha_of_an_opaque_one", colored("[1, 1, 1, 0.25]", "OPAQUE"), "vertex_color",
+               "out, all are white"},
+        Judged{"alpha_of_a_mask", colored("[1, 1, 1, 0.25]", "MASK"), "vertex_color",
+               "in, its vertices are not opaque"},
+        Judged{"colored_metal",
+               colored("[1, 0.5, 1, 1]", "OPAQUE", R"({"metallicFactor": 1, "roughnessFactor": 0.5})"),
+               "vertex_color", "out, its material scatters no light"},
         Judged{"not_colored", "[]", "vertex_color", "out, it has none"},
-        Judged{"textured", put("/materials/0/normalTexture", R"({"index": 0})"), "texture",
-               "in, its material has textures"},
-        Judged{"probe", put("/scenes/0/extras", R"({"gobo": {"probe": true}})"), "probe", "in, asked for"}),
+        Judged{"textured",
+               R"([{"op": "add", "path": "/textures", "value": [{}]},
+                   {"op": "add", "path": "/materials/0/normalTexture", "value": {"index": 0}}])",
+               "texture", "in, its material has textures"}),
+    [](const auto& row) { return row.param.name; });
+
+/// The scene's word about the light around.
+std::string around(std::string_view gobo, std::string_view material = "{}") {
+    return fmt::format(
+        R"([{{"op": "add", "path": "/scenes/0/extras", "value": {{"gobo": {}}}}},
+            {{"op": "add", "path": "/materials/0/extras", "value": {{"gobo": {}}}}}])",
+        gobo, material);
+}
+
+constexpr std::string_view black = R"({"model": {"diffuse": [0, 0, 0], "specular": [0, 0, 0]}})";
+
+INSTANTIATE_TEST_SUITE_P(
+    LightAround, Effects,
+    testing::Values(
+        Judged{"hemisphere", around(R"({"probe": {"kind": "hemisphere", "sky": [1, 1, 1]}})"), "probe",
+               "in, hemisphere"},
+        Judged{"harmonics",
+               around(R"({"probe": {"kind": "spherical_harmonics", "coefficients": [[1, 1, 1], [0, 0, 0],
+                         [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]}})"),
+               "probe", "in, spherical_harmonics"},
+        Judged{"no_probe", "[]", "probe", "out, not asked for"},
+        Judged{"probe_taken_back",
+               around(R"({"probe": {"kind": "image"}})", R"({"probe": {"kind": "none"}})"), "probe",
+               "out, not asked for"},
+        Judged{"probe_on_black", around(R"({"probe": {"kind": "image"}})", black), "probe",
+               "out, its material gives back no ambient light"},
+        Judged{"reflection", around(R"({"reflection": 0.5})"), "reflection", "in, a share of 0.5"},
+        Judged{"no_reflection", around(R"({"reflection": 0})"), "reflection", "out, not asked for"},
+        Judged{"reflection_on_black", around(R"({"reflection": 0.5})", black), "reflection",
+               "out, its material has no highlight"},
+        Judged{"quality", around(R"({"quality": {"shading": "vertex"}})"), "shading", "in, asked for"},
+        Judged{"no_quality", "[]", "shading", "no such effect"}),
     [](const auto& row) { return row.param.name; });
 
 std::string fog(std::string_view members) {
@@ -187,23 +274,30 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return row.param.name; });
 
 /// Another quad, moved to a place, and a lamp that casts shadows.
-std::string with_caster(std::string_view place) {
+std::string with_caster(std::string_view place, std::string_view lamp = R"({"type": "point"})") {
     return fmt::format(
-        R"([{{"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/extras",
+        R"([{{"op": "replace", "path": "/extensions/KHR_lights_punctual/lights/0", "value": {}}},
+            {{"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/extras",
               "value": {{"gobo": {{"shadow": true}}}}}},
             {{"op": "add", "path": "/nodes/-", "value": {{"name": "screen", "mesh": 0, "translation": {}}}}},
             {{"op": "add", "path": "/scenes/0/nodes/-", "value": 3}}])",
-        place);
+        lamp, place);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shadow, Effects,
-                         testing::Values(Judged{"no_caster_light", "[]", "shadow",
-                                                "out, no light that is in casts any"},
-                                         Judged{"caster_between", with_caster("[0, 0, 1]"), "shadow",
-                                                "in, 'screen' may shade it from point 0"},
-                                         Judged{"caster_elsewhere", with_caster("[5, 0, 1]"), "shadow",
-                                                "out, nothing can shade it"}),
-                         [](const auto& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Shadow, Effects,
+    testing::Values(Judged{"no_caster_light", "[]", "shadow", "out, no light casts any"},
+                    Judged{"caster_between", with_caster("[0, 0, 1]"), "shadow of point 0",
+                           "in, 'screen' may shade it"},
+                    Judged{"caster_elsewhere", with_caster("[5, 0, 1]"), "shadow of point 0",
+                           "out, nothing can shade it"},
+                    Judged{"caster_beside_the_sun", with_caster("[2.5, 0, 1]", R"({"type": "directional"})"),
+                           "shadow of directional 0", "out, nothing can shade it"},
+                    Judged{"caster_before_the_sun", with_caster("[1.5, 0, 1]", R"({"type": "directional"})"),
+                           "shadow of directional 0", "in, 'screen' may shade it"},
+                    Judged{"caster_behind", with_caster("[0, 0, -1]", R"({"type": "directional"})"),
+                           "shadow of directional 0", "out, nothing can shade it"}),
+    [](const auto& row) { return row.param.name; });
 
 TEST(SceneEffects, SharedMeshesAreJudgedForEachNode) {
     const Scene scene = read_patched(

@@ -1,6 +1,7 @@
 // Broken scenes: each has one error, told whole.
 #include <limits>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scene/read_scene.hpp"
@@ -40,6 +41,21 @@ std::string take(std::string_view path) {
     return R"([{"op": "remove", "path": ")" + std::string(path) + R"("}])";
 }
 
+/// A masked material whose base colour is that image.
+std::string masked(std::string_view image) {
+    return fmt::format(
+        R"([{{"op": "add", "path": "/images", "value": [{}]}},
+            {{"op": "add", "path": "/textures", "value": [{{"source": 0}}]}},
+            {{"op": "add", "path": "/materials/0/alphaMode", "value": "MASK"}},
+            {{"op": "add", "path": "/materials/0/pbrMetallicRoughness/baseColorTexture", "value": {{"index": 0}}}}])",
+        image);
+}
+
+std::string instanced(std::string_view attributes) {
+    return put("/nodes/0/extensions",
+               fmt::format(R"({{"EXT_mesh_gpu_instancing": {{"attributes": {}}}}})", attributes));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     File, BrokenScenes,
     testing::Values(
@@ -52,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{
             "extension_required", put("/extensionsRequired", R"(["KHR_draco_mesh_compression"])"),
             "extensionsRequired[0] is KHR_draco_mesh_compression, which gobo does not read\n  remedy: export "
-            "without it; read are KHR_lights_punctual, KHR_materials_emissive_strength, "
+            "without it; read are EXT_mesh_gpu_instancing, KHR_lights_punctual, "
+            "KHR_materials_emissive_strength, "
             "KHR_materials_specular, "
             "KHR_materials_unlit, KHR_mesh_quantization, KHR_texture_transform"},
         Broken{"nodes_no_array", put("/nodes", R"("three")"), "nodes must be an array, not a string"},
@@ -213,9 +230,41 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"data_not_base64", put("/buffers/0/uri", R"("data:application/octet-stream;base64,@@@@")"),
                "buffers[0].uri is a data URI whose base64 holds a character that is none of its digits"},
         Broken{"buffer_elsewhere", put("/buffers/0/uri", R"("https://example.org/quad.bin")"),
-               "buffers[0].uri is 'https://example.org/quad.bin'\n  remedy: buffers are data URIs or paths "
+               "buffers[0].uri is 'https://example.org/quad.bin'\n  remedy: buffers and pictures are data "
+               "URIs or paths "
                "relative "
                "to the file"},
+        Broken{"texture_out_of_range", put("/materials/0/normalTexture", R"({"index": 3})"),
+               "materials[0].normalTexture.index is 3, but the file has 0 textures"},
+        Broken{"image_out_of_range", put("/textures", R"([{"source": 1}])"),
+               "textures[0].source is 1, but the file has 0 images"},
+        Broken{"picture_cut_short", masked(R"({"uri": "data:;base64,iVBORw0KGgoAAAA="})"),
+               "images[0] is no PNG that can be decoded: PNG file is smaller than a PNG header"},
+        Broken{"picture_nowhere", masked("{}"), "images[0] has neither uri nor bufferView"},
+        Broken{"instances_of_two_sizes", instanced(R"({"TRANSLATION": 0, "SCALE": 3})"),
+               "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE has 2 elements, but there are 4 "
+               "instances"},
+        Broken{"instances_by_numbers", instanced(R"({"TRANSLATION": 2})"),
+               "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION names accessors[2], which "
+               "holds SCALAR of float, not VEC3 of float or byte or short"},
+        Broken{"instances_of_a_skin",
+               R"([{"op": "add", "path": "/skins", "value": [{"joints": [0]}]},
+                   {"op": "add", "path": "/nodes/0/skin", "value": 0},
+                   {"op": "add", "path": "/nodes/0/extensions",
+                    "value": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])",
+               "nodes[0].extensions.EXT_mesh_gpu_instancing stands beside a skin: gobo draws no skinned "
+               "instances\n  remedy: export each instance as a node of its own"},
+        Broken{"zeros_without_end",
+               put("/accessors/0", R"({"componentType": 5126, "count": 2000000, "type": "VEC3"})"),
+               "accessors[0] has 2000000 elements without a buffer view: more than 4194304 zeros"},
+        Broken{"probe_without_kind", put("/scenes/0/extras", R"({"gobo": {"probe": {"sky": [1, 1, 1]}}})"),
+               "scenes[0].extras.gobo.probe.kind is missing"},
+        Broken{"too_few_coefficients",
+               put("/scenes/0/extras",
+                   R"({"gobo": {"probe": {"kind": "spherical_harmonics", "coefficients": [[1, 1, 1]]}}})"),
+               "scenes[0].extras.gobo.probe.coefficients must hold 9 colours, not 1"},
+        Broken{"quality_no_name", put("/scenes/0/extras", R"({"gobo": {"quality": {"shading": 1}}})"),
+               "scenes[0].extras.gobo.quality.shading must be a string, not a number"},
         Broken{"buffer_too_short", put("/buffers/0/byteLength", "93"),
                "buffers[0] holds 92 bytes, but its byteLength is 93"}),
     [](const auto& row) { return row.param.name; });
@@ -226,6 +275,14 @@ TEST(SceneErrors, MissingBufferFileIsAFaultOfTheFile) {
     EXPECT_EQ(error_of(scene),
               "rooms/quad.bin: error: cannot be read: No such file or directory\n  remedy: buffers[0].uri of "
               "rooms/quad.gltf names it\n");
+    EXPECT_EQ(exit_status(scene.error()), 3);
+}
+
+TEST(SceneErrors, MissingPictureIsAFaultOfTheFile) {
+    const Result<Scene> scene = read_json(patched_scene(masked(R"({"uri": "leaf.png"})")));
+    EXPECT_EQ(error_of(scene),
+              "leaf.png: error: cannot be read: No such file or directory\n  remedy: images[0].uri of "
+              "quad.gltf names it\n");
     EXPECT_EQ(exit_status(scene.error()), 3);
 }
 

@@ -46,6 +46,11 @@ std::string put(std::string_view path, std::string_view value) {
     return R"([{"op": "add", "path": ")" + std::string(path) + R"(", "value": )" + std::string(value) + "}]";
 }
 
+std::string instanced(std::string_view attributes) {
+    return put("/nodes/0/extensions",
+               fmt::format(R"({{"EXT_mesh_gpu_instancing": {{"attributes": {}}}}})", attributes));
+}
+
 std::string animated(std::string_view path, int output, std::string_view more = "") {
     return put("/animations/-", fmt::format(R"({{"samplers": [{{"input": 2, "output": {}{}}}],
         "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "{}"}}}}]}})",
@@ -76,6 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "indices": {"bufferView": 1, "componentType": 5123},
                     "values": {"bufferView": 2, "byteOffset": 20}}}])",
                "-1 -1 -10 to 1 1 0"},
+        // Accessor 3 holds (0, 0, 0) and (0, 0, -10).
+        Placed{"instanced", instanced(R"({"TRANSLATION": 3})"), "-1 -1 -10 to 1 1 0"},
+        Placed{"instanced_flat", instanced(R"({"SCALE": 3})"), "0 0 0 to 0 0 0"},
+        Placed{"instanced_under_a_scale",
+               R"([{"op": "add", "path": "/nodes/0/scale", "value": [2, 1, 3]},
+                   {"op": "add", "path": "/nodes/0/extensions",
+                    "value": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 3}}}}])",
+               "-2 -1 -30 to 2 1 0"},
         Placed{"morphed_at_rest",
                R"([{"op": "add", "path": "/meshes/0/primitives/0/targets", "value": [{"POSITION": 0}]},
                    {"op": "add", "path": "/meshes/0/weights", "value": [0.5]}])",

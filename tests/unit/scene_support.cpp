@@ -51,6 +51,19 @@ std::string float_bytes(std::initializer_list<float> numbers) {
     return bytes;
 }
 
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
 std::string quad_buffer() {
     std::string bytes = float_bytes({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
     for (const char index : {0, 1, 2, 0, 2, 3}) {

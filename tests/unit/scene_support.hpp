@@ -34,4 +34,7 @@ namespace gobo::scene {
 
 [[nodiscard]] std::string float_bytes(std::initializer_list<float> numbers);
 
+/// Bytes as data URIs hold them.
+[[nodiscard]] std::string base64(std::string_view bytes);
+
 }  // namespace gobo::scene

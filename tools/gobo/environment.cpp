@@ -1,5 +1,7 @@
 #include "gobo/environment.hpp"
 
+#include <algorithm>
+
 #include "probe/convolution.hpp"
 #include "probe/cube_map.hpp"
 #include "render/image_file.hpp"
@@ -39,6 +41,21 @@ Result<CubeImages> load_environment(const World& world, const std::string& folde
         images.emplace(sampler, std::move(*image));
     }
     return images;
+}
+
+Result<void> add_environment(const World& world, const std::string& folder, int jobs,
+                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
+    const auto looks_up = [](const Interface& interface) {
+        return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
+            return sampler.name == "diffuseMap" || sampler.name == "specularMap";
+        });
+    };
+    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up)) return {};
+    const auto images = load_environment(world, folder, jobs);
+    if (!images) return tl::unexpected(images.error());
+    for (const auto& [sampler, image] : *images)
+        if (const auto added = cubes.add(sampler, image); !added) return added;
+    return {};
 }
 
 }  // namespace gobo

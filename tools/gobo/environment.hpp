@@ -4,6 +4,8 @@
 #include <map>
 
 #include "gobo/command.hpp"
+#include "reflect/interface.hpp"
+#include "render/cube_maps.hpp"
 #include "render/image.hpp"
 
 namespace gobo {
@@ -14,5 +16,9 @@ using CubeImages = std::map<std::string, Image>;
 /// `folder`/diffuse.exr and `folder`/specular.exr as diffuseMap and specularMap. Where `folder` is empty,
 /// those of the shipped environment `studio`, for a shininess of 48.
 [[nodiscard]] Result<CubeImages> load_environment(const World& world, const std::string& folder, int jobs);
+
+/// Gives `cubes` the maps of the environment, where an interface looks any up.
+[[nodiscard]] Result<void> add_environment(const World& world, const std::string& folder, int jobs,
+                                           const std::vector<Interface>& interfaces, CubeMaps& cubes);
 
 }  // namespace gobo

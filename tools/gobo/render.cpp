@@ -84,22 +84,6 @@ Result<std::vector<Interface>> interfaces_of(const Family& family, const Composi
     return interfaces;
 }
 
-/// The cube maps of the environment, where a key looks any up.
-Result<void> add_environment(const RenderOptions& options, const World& world,
-                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
-    const auto looks_up = [](const Interface& interface) {
-        return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
-            return sampler.name == "diffuseMap" || sampler.name == "specularMap";
-        });
-    };
-    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up)) return {};
-    const auto images = load_environment(world, options.environment, options.common.jobs);
-    if (!images) return tl::unexpected(images.error());
-    for (const auto& [sampler, image] : *images)
-        if (const auto added = cubes.add(sampler, image); !added) return added;
-    return {};
-}
-
 /// Draws each key with the demonstration mesh.
 Result<RenderedSelection> render_keys(const RenderOptions& options, const World& world, LoadedFamily& family,
                                       Dialect dialect, const Context& context, PictureOptions pictures) {
@@ -119,7 +103,9 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
         pictures.depth_pass = &depth_pass;
     }
     CubeMaps cubes(context);
-    if (const auto added = add_environment(options, world, *interfaces, cubes); !added)
+    if (const auto added =
+            add_environment(world, options.environment, options.common.jobs, *interfaces, cubes);
+        !added)
         return tl::unexpected(added.error());
     pictures.textures = cubes.textures();
     return render_selection(context, family.family, *composition, *interfaces, demo_objects(*mesh), pictures,
@@ -131,9 +117,9 @@ Result<RenderedSelection> render_both(const RenderOptions& options, const World&
                                       const PictureOptions& pictures) {
     RenderedSelection rendered;
     for (const std::string& path : options.selection.scenes) {
-        auto picture = render_scene(
-            {path, options.camera, options.selection.bucket_lights, dialect, options.common.jobs}, world,
-            family, context, pictures);
+        auto picture = render_scene({path, options.camera, options.selection.bucket_lights, dialect,
+                                     options.common, options.environment},
+                                    world, family, context, pictures);
         if (!picture) return tl::unexpected(picture.error());
         rendered.files.push_back(std::move(picture->file));
         rendered.diagnostics.insert(rendered.diagnostics.end(), picture->warnings.begin(),

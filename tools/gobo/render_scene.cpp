@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "gobo/depth_pass.hpp"
+#include "gobo/environment.hpp"
+#include "render/cube_maps.hpp"
 #include "scene/read_scene.hpp"
 #include "scene_picture/draw_scene.hpp"
 
@@ -44,13 +47,30 @@ Result<ScenePicture> render_scene(const SceneRequest& request, const World& worl
     const auto view = view_of(*scene, draws, request.camera, options.view);
     if (!view) return tl::unexpected(view.error());
     const auto shaders = scene::shaders_called_for(family.family, family.search, std::move(draws), *buckets,
-                                                   request.dialect, request.jobs);
+                                                   request.dialect, request.common.jobs);
     if (!shaders) return tl::unexpected(shaders.error());
-    const auto picture = scene::draw_scene(context, *scene, *shaders, family.family.render, *view);
+    DepthPass depth_pass;
+    scene::SceneTextures textures;
+    if (has_shadows(family.family, shaders->composition)) {
+        auto loaded = load_depth_pass(world, request.common);
+        if (!loaded) return tl::unexpected(loaded.error());
+        depth_pass = std::move(*loaded);
+        textures.depth_pass = &depth_pass;
+    }
+    CubeMaps cubes(context);
+    if (const auto added =
+            add_environment(world, request.environment, request.common.jobs, shaders->interfaces, cubes);
+        !added)
+        return tl::unexpected(added.error());
+    textures.given = cubes.textures();
+    const auto picture = scene::draw_scene(context, *scene, *shaders, family.family.render, *view, textures);
     if (!picture) return tl::unexpected(picture.error());
+    // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
+    Image opaque = picture->color;
+    for (std::size_t i = 3; i < opaque.values.size(); i += 4) opaque.values[i] = 1;
     const std::string file =
         fmt::format("{}/{}.{}", options.folder, stem_of(request.path), name_of(options.format));
-    if (const auto written = write_image(world.disk, file, picture->color); !written)
+    if (const auto written = write_image(world.disk, file, opaque); !written)
         return tl::unexpected(written.error());
     return ScenePicture{file, picture->warnings};
 }

@@ -13,7 +13,8 @@ struct SceneRequest {
     int camera = -1;  ///< number in the file; below 0: the scene's first, or a view of everything
     std::string bucket_lights;
     Dialect dialect = Dialect::own;
-    int jobs = 1;
+    CommonOptions common;
+    std::string environment;  ///< what gobo probe wrote; empty: a studio
 };
 
 struct ScenePicture {

@@ -68,6 +68,7 @@ void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::stri
     if (source == "position") attach(mesh.positions);
     if (source == "normal") attach(mesh.normals);
     if (source == "texcoord") attach(mesh.texcoords);
+    if (source == "color") attach(mesh.colors);
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ Result<void> DrawList::add_attributes(Item& item, const Interface& interface, co
         }
         const std::string source(value != nullptr ? value->source : attribute_source_of(input.name));
         const auto& known = attribute_sources();
-        if (source == "color") {
+        if (source == "color" && object.mesh.colors.empty()) {
             item.constants.push_back({location, {1, 1, 1, 1}});
         } else if (std::find(known.begin(), known.end(), source) != known.end()) {
             upload(resources_, location, object.mesh, source);

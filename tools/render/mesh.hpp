@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "common/file_system.hpp"
 
@@ -18,6 +19,7 @@ struct Mesh {
     std::vector<glm::vec3> normals;      ///< one per position
     std::vector<glm::vec2> texcoords;    ///< one per position
     std::vector<std::uint32_t> indices;  ///< three per triangle
+    std::vector<glm::vec4> colors = {};  ///< RGBA, one per position, or none: white
 };
 
 /// A sphere of radius 1 about the origin, its poles on the y axis. At least 3 slices and 2 stacks.

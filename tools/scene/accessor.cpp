@@ -15,6 +15,8 @@ namespace {
 /// More numbers than this are read of no scene: half a gigabyte in double precision. Accessors may overlap,
 /// so that a small file can ask for any amount.
 constexpr std::size_t most_components = std::size_t{1} << 26;
+/// And no more than this of an accessor without a buffer view, which costs a file nothing.
+constexpr std::size_t most_zeros = std::size_t{1} << 22;
 
 std::size_t size_of(Component component) {
     switch (component) {
@@ -257,6 +259,12 @@ bool Accessors::accepts(const Accessor& accessor, const Wanted& wanted, std::str
     return false;
 }
 
+std::optional<std::string_view> Accessors::view(const Value& parent, std::string_view name) {
+    const auto index = document_.index(parent, name, views_.size(), "buffer views");
+    if (!index || document_.failed()) return std::nullopt;
+    return views_[static_cast<std::size_t>(*index)].bytes;
+}
+
 Values Accessors::read(int index, const Wanted& wanted, std::string_view user) {
     if (document_.failed()) return {};
     const Accessor& accessor = accessors_[static_cast<std::size_t>(index)];
@@ -265,6 +273,12 @@ Values Accessors::read(int index, const Wanted& wanted, std::string_view user) {
         document_.error(accessor.path,
                         fmt::format("has {} elements: the scene would hold more than {} numbers",
                                     accessor.count, most_components));
+        return {};
+    }
+    if (!accessor.view && accessor.count > most_zeros / accessor.width) {
+        document_.error(accessor.path,
+                        fmt::format("has {} elements without a buffer view: more than {} zeros",
+                                    accessor.count, most_zeros));
         return {};
     }
     Values values{accessor.width, accessor.count, std::vector<double>(accessor.count * accessor.width, 0.0)};

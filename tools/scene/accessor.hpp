@@ -48,6 +48,8 @@ class Accessors {
     Accessors(Document& document, const Buffers& buffers);
 
     [[nodiscard]] std::size_t size() const { return accessors_.size(); }
+    /// The bytes of a buffer view named by a member; nothing where there is no such member, or it is wrong.
+    [[nodiscard]] std::optional<std::string_view> view(const Value& parent, std::string_view name);
     /// The values of an accessor, normalized ones as numbers from 0 or -1 to 1. `user` names what uses it in
     /// messages. A kind that is not wanted, and numbers that are not finite, are errors of the document; the
     /// result is then empty.

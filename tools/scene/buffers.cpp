@@ -83,11 +83,11 @@ std::string decode_data_uri(Document& document, const Value& buffer, std::string
 }
 
 std::string read_file(const FileSystem& files, Document& document, const Value& buffer, std::string_view uri,
-                      Buffers& buffers) {
+                      std::vector<std::string>& read) {
     const std::string place = path_to(buffer, "uri");
     if (has_scheme(uri) || uri.starts_with('/')) {
         document.error(place, fmt::format("is '{}'", uri),
-                       "buffers are data URIs or paths relative to the file");
+                       "buffers and pictures are data URIs or paths relative to the file");
         return {};
     }
     const std::string path = folder_of(document.path()) + decode_percent(uri);
@@ -97,21 +97,26 @@ std::string read_file(const FileSystem& files, Document& document, const Value& 
         document.take(std::move(content.error()));
         return {};
     }
-    buffers.files.push_back(path);
+    read.push_back(path);
     return std::move(*content);
 }
 
 std::string read_buffer(const FileSystem& files, Document& document, const Value& buffer, bool is_first,
                         std::optional<std::string_view> binary, Buffers& buffers) {
     const auto uri = document.string(buffer, "uri");
-    if (uri && uri->starts_with("data:")) return decode_data_uri(document, buffer, *uri);
-    if (uri) return read_file(files, document, buffer, *uri, buffers);
+    if (uri) return read_uri(files, document, buffer, *uri, buffers.files);
     if (is_first && binary) return std::string(*binary);
     document.error(buffer.path, "has no uri, and the file holds no binary chunk for it");
     return {};
 }
 
 }  // namespace
+
+std::string read_uri(const FileSystem& files, Document& document, const Value& user, std::string_view uri,
+                     std::vector<std::string>& read) {
+    return uri.starts_with("data:") ? decode_data_uri(document, user, uri)
+                                    : read_file(files, document, user, uri, read);
+}
 
 Buffers read_buffers(const FileSystem& files, Document& document, std::optional<std::string_view> binary) {
     Buffers buffers;

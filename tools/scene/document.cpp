@@ -150,15 +150,18 @@ std::optional<std::string> Document::string(const Value& parent, std::string_vie
 
 std::vector<Value> Document::elements(const Value& parent, std::string_view name) {
     const auto array = member(parent, name);
-    if (!array) return {};
-    if (!array->json->is_array()) {
-        wrong_type(*array, "an array");
+    return array ? elements_of(*array) : std::vector<Value>();
+}
+
+std::vector<Value> Document::elements_of(const Value& array) {
+    if (!array.json->is_array()) {
+        wrong_type(array, "an array");
         return {};
     }
     std::vector<Value> values;
-    values.reserve(array->json->size());
-    for (const json& element : *array->json)
-        values.push_back({&element, fmt::format("{}[{}]", array->path, values.size())});
+    values.reserve(array.json->size());
+    for (const json& element : *array.json)
+        values.push_back({&element, fmt::format("{}[{}]", array.path, values.size())});
     return values;
 }
 
@@ -174,10 +177,15 @@ std::vector<Value> Document::objects(const Value& parent, std::string_view name)
 
 std::optional<std::vector<double>> Document::numbers(const Value& parent, std::string_view name,
                                                      std::size_t size) {
-    const std::vector<Value> values = elements(parent, name);
-    if (failed() || !member(parent, name)) return std::nullopt;
+    const auto array = member(parent, name);
+    return array ? numbers_of(*array, size) : std::nullopt;
+}
+
+std::optional<std::vector<double>> Document::numbers_of(const Value& array, std::size_t size) {
+    const std::vector<Value> values = elements_of(array);
+    if (failed()) return std::nullopt;
     if (values.size() != size) {
-        error(path_to(parent, name), fmt::format("must hold {} numbers, not {}", size, values.size()));
+        error(array.path, fmt::format("must hold {} numbers, not {}", size, values.size()));
         return std::nullopt;
     }
     std::vector<double> result;

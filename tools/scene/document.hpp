@@ -44,6 +44,7 @@ class Document {
     /// Exactly `size` numbers.
     [[nodiscard]] std::optional<std::vector<double>> numbers(const Value& parent, std::string_view name,
                                                              std::size_t size);
+    [[nodiscard]] std::optional<std::vector<double>> numbers_of(const Value& array, std::size_t size);
     /// The elements of an array of objects; empty where it is absent.
     [[nodiscard]] std::vector<Value> objects(const Value& parent, std::string_view name);
     [[nodiscard]] std::vector<Value> elements(const Value& parent, std::string_view name);
@@ -75,6 +76,7 @@ class Document {
   private:
     [[nodiscard]] std::optional<Value> member(const Value& parent, std::string_view name) const;
     void wrong_type(const Value& value, std::string_view wanted);
+    [[nodiscard]] std::vector<Value> elements_of(const Value& array);
     [[nodiscard]] std::optional<double> number_of(const Value& value);
     [[nodiscard]] std::optional<std::int64_t> integer_of(const Value& value);
     [[nodiscard]] std::optional<int> index_of(const Value& value, std::size_t size, std::string_view things);

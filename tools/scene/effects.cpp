@@ -8,19 +8,10 @@
 #include <glm/matrix.hpp>
 
 #include "scene/motion.hpp"
+#include "scene/subject.hpp"
 
 namespace gobo::scene {
 namespace {
-
-/// A draw being judged.
-struct Subject {
-    const Scene& scene;
-    const Draw& draw;
-    const Primitive& primitive;
-    const Material& material;
-    Wishes wishes;
-    bool is_lit = false;  ///< some light is in
-};
 
 std::string draw_name(const Scene& scene, int node, int primitive) {
     const Node& here = scene.nodes[static_cast<std::size_t>(node)];
@@ -30,10 +21,12 @@ std::string draw_name(const Scene& scene, int node, int primitive) {
     return name;
 }
 
-std::string why_excluded(const Primitive& primitive) {
+std::string why_excluded(const Primitive& primitive, const Material& material) {
     if (primitive.topology == Topology::points) return "its primitives are points";
     if (primitive.topology == Topology::lines) return "its primitives are lines";
-    return primitive.indices.empty() ? "it has no triangles" : "";
+    if (primitive.indices.empty()) return "it has no triangles";
+    return is_cut_away(primitive, material) ? "all of it is more transparent than its material's alphaCutoff"
+                                            : "";
 }
 
 /// The surface's normals in world space, where they never change and one side only is seen.
@@ -41,8 +34,10 @@ std::vector<glm::dvec3> fixed_normals(const Scene& scene, int node, const Primit
                                       const Material& material) {
     const Node& here = scene.nodes[static_cast<std::size_t>(node)];
     const glm::dmat3 linear(here.world);
-    if (material.double_sided || here.skin || !primitive.target_positions.empty() || is_moving(scene, node) ||
-        glm::determinant(linear) == 0)
+    const auto is_shifted = [](const glm::dmat4& instance) { return glm::dmat3(instance) == glm::dmat3(1); };
+    const bool are_turned = !std::all_of(here.instances.begin(), here.instances.end(), is_shifted);
+    if (material.double_sided || here.skin || !primitive.target_positions.empty() || are_turned ||
+        is_moving(scene, node) || glm::determinant(linear) == 0)
         return {};
     const glm::dmat3 to_world = glm::transpose(glm::inverse(linear));
     std::vector<glm::dvec3> normals;
@@ -147,70 +142,6 @@ Effect judge_fog(const Subject& subject, const EyePlace& eye, double threshold) 
     return effect;
 }
 
-Effect flag(std::string name, bool is_in, std::string why_in, std::string why_out) {
-    Effect effect{std::move(name), "", "on", is_in, is_in ? std::move(why_in) : std::move(why_out)};
-    effect.feature = effect.name;
-    return effect;
-}
-
-/// A surface may shade itself unless it is flat.
-bool may_shade_itself(const Draw& draw) {
-    if (!draw.bounds) return true;
-    const glm::dvec3 size = draw.bounds->high - draw.bounds->low;
-    return size.x > 0 && size.y > 0 && size.z > 0;
-}
-
-/// Whether a caster may stand between the light and the receiver: it must touch the box around both or, for a
-/// directional light, lie not wholly behind the receiver.
-bool may_stand_between(const PlacedLight& light, const Draw& caster, const Draw& receiver) {
-    if (!caster.bounds || !receiver.bounds) return true;
-    if (light.light->kind != LightKind::directional) {
-        Box between = light.positions;
-        between.add(*receiver.bounds);
-        return least_distance(between, *caster.bounds) == 0;
-    }
-    if (light.turns) return true;
-    const glm::dvec3 toward = -light.direction;
-    double highest = -std::numeric_limits<double>::infinity();
-    double lowest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 8; ++i) {
-        highest = std::max(highest, glm::dot(toward, caster.bounds->corner(i)));
-        lowest = std::min(lowest, glm::dot(toward, receiver.bounds->corner(i)));
-    }
-    return highest > lowest;
-}
-
-Effect judge_shadow(const Subject& subject, const std::vector<PlacedLight>& lights,
-                    const std::vector<Draw>& draws) {
-    if (!subject.wishes.shadow.value_or(true)) return flag("shadow", false, "", "it receives none");
-    bool is_lit_by_caster = false;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!lights[i].light->casts_shadow || !subject.draw.effects[i].is_in) continue;
-        is_lit_by_caster = true;
-        for (const Draw& caster : draws) {
-            if (!caster.excluded.empty()) continue;
-            const bool is_self = &caster == &subject.draw;
-            if (is_self ? may_shade_itself(caster) : may_stand_between(lights[i], caster, subject.draw))
-                return flag("shadow", true,
-                            fmt::format("'{}' may shade it from {}", caster.name, lights[i].label), "");
-        }
-    }
-    return flag("shadow", false, "",
-                is_lit_by_caster ? "nothing can shade it" : "no light that is in casts any");
-}
-
-void judge_material(const Subject& subject, std::vector<Effect>& effects) {
-    const Material& material = subject.material;
-    effects.push_back(
-        flag("two_sided", material.double_sided, "its material is marked doubleSided", "not marked"));
-    effects.push_back(flag("cutout", material.alpha_mode == AlphaMode::mask,
-                           "its material's alphaMode is MASK", "alphaMode is not MASK"));
-    effects.push_back(flag("vertex_color", subject.primitive.is_colored, "its vertices have colours",
-                           subject.primitive.colors.empty() ? "it has none" : "all are white"));
-    effects.push_back(flag("texture", material.is_textured, "its material has textures", "it has none"));
-    effects.push_back(flag("probe", subject.wishes.probe.value_or(false), "asked for", "not asked for"));
-}
-
 std::vector<Draw> draws_of(const Scene& scene) {
     std::vector<Draw> draws;
     for (const int index : scene.order) {
@@ -219,7 +150,8 @@ std::vector<Draw> draws_of(const Scene& scene) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(*node.mesh)];
         for (int i = 0; i < static_cast<int>(mesh.primitives.size()); ++i) {
             const Primitive& primitive = mesh.primitives[static_cast<std::size_t>(i)];
-            Draw draw{index, i, draw_name(scene, index, i), why_excluded(primitive), {}, {}};
+            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+            Draw draw{index, i, draw_name(scene, index, i), why_excluded(primitive, material), {}, {}};
             if (draw.excluded.empty()) draw.bounds = world_bounds(scene, index, primitive);
             draws.push_back(std::move(draw));
         }
@@ -277,12 +209,13 @@ std::vector<Draw> what_draws_call_for(const Scene& scene, const EyePlace& eye, c
         subject.is_lit = std::any_of(draw.effects.begin(), draw.effects.end(),
                                      [](const Effect& light) { return light.is_in; });
         const Effect toon = judge_toon(subject);
-        const Effect shadow = judge_shadow(subject, lights, draws);
+        const std::vector<Effect> shadows = judge_shadows(subject, lights, draws);
+        const std::vector<Effect> surface = judge_surface(subject);
         draw.effects.push_back(toon);
         draw.effects.push_back(judge_specular(subject, toon.is_in));
         draw.effects.push_back(judge_fog(subject, eye, thresholds.fog));
-        judge_material(subject, draw.effects);
-        draw.effects.push_back(shadow);
+        draw.effects.insert(draw.effects.end(), surface.begin(), surface.end());
+        draw.effects.insert(draw.effects.end(), shadows.begin(), shadows.end());
     }
     return draws;
 }

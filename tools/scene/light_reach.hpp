@@ -40,8 +40,8 @@ struct Verdict {
 };
 
 /// A light is out where it is black, where the bounds begin beyond its range, where its greatest radiance has
-/// fallen so far there that the surface gives back less than `threshold`, where its cone misses them, or where every normal faces away from it. It
-/// is in wherever none of this is certain.
+/// fallen so far there that the surface gives back less than `threshold`, where its cone misses them, or
+/// where every normal faces away from it. It is in wherever none of this is certain.
 [[nodiscard]] Verdict light_reach(const PlacedLight& light, const Receiver& receiver, double threshold);
 
 }  // namespace gobo::scene

@@ -44,6 +44,13 @@ Box vertex_box(const Primitive& primitive, const std::vector<Interval>& weights,
     return box;
 }
 
+/// Around all instances, in the node's space.
+Box around_instances(const Node& node, const Box& box) {
+    Box result;
+    for (const glm::dmat4& instance : node.instances) result.add(transformed(instance, box));
+    return result;
+}
+
 /// A skinned vertex is a mean of where its joints take it, so it lies within the box of these places. The
 /// node's own transform does not count (glTF 2.0 specification, 3.7.3.1).
 std::optional<Box> skinned_bounds(const Scene& scene, const Node& node, const Primitive& primitive,
@@ -92,16 +99,18 @@ std::optional<Box> world_bounds(const Scene& scene, int node, const Primitive& p
     const std::vector<Interval> weights = weight_ranges(scene, here, primitive);
     if (here.skin) return skinned_bounds(scene, here, primitive, weights);
     const bool is_still = !is_moving(scene, node);
+    const bool is_instanced = !here.instances.empty();
     Box box;
-    if (is_still && weights.empty()) {
+    if (is_still && weights.empty() && !is_instanced) {
         for (const glm::vec3& position : primitive.positions)
             box.add(glm::dvec3(here.world * glm::dvec4(position, 1)));
         return box;
     }
     for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
         const Box vertex = vertex_box(primitive, weights, i);
-        box.add(is_still ? transformed(here.world, vertex) : vertex);
+        box.add(is_still && !is_instanced ? transformed(here.world, vertex) : vertex);
     }
+    if (is_instanced) return world_box(scene, node, around_instances(here, box));
     return is_still ? box : world_box(scene, node, box);
 }
 

@@ -49,12 +49,13 @@ void apply_surface(const Surface& surface, Material& material) {
     material.ambient = material.diffuse;
 }
 
-Surface read_surface(Document& document, const Value& value, Material& material) {
+Surface read_surface(Document& document, Textures& textures, const Value& value, Material& material) {
     Surface surface;
     const auto model = document.object(value, "pbrMetallicRoughness");
     if (!model) return surface;
     if (const auto factor = document.numbers(*model, "baseColorFactor", 4)) {
         surface.base = {(*factor)[0], (*factor)[1], (*factor)[2]};
+        material.alpha = (*factor)[3];
         for (const double part : *factor) {
             if (part >= 0 && part <= 1) continue;
             document.error(path_to(*model, "baseColorFactor"), "holds a number that is not between 0 and 1");
@@ -62,9 +63,9 @@ Surface read_surface(Document& document, const Value& value, Material& material)
     }
     surface.metallic = document.number_within(*model, "metallicFactor", 0, 1).value_or(1);
     surface.roughness = document.number_within(*model, "roughnessFactor", 0, 1).value_or(1);
-    surface.has_roughness_texture = document.object(*model, "metallicRoughnessTexture").has_value();
-    material.is_textured =
-        surface.has_roughness_texture || document.object(*model, "baseColorTexture").has_value();
+    surface.has_roughness_texture = textures.is_named(*model, "metallicRoughnessTexture");
+    material.is_textured = textures.is_named(*model, "baseColorTexture") || surface.has_roughness_texture;
+    if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(*model, "baseColorTexture");
     return surface;
 }
 
@@ -87,8 +88,7 @@ void read_extensions(Document& document, const Value& value, Surface& surface, M
 void read_material_extras(Document& document, const Value& value, Material& material) {
     const auto extras = gobo_extras(document, value);
     if (!extras) return;
-    document.only(*extras, {"fog", "model", "probe", "shadow", "specular", "toon"});
-    material.wishes = read_wishes(document, *extras);
+    material.wishes = read_wishes(document, *extras, {"model"});
     const auto model = document.object(*extras, "model");
     if (!model) return;
     document.only(*model, {"ambient", "diffuse", "shininess", "specular", "strength"});
@@ -105,7 +105,7 @@ AlphaMode read_alpha_mode(Document& document, const Value& value) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-Material read_material(Document& document, const Value& value) {
+Material read_material(Document& document, Textures& textures, const Value& value) {
     Material material;
     material.name = document.string(value, "name").value_or("");
     material.emission = read_color(document, value, "emissiveFactor").value_or(glm::dvec3(0));
@@ -114,21 +114,21 @@ Material read_material(Document& document, const Value& value) {
     material.alpha_cutoff =
         document.number_within(value, "alphaCutoff", 0, std::numeric_limits<double>::infinity())
             .value_or(0.5);
-    Surface surface = read_surface(document, value, material);
+    Surface surface = read_surface(document, textures, value, material);
     read_extensions(document, value, surface, material);
     apply_surface(surface, material);
     read_material_extras(document, value, material);
     for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-        material.is_textured = document.object(value, texture).has_value() || material.is_textured;
+        material.is_textured = textures.is_named(value, texture) || material.is_textured;
     return material;
 }
 
 }  // namespace
 
 /// The last one is glTF's default material, for primitives that name none.
-void read_materials(Document& document, Scene& scene) {
+void read_materials(Document& document, Textures& textures, Scene& scene) {
     for (const Value& value : document.objects(document.root(), "materials"))
-        scene.materials.push_back(read_material(document, value));
+        scene.materials.push_back(read_material(document, textures, value));
     Material standard;
     standard.name = "default material";
     apply_surface({}, standard);

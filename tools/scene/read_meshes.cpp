@@ -61,8 +61,6 @@ void read_colors(AttributeReader& attributes, Primitive& primitive) {
         const double alpha = values->width == 4 ? values->at(i, 3) : 1;
         primitive.colors.emplace_back(values->at(i, 0), values->at(i, 1), values->at(i, 2), alpha);
     }
-    primitive.is_colored = std::any_of(primitive.colors.begin(), primitive.colors.end(),
-                                       [](const glm::vec4& color) { return color != glm::vec4(1); });
 }
 
 void read_texcoords(AttributeReader& attributes, Primitive& primitive) {
@@ -125,6 +123,9 @@ void read_targets(Document& document, Accessors& accessors, const Value& value, 
         primitive.target_positions.push_back(attributes.triples("POSITION"));
         if (primitive.target_positions.back().empty())  // a target of normals only
             primitive.target_positions.back().assign(primitive.positions.size(), glm::vec3(0));
+        // Without normals at rest there is nothing to add to: they are computed from what is morphed.
+        if (primitive.normals.empty()) continue;
+        primitive.target_normals.push_back(attributes.triples("NORMAL"));
         if (document.failed()) return;
     }
 }

@@ -56,12 +56,92 @@ void read_light_index(Document& document, const Value& value, const Scene& scene
 void read_node_extras(Document& document, const Value& value, Node& node) {
     const auto extras = gobo_extras(document, value);
     if (!extras) return;
-    document.only(*extras, {"fog", "probe", "shadow", "specular", "toon"});
-    node.wishes = read_wishes(document, *extras);
+    node.wishes = read_wishes(document, *extras, {});
 }
 
-Node read_node(Document& document, const Value& value, std::size_t node_count, std::size_t skin_count,
-               const Scene& scene) {
+/// EXT_mesh_gpu_instancing: a translation, a rotation and a scale for each instance, each optional.
+class InstanceReader {
+  public:
+    InstanceReader(Document& document, Accessors& accessors, Value attributes)
+        : document_(document), accessors_(accessors), attributes_(std::move(attributes)) {}
+
+    std::vector<glm::dmat4> read() {
+        const Values translation = column("TRANSLATION", "VEC3");
+        const Values rotation = column("ROTATION", "VEC4");
+        const Values scale = column("SCALE", "VEC3");
+        std::vector<glm::dmat4> instances;
+        for (std::size_t i = 0; i < count_ && !document_.failed(); ++i) {
+            glm::dmat4 instance(1);
+            if (translation.count > 0) instance = glm::translate(instance, triple(translation, i));
+            if (rotation.count > 0) instance *= glm::mat4_cast(quaternion(rotation, i));
+            if (scale.count > 0) instance = glm::scale(instance, triple(scale, i));
+            instances.push_back(instance);
+        }
+        return instances;
+    }
+
+  private:
+    Values column(const char* name, std::string_view shape) {
+        const auto index = document_.index(attributes_, name, accessors_.size(), "accessors");
+        if (!index) return {};
+        const std::string user = path_to(attributes_, name);
+        Values values = accessors_.read(
+            *index, {{shape}, {Component::float_number, Component::signed_byte, Component::signed_short}},
+            user);
+        if (count_ == 0) count_ = values.count;
+        if (!document_.failed() && values.count != count_)
+            document_.error(user,
+                            fmt::format("has {} elements, but there are {} instances", values.count, count_));
+        return values;
+    }
+    static glm::dvec3 triple(const Values& values, std::size_t i) {
+        return {values.at(i, 0), values.at(i, 1), values.at(i, 2)};
+    }
+    glm::dquat quaternion(const Values& values, std::size_t i) {
+        const glm::dquat rotation(values.at(i, 3), values.at(i, 0), values.at(i, 1), values.at(i, 2));
+        const double length = glm::length(rotation);
+        if (length > 1e-6) return rotation / length;
+        document_.error(path_to(attributes_, "ROTATION"), fmt::format("is no rotation in element {}", i));
+        return {1, 0, 0, 0};
+    }
+
+    Document& document_;
+    Accessors& accessors_;
+    Value attributes_;
+    std::size_t count_ = 0;
+};
+
+/// What all instances together may hold: drawing lays them out one by one.
+constexpr std::size_t most_instanced_vertices = 16'777'216;
+
+void read_instances(Document& document, Accessors& accessors, const Value& value, const Scene& scene,
+                    Node& node) {
+    const auto extensions = document.object(value, "extensions");
+    if (!extensions || !node.mesh) return;
+    const auto extension = document.object(*extensions, "EXT_mesh_gpu_instancing");
+    if (!extension) return;
+    if (node.skin) {
+        document.error(extension->path, "stands beside a skin: gobo draws no skinned instances",
+                       "export each instance as a node of its own");
+        return;
+    }
+    const auto attributes = document.object(*extension, "attributes");
+    if (!attributes) {
+        document.error(path_to(*extension, "attributes"), "is missing");
+        return;
+    }
+    node.instances = InstanceReader(document, accessors, *attributes).read();
+    std::size_t vertices = 0;
+    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(*node.mesh)].primitives)
+        vertices += primitive.positions.size();
+    if (node.instances.size() * vertices > most_instanced_vertices)
+        document.error(extension->path,
+                       fmt::format("calls for {} instances of {} vertices, more than {} in all",
+                                   node.instances.size(), vertices, most_instanced_vertices));
+}
+
+Node read_node(Document& document, Accessors& accessors, const Value& value, std::size_t node_count,
+               std::size_t skin_count, const Scene& scene) {
     Node node;
     node.name = document.string(value, "name").value_or("");
     node.children = document.indices(value, "children", node_count, "nodes");
@@ -70,6 +150,7 @@ Node read_node(Document& document, const Value& value, std::size_t node_count, s
     node.camera = document.index(value, "camera", scene.cameras.size(), "cameras");
     read_light_index(document, value, scene, node);
     read_transform(document, value, node);
+    read_instances(document, accessors, value, scene, node);
     read_node_extras(document, value, node);
     if (node.mesh && value.json->contains("weights")) {
         const std::size_t targets = scene.meshes[static_cast<std::size_t>(*node.mesh)].weights.size();
@@ -119,11 +200,11 @@ void check_depth(Document& document, const std::vector<Node>& nodes) {
 
 }  // namespace
 
-void read_nodes(Document& document, Scene& scene) {
+void read_nodes(Document& document, Accessors& accessors, Scene& scene) {
     const std::vector<Value> values = document.objects(document.root(), "nodes");
     const std::size_t skin_count = document.objects(document.root(), "skins").size();
     for (const Value& value : values) {
-        scene.nodes.push_back(read_node(document, value, values.size(), skin_count, scene));
+        scene.nodes.push_back(read_node(document, accessors, value, values.size(), skin_count, scene));
         if (document.failed()) return;
     }
     name_parents(document, scene.nodes);

@@ -13,10 +13,12 @@
 namespace gobo::scene {
 namespace {
 
-/// What the file may require. Textures are not sampled by any family yet, so their transform cannot matter.
+/// What the file may require. A transform of textures is of no concern: colours are not sampled, and what is
+/// cut by a transformed picture is taken to be cut anywhere.
 const std::vector<std::string> known_extensions = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_specular",
-    "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 void read_asset(Document& document) {
     const auto asset = document.object(document.root(), "asset");
@@ -52,9 +54,9 @@ void check_extensions(Document& document) {
 void read_scene_extras(Document& document, const Value& object, Scene& scene) {
     const auto extras = gobo_extras(document, object);
     if (!extras) return;
-    document.only(*extras, {"ambient", "fog", "probe", "shadow", "specular", "toon"});
-    scene.wishes = read_wishes(document, *extras);
+    scene.wishes = read_wishes(document, *extras, {"ambient", "background"});
     scene.ambient = read_color(document, *extras, "ambient").value_or(glm::dvec3(0));
+    scene.background = read_color(document, *extras, "background");
 }
 
 /// The roots that are drawn: those of the default scene, else of the first; all roots where there is no
@@ -135,11 +137,13 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
     scene.path = path;
     scene.files = {path};
     scene.files.insert(scene.files.end(), buffers.files.begin(), buffers.files.end());
+    Textures textures(document, accessors, files);
     read_lights(document, scene);
     read_cameras(document, scene);
-    read_materials(document, scene);
+    read_materials(document, textures, scene);
+    scene.files.insert(scene.files.end(), textures.files().begin(), textures.files().end());
     read_meshes(document, accessors, scene);
-    read_nodes(document, scene);
+    read_nodes(document, accessors, scene);
     read_skins(document, accessors, scene);
     read_animations(document, accessors, scene);
     place_nodes(document, scene);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,20 +29,41 @@ struct Fog {
     double far = 0;
 };
 
+/// Light from all around, as `extras.gobo.probe` states it, in the axes of world space.
+struct Probe {
+    std::string
+        kind;  ///< "none", or a value of lit's `ambient`: "hemisphere", "spherical_harmonics", "image"
+    glm::dvec3 up{0, 1, 0};  ///< of a hemisphere: a unit vector towards its sky
+    glm::dvec3 sky{0};       ///< radiances
+    glm::dvec3 ground{0};
+    std::array<glm::dvec3, 9> coefficients{};  ///< L00, L1-1, L10, L11, L2-2, L2-1, L20, L21, L22
+    double scale = 0;                          ///< of their irradiance
+    double share = 1;                          ///< of an image, against the scene's ambient light
+};
+
 /// What `extras.gobo` of a scene, node or material asks for; nothing where it says nothing. A material's word
 /// counts before a node's, a node's before that of the nodes above it, and the scene's counts last.
 struct Wishes {
     std::optional<Fog> fog;
     std::optional<int> toon_levels;       ///< 0: no toon shading
     std::optional<std::string> specular;  ///< "phong" or "blinn"; "none": no highlights
-    std::optional<bool> probe;            ///< lit by an ambient probe
-    std::optional<bool> shadow;           ///< receives shadows
+    std::optional<Probe> probe;
+    std::optional<double> reflection;  ///< the share of an environment's image that it mirrors; 0: none
+    std::optional<bool> shadow;        ///< receives shadows
+    std::map<std::string, std::string> quality;  ///< values of features of quality: "shading", "vertex"
 
     /// Takes over what is not said yet from `outer`.
     void fill_from(const Wishes& outer);
 };
 
 enum class AlphaMode { opaque, mask, blend };
+
+/// The alpha of a picture, row after row from the top (where texture coordinates are 0); empty: not known.
+struct AlphaMap {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> texels;
+};
 
 /// A material in the terms of the family `lit`. docs/scene_format.md states how it follows from glTF's.
 struct Material {
@@ -57,6 +79,9 @@ struct Material {
     bool double_sided = false;
     AlphaMode alpha_mode = AlphaMode::opaque;
     double alpha_cutoff = 0.5;
+    double alpha = 1;  ///< of the base colour
+    std::optional<AlphaMap>
+        opacity;  ///< of the base colour's picture where alpha_mode is mask and it has any
     Wishes wishes;
 };
 
@@ -94,7 +119,8 @@ struct Influence {
     float weight = 0;
 };
 
-/// One mesh primitive. Strips and fans are triangles already; missing normals have been computed, flat.
+/// One mesh primitive. Strips and fans are triangles already; missing normals have been computed, flat: then
+/// no vertex is shared.
 struct Primitive {
     Topology topology = Topology::triangles;
     std::vector<glm::vec3> positions;
@@ -103,10 +129,14 @@ struct Primitive {
     std::vector<glm::vec4> colors;                         ///< one per position, or none; RGBA
     std::vector<std::uint32_t> indices;                    ///< three per triangle
     std::vector<std::vector<glm::vec3>> target_positions;  ///< per morph target, one per position
+    std::vector<std::vector<glm::vec3>> target_normals;    ///< per morph target, one per position, or none
     std::vector<std::vector<Influence>> influences;        ///< one list per position, or none
-    int material = 0;         ///< the last of the scene is glTF's default material
-    bool is_colored = false;  ///< a vertex colour is not white
+    int material = 0;               ///< the last of the scene is glTF's default material
+    bool has_flat_normals = false;  ///< they were computed
 };
+
+/// The unit normals of triangles that share no vertex, three positions each; zero where one has no area.
+[[nodiscard]] std::vector<glm::vec3> flat_normals(const std::vector<glm::vec3>& positions);
 
 struct Mesh {
     std::string name;
@@ -138,6 +168,8 @@ struct Node {
     std::optional<int> camera;
     std::optional<int> light;
     std::vector<double> weights;  ///< of its mesh's morph targets; empty: the mesh's
+    /// Where EXT_mesh_gpu_instancing puts its mesh, each in the node's space; empty: once, where the node is.
+    std::vector<glm::dmat4> instances;
     bool has_matrix = false;
     glm::dvec3 translation{0};
     glm::dquat rotation{1, 0, 0, 0};
@@ -165,7 +197,8 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Skin> skins;
-    glm::dvec3 ambient{0};  ///< radiance from everywhere
+    glm::dvec3 ambient{0};                 ///< radiance from everywhere
+    std::optional<glm::dvec3> background;  ///< radiance behind everything
     Wishes wishes;
 };
 

@@ -40,7 +40,7 @@ glm::vec3 face_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
 }
 
 /// Gives every triangle vertices of its own, with its normal.
-void add_flat_normals(Primitive& primitive) {
+void spread_with_flat_normals(Primitive& primitive) {
     spread(primitive.positions, primitive.indices);
     spread(primitive.texcoords, primitive.indices);
     spread(primitive.colors, primitive.indices);
@@ -48,18 +48,23 @@ void add_flat_normals(Primitive& primitive) {
     for (auto& target : primitive.target_positions) spread(target, primitive.indices);
     for (std::size_t i = 0; i < primitive.indices.size(); ++i)
         primitive.indices[i] = static_cast<std::uint32_t>(i);
-    for (std::size_t i = 0; i + 2 < primitive.positions.size(); i += 3) {
-        const glm::vec3 normal =
-            face_normal(primitive.positions[i], primitive.positions[i + 1], primitive.positions[i + 2]);
-        primitive.normals.insert(primitive.normals.end(), 3, normal);
-    }
+    primitive.normals = flat_normals(primitive.positions);
+    primitive.has_flat_normals = true;
 }
 
 }  // namespace
 
+std::vector<glm::vec3> flat_normals(const std::vector<glm::vec3>& positions) {
+    std::vector<glm::vec3> normals;
+    normals.reserve(positions.size());
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+        normals.insert(normals.end(), 3, face_normal(positions[i], positions[i + 1], positions[i + 2]));
+    return normals;
+}
+
 void finish_triangles(Primitive& primitive, int mode) {
     primitive.indices = listed(primitive.indices, mode);
-    if (primitive.normals.empty() && !primitive.indices.empty()) add_flat_normals(primitive);
+    if (primitive.normals.empty() && !primitive.indices.empty()) spread_with_flat_normals(primitive);
 }
 
 }  // namespace gobo::scene

@@ -14,8 +14,10 @@ namespace gobo::scene {
 namespace {
 
 /// The blocks that a scene fills.
-constexpr std::array scene_blocks = {"Material", "Ambient", "DirectionalLights", "PointLights", "SpotLights",
-                                     "Toon",     "Fog"};
+constexpr std::array scene_blocks = {
+    "Material", "Ambient", "DirectionalLights", "PointLights", "SpotLights", "Toon",       "Fog",
+    "Cutout",   "Shadows", "Hemisphere",        "Harmonics",   "ImageLight", "Reflection",
+};
 
 class Values {
   public:
@@ -28,6 +30,10 @@ class Values {
     /// A unit vector of world space, given in eye space. A zero one has no direction there either.
     void set_direction(std::string name, const glm::dvec3& vector) {
         set(std::move(name), vector, vector == glm::dvec3(0) ? "" : "eye_direction");
+    }
+    /// A value that the renderer knows by itself.
+    void set_source(std::string name, std::string source) {
+        set(std::move(name), std::vector<double>(), std::move(source));
     }
     std::vector<RenderValue> list;
 };
@@ -63,8 +69,7 @@ std::string_view block_of(LightKind kind) {
 void add_lights(const Scene& scene, const Draw& draw, Values& values) {
     std::array<int, 3> counts{};
     const std::vector<PlacedLight> lights = place_lights(scene);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!draw.effects[i].is_in) continue;
+    for (const std::size_t i : lights_in_order(draw, lights)) {
         const LightKind kind = lights[i].light->kind;
         const int number = counts[static_cast<std::size_t>(kind)]++;
         const glm::dvec3 position(scene.nodes[static_cast<std::size_t>(lights[i].node)].world[3]);
@@ -81,6 +86,29 @@ void add_material(const Material& material, Values& values) {
     values.set("Material.shininess", std::vector{material.shininess});
 }
 
+void add_cutout(const Material& material, Values& values) {
+    if (material.alpha_mode != AlphaMode::mask || material.alpha == 0) return;
+    // The base colour's alpha scales what the shader compares.
+    values.set("Cutout.threshold", std::vector{std::min(material.alpha_cutoff / material.alpha, 1.0)});
+}
+
+void add_probe(const Scene& scene, const Wishes& wishes, Values& values) {
+    values.set("ImageLight.color", scene.ambient);
+    values.set_source("ImageLight.toMap", "inverse_view");
+    values.set_source("Reflection.toMap", "inverse_view");
+    values.set("Reflection.share", std::vector{wishes.reflection.value_or(0)});
+    if (!wishes.probe) return;
+    const Probe& probe = *wishes.probe;
+    values.set("ImageLight.share", std::vector{probe.share});
+    values.set_direction("Hemisphere.up", probe.up);
+    values.set("Hemisphere.sky", probe.sky);
+    values.set("Hemisphere.ground", probe.ground);
+    values.set_source("Harmonics.toProbe", "inverse_view");
+    values.set("Harmonics.scale", std::vector{probe.scale});
+    for (std::size_t i = 0; i < probe.coefficients.size(); ++i)
+        values.set(fmt::format("Harmonics.coefficients[{}]", i), probe.coefficients[i]);
+}
+
 void add_wishes(const Wishes& wishes, Values& values) {
     values.set("Toon.levels", std::vector{static_cast<double>(std::max(wishes.toon_levels.value_or(1), 1))});
     if (!wishes.fog) return;
@@ -92,10 +120,27 @@ void add_wishes(const Wishes& wishes, Values& values) {
 
 }  // namespace
 
+std::vector<std::size_t> lights_in_order(const Draw& draw, const std::vector<PlacedLight>& lights) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (draw.effects[i].is_in) order.push_back(i);
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+        return std::any_of(draw.effects.begin(), draw.effects.end(), [&](const Effect& effect) {
+            return effect.is_in && effect.name == "shadow of " + lights[i].label;
+        });
+    });
+    return order;
+}
+
 std::vector<RenderValue> values_of(const Scene& scene, const Draw& draw) {
     Values values;
+    const Wishes wishes = wishes_of(scene, draw);
     add_material(material_of(scene, draw), values);
-    add_wishes(wishes_of(scene, draw), values);
+    add_cutout(material_of(scene, draw), values);
+    add_wishes(wishes, values);
+    add_probe(scene, wishes, values);
+    values.set_source("color", "color");
+    values.set_source("texcoord", "texcoord");
     values.set("Ambient.color", scene.ambient);
     add_lights(scene, draw, values);
     return values.list;

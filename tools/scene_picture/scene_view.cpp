@@ -74,9 +74,10 @@ SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& directio
 
 std::array<float, 4> background_of(const Scene& scene) {
     const auto& fog = scene.wishes.fog;
-    if (!fog || fog->kind == "none") return {0.05F, 0.06F, 0.08F, 1};
-    return {static_cast<float>(fog->color.r), static_cast<float>(fog->color.g),
-            static_cast<float>(fog->color.b), 1};
+    const bool is_clear = !fog || fog->kind == "none";
+    const glm::dvec3 usual = is_clear ? glm::dvec3(0.05, 0.06, 0.08) : fog->color;
+    const glm::vec3 color(scene.background.value_or(usual));
+    return {color.r, color.g, color.b, 1};
 }
 
 ViewedObject viewed_by(const SceneView& view) {

@@ -78,6 +78,23 @@ class Canvas {
     SoftwarePicture picture_;
 };
 
+void add(std::vector<RenderValue> values, std::vector<RenderValue>& to) {
+    to.insert(to.end(), std::make_move_iterator(values.begin()), std::make_move_iterator(values.end()));
+}
+
+/// What the fragment stage's samplers read, beside the one colour that they have.
+void give_images(const SoftwareImages& images, std::size_t object, evaluate::Invocations& uniforms) {
+    for (auto& [name, image] : uniforms.images) {
+        if (name == "shadowMaps" && images.maps)
+            image = [maps = images.maps](const evaluate::ImageRequest& request) {
+                return evaluate::answer(*maps, request);
+            };
+        if (name != "opacityMap" || object >= images.images.opacity.size()) continue;
+        const AlphaMap& map = images.images.opacity[object];
+        if (!map.texels.empty()) image = alpha_image(map);
+    }
+}
+
 }  // namespace
 
 Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
@@ -95,16 +112,22 @@ Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
 Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const SoftwarePrograms& programs,
                                          const std::vector<Object>& objects,
                                          const std::vector<RenderValue>& values, const SceneView& view,
-                                         bool counts) {
+                                         bool counts, const SoftwareImages& images) {
     Canvas canvas(view);
+    const ShadowPlan plan = images.maps
+                                ? shadow_plan(images.images.lights, images.casters, view.view, images.side)
+                                : ShadowPlan();
     std::vector<SoftwareObject> rasterised(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
+        Object with_shadows = objects[i];
+        if (images.maps) add(shadow_values(plan, images.images.shadows[i]), with_shadows.values);
         auto object = verify::rasterise_object(
-            programs[*permutation], shaders.interfaces[*permutation], objects[i],
+            programs[*permutation], shaders.interfaces[*permutation], with_shadows,
             verify::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));
         if (!object) return tl::unexpected(object.error());
+        give_images(images, i, object->uniforms);
         rasterised[i] = std::move(*object);
         if (is_plain(programs[*permutation])) canvas.occlude(rasterised[i]);
     }

@@ -4,6 +4,7 @@
 #include "render/image.hpp"
 #include "scene_picture/scene_shaders.hpp"
 #include "scene_picture/scene_view.hpp"
+#include "scene_picture/software_images.hpp"
 #include "verify/software_picture.hpp"
 
 namespace gobo::scene {
@@ -22,11 +23,13 @@ using SoftwarePrograms = std::vector<verify::SoftwareProgram>;
 [[nodiscard]] Result<SoftwarePrograms> software_programs(const SceneShaders& shaders);
 
 /// Draws objects, one for each draw, in the scene's order and with a depth test (less). Only what is seen is
-/// shaded; samplers read one colour. `values` are the family's, an object's own come after them.
+/// shaded. `values` are the family's, an object's own come after them. Samplers read one colour where
+/// `images` has nothing for them.
 [[nodiscard]] Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders,
                                                        const SoftwarePrograms& programs,
                                                        const std::vector<Object>& objects,
                                                        const std::vector<RenderValue>& values,
-                                                       const SceneView& view, bool counts = false);
+                                                       const SceneView& view, bool counts = false,
+                                                       const SoftwareImages& images = {});
 
 }  // namespace gobo::scene

@@ -128,6 +128,8 @@ void add_attributes(const evaluate::Program& program, const Mesh& mesh,
             numbers = by_component(mesh.texcoords, port.components);
         } else if (source == "tile") {
             numbers = by_component(tiled_texcoords(mesh), port.components);
+        } else if (source == "color" && !mesh.colors.empty()) {
+            numbers = by_component(mesh.colors, port.components);
         } else if (source == "tint") {
             numbers = by_component(vertex_tints(mesh), port.components);
         } else if (source == "material_number") {

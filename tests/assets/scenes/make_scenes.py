@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the small scenes of made/: each calls for something of its own. Their shapes are in made/shapes.bin."""
+"""Writes the small scenes of made/: each calls for something of its own. Their shapes are in made/shapes.bin, those with
+colours, texture coordinates or morph targets in made/colored_shapes.bin."""
+import base64
 import json
 import math
 import struct
+import zlib
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent / "made"
@@ -49,9 +52,10 @@ def plane(cells=8):
 
 
 class Shapes:
-    """The buffer that all scenes share."""
+    """A buffer that several scenes share."""
 
-    def __init__(self):
+    def __init__(self, name):
+        self.name = name
         self.content, self.views, self.accessors, self.meshes = b"", [], [], {}
 
     def accessor(self, data, code, kind, count):
@@ -73,6 +77,20 @@ class Shapes:
         self.meshes[name] = {"attributes": {"POSITION": self.vectors(positions, True), "NORMAL": self.vectors(normals)},
                              "indices": self.accessor(struct.pack(f"<{len(indices)}H", *indices), 5123, "SCALAR", len(indices))}
 
+    def add_attribute(self, name, attribute, rows, code=5126):
+        """Of a shape that was added; colours are bytes."""
+        letter = "f" if code == 5126 else "B"
+        data = struct.pack(f"<{len(rows) * len(rows[0])}{letter}", *[x for row in rows for x in row])
+        index = self.accessor(data, code, f"VEC{len(rows[0])}", len(rows))
+        if code != 5126:
+            self.accessors[index]["normalized"] = True
+        self.meshes[name]["attributes"][attribute] = index
+
+    def add_target(self, name, positions, normals):
+        """Displacements, one for each vertex."""
+        target = {"POSITION": self.vectors(positions, True), "NORMAL": self.vectors(normals)}
+        self.meshes[name].setdefault("targets", []).append(target)
+
 
 def quaternion(direction):
     """The rotation that takes -z to a direction."""
@@ -88,9 +106,12 @@ class SceneFile:
     def __init__(self, shapes, **gobo):
         self.shapes, self.gobo = shapes, gobo
         self.nodes, self.lights, self.materials, self.meshes = [], [], [], []
+        self.members = {}  # of the file, beside what all have
 
-    def material(self, base=(0.8, 0.8, 0.8), metallic=0, roughness=0.95, gobo=None, **members):
+    def material(self, base=(0.8, 0.8, 0.8), metallic=0, roughness=0.95, gobo=None, texture=None, **members):
         pbr = {"baseColorFactor": [*base, 1], "metallicFactor": metallic, "roughnessFactor": roughness}
+        if texture is not None:
+            pbr["baseColorTexture"] = {"index": texture}
         extras = {"extras": {"gobo": gobo}} if gobo else {}
         self.materials.append({"pbrMetallicRoughness": pbr, **extras, **members})
         return len(self.materials) - 1
@@ -123,10 +144,11 @@ class SceneFile:
         scene = {"nodes": roots, "extras": {"gobo": {"ambient": [0.05, 0.05, 0.06], **self.gobo}}}
         gltf = {"asset": {"version": "2.0", "generator": "make_scenes.py"}, "scene": 0, "scenes": [scene], "nodes": self.nodes,
                 "meshes": self.meshes, "materials": self.materials, "cameras": [camera],
-                "buffers": [{"uri": "shapes.bin", "byteLength": len(self.shapes.content)}],
+                "buffers": [{"uri": self.shapes.name, "byteLength": len(self.shapes.content)}],
                 "bufferViews": self.shapes.views, "accessors": self.shapes.accessors}
+        gltf.update(self.members)
         if self.lights:
-            gltf["extensionsUsed"] = ["KHR_lights_punctual"]
+            gltf["extensionsUsed"] = ["KHR_lights_punctual", *gltf.get("extensionsUsed", [])]
             gltf["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
         (FOLDER / f"{name}.gltf").write_text(json.dumps(gltf) + "\n")
 
@@ -256,13 +278,134 @@ def write_all(shapes):
     scene.write("half_space", {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0.1, "zfar": 30}})
 
 
+def lattice():
+    """A picture of 8 by 8 pixels, white, opaque but for a round hole, as a data URI."""
+    rows = b""
+    for y in range(8):
+        rows += b"\0"
+        for x in range(8):
+            rows += bytes([255, 255, 255, 255 if math.hypot(x - 3.5, y - 3.5) > 2.6 else 0])
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", 8, 8, 8, 6, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows, 9))
+    return "data:image/png;base64," + base64.b64encode(png + chunk(b"IEND", b"")).decode()
+
+
+def add_colored(shapes):
+    steps = range(9)
+    grid = [(x, z) for z in steps for x in steps]
+    shapes.add("striped", plane())
+    shapes.add_attribute("striped", "COLOR_0", [[255, 40 * (x % 3), 255 - 30 * z] for x, z in grid], 5121)
+    shapes.add("chalk", plane())
+    shapes.add_attribute("chalk", "COLOR_0", [[255, 255, 255]] * len(grid), 5121)
+    shapes.add("holed", plane())
+    shapes.add_attribute("holed", "COLOR_0", [[255, 255, 255, 0 if x % 4 == 2 and z % 4 == 2 else 255] for x, z in grid], 5121)
+    shapes.add("tiled", plane())
+    shapes.add_attribute("tiled", "TEXCOORD_0", [[x / 2, z / 2] for x, z in grid])
+    shapes.add("bent", plane())
+    heights = [0.5 * (x / 4 - 1) ** 2 for x, z in grid]
+    slopes = [x / 4 - 1 for x, z in grid]
+    lengths = [math.sqrt(1 + s * s) for s in slopes]
+    shapes.add_target("bent", [[0, h, 0] for h in heights],
+                      [[-s / n, 1 / n - 1, 0] for s, n in zip(slopes, lengths)])
+
+
+UPRIGHT = [0.7071068, 0, 0, 0.7071068]
+
+
+def write_surfaces(shapes):
+    """What a surface itself calls for: colours, holes, morphed normals, instances."""
+    scene = room(shapes)
+    scene.put("banner", "striped", scene.material(), at=(0, 1.2, -2), scale=(2, 1, 1), rotation=UPRIGHT)
+    scene.put("board", "chalk", scene.material((0.3, 0.5, 0.3)), at=(-3, 1, -1), scale=(0.8, 1, 0.8), rotation=UPRIGHT)
+    scene.light("directional", toward=(-0.3, -0.6, -1), color=WARM)
+    scene.write("vertex_colors")
+
+    scene = room(shapes)
+    holed = scene.material((0.3, 0.6, 0.3), alphaMode="MASK", doubleSided=True)
+    scene.put("screen", "holed", holed, at=(0, 1.5, 2.2), scale=(2, 1, 1), rotation=UPRIGHT)
+    scene.put("shutter", "plane", scene.material(alphaMode="MASK"), at=(-3, 1, -1), rotation=UPRIGHT)  # nothing is cut
+    scene.light("directional", toward=(-0.3, -0.6, -1))
+    scene.light("point", (1, 2, -3), color=WARM, intensity=3)
+    scene.write("perforated")
+
+    scene = room(shapes)
+    scene.members = {"images": [{"uri": lattice()}], "textures": [{"source": 0}]}
+    leaf = scene.material((0.4, 0.7, 0.3), alphaMode="MASK", doubleSided=True, alphaCutoff=0.4, texture=0)
+    scene.put("leaves", "tiled", leaf, at=(0, 1.5, 2.2), scale=(2, 1, 1), rotation=UPRIGHT)
+    scene.light("directional", toward=(-0.3, -0.6, -1))
+    scene.write("leaves")
+
+    scene = room(shapes)
+    scene.put("awning", "bent", scene.material((0.8, 0.5, 0.3), roughness=0.5), at=(0, 2.5, -1.5), scale=(2, 1, 1), weights=[0.8])
+    scene.light("directional", toward=(-0.5, -1, -0.2))
+    scene.light("point", (0, 4, 0), color=COLD, intensity=2)
+    scene.write("morphed_normals")
+
+    scene = room(shapes)
+    at = [[1.4 * i - 3.5, 0.3, -2 - 0.4 * (i % 2)] for i in range(6)]
+    turns = [[0, math.sin(0.2 * i), 0, math.cos(0.2 * i)] for i in range(6)]
+    sizes = [[0.2 + 0.05 * i, 0.3, 0.2] for i in range(6)]
+    shapes.add("posts", box())
+    columns = {}
+    for name, rows in (("TRANSLATION", at), ("ROTATION", turns), ("SCALE", sizes)):
+        shapes.add_attribute("posts", name, rows)
+        columns[name] = shapes.meshes["posts"]["attributes"].pop(name)
+    scene.put("fence", "posts", scene.material((0.5, 0.35, 0.2), roughness=0.6),
+              extensions={"EXT_mesh_gpu_instancing": {"attributes": columns}})
+    scene.members = {"extensionsUsed": ["EXT_mesh_gpu_instancing"], "extensionsRequired": ["EXT_mesh_gpu_instancing"]}
+    scene.light("directional", toward=(-1, -1, -0.5))
+    scene.light("point", (-1, 2, -1), color=WARM, intensity=2)
+    scene.write("gpu_instances")
+
+
+def write_surroundings(shapes):
+    """What the light around calls for: probes, reflections, shadows."""
+    black = {"model": {"diffuse": [0, 0, 0], "specular": [0.5, 0.5, 0.5], "shininess": 20}}
+    scene = room(shapes, probe={"kind": "hemisphere", "sky": [0.4, 0.5, 0.7], "ground": [0.25, 0.2, 0.15]})
+    scene.put("coal", "sphere", scene.material(gobo=black), at=(0, 0.4, 2), scale=(0.4, 0.4, 0.4))  # gives no ambient light back
+    scene.light("directional", toward=(-1, -1, -0.5), color=WARM, intensity=0.4)
+    scene.write("open_sky")
+
+    rows = [[0.79, 0.44, 0.54], [0.39, 0.35, 0.60], [-0.34, -0.18, -0.27], [-0.29, -0.06, 0.01], [-0.11, -0.05, -0.12],
+            [-0.26, -0.22, -0.47], [-0.16, -0.09, -0.15], [0.56, 0.21, 0.14], [0.21, -0.05, -0.30]]
+    scene = room(shapes, probe={"kind": "spherical_harmonics", "coefficients": rows})
+    scene.put("pearl", "sphere", scene.material(gobo={"probe": {"kind": "none"}}), at=(0, 0.5, 2), scale=(0.5, 0.5, 0.5))
+    scene.write("harmonics")
+
+    scene = room(shapes, probe={"kind": "image", "share": 0.7}, reflection=0.6)
+    scene.light("point", (0, 3, 2), color=WARM, intensity=2)
+    scene.write("studio")
+
+    scene = room(shapes)
+    scene.light("directional", toward=(-1, -1.2, -0.5), color=WARM, gobo={"shadow": True})
+    scene.light("directional", toward=(1, -1, -0.5), color=COLD, intensity=0.3)
+    scene.write("sun_shadow")
+
+    scene = room(shapes)
+    scene.light("point", (0, 1, 3), color=WARM, intensity=0.6)  # casts none
+    scene.light("point", (0, 3.5, 0.5), color=COLD, intensity=3, gobo={"shadow": True})
+    scene.light("spot", (3, 4, 3), (-0.7, -1, -0.8), intensity=12, spot={"outerConeAngle": 0.5}, gobo={"shadow": True})
+    scene.light("spot", (-3, 4, 3), (0.5, -1, -0.8), intensity=6, spot={"outerConeAngle": 0.4}, gobo={"shadow": True})
+    scene.put("lampshade", "plane", scene.material(gobo={"shadow": False}), at=(0, 0.02, 2.5), scale=(0.5, 1, 0.5))
+    scene.write("lamp_shadows")
+
+
 def main():
     FOLDER.mkdir(exist_ok=True)
-    shapes = Shapes()
-    for name, shape in (("plane", plane()), ("box", box()), ("sphere", sphere())):
+    solids = (("plane", plane()), ("box", box()), ("sphere", sphere()))
+    shapes, colored = Shapes("shapes.bin"), Shapes("colored_shapes.bin")
+    for name, shape in solids:
         shapes.add(name, shape)
-    (FOLDER / "shapes.bin").write_bytes(shapes.content)
+        colored.add(name, shape)
+    add_colored(colored)
     write_all(shapes)
+    write_surroundings(shapes)
+    write_surfaces(colored)
+    for each in (shapes, colored):
+        (FOLDER / each.name).write_bytes(each.content)
 
 
 main()

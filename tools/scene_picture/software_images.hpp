@@ -1,0 +1,29 @@
+// The images of a scene for the evaluator: alpha maps as they are, shadow maps rasterised in double
+// precision.
+#pragma once
+
+#include <memory>
+
+#include "evaluate/evaluate.hpp"
+#include "evaluate/images.hpp"
+#include "render/draw_list.hpp"
+#include "scene_picture/scene_images.hpp"
+
+namespace gobo::scene {
+
+struct SoftwareImages {
+    SceneImages images;
+    std::vector<Object> casters;                        ///< shadow cameras are fitted to them
+    int side = 0;                                       ///< texels along each side of a shadow map
+    std::shared_ptr<const evaluate::DepthTexels> maps;  ///< null: no draw receives shadows
+};
+
+/// Draws the shadow maps of all lights that `images` names, as the depth pass of a renderer does. What a map
+/// shows is moved away from the light by `slope` times its depth's largest slope over a texel.
+[[nodiscard]] SoftwareImages software_images(SceneImages images, const std::vector<Object>& casters,
+                                             int side = 256, double slope = 2);
+
+/// The image of a sampler2D whose alpha is the map's, other components 1: filtered linearly, repeated.
+[[nodiscard]] evaluate::Image alpha_image(const AlphaMap& map);
+
+}  // namespace gobo::scene
