@@ -154,4 +154,5 @@ def main():
     (here / "teapot.gltf").write_text(json.dumps(scene, indent=1) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()
