@@ -27,11 +27,12 @@ GLuint buffer_of(const GladGLContext& gl, GLenum target, const std::vector<Vecto
     return buffer;
 }
 
-void add_attribute(const GladGLContext& gl, int location, const std::vector<glm::vec3>& values) {
-    if (location < 0) return;
+template <class Vector>
+void add_attribute(const GladGLContext& gl, int location, const std::vector<Vector>& values) {
+    if (location < 0 || values.empty()) return;
     buffer_of(gl, GL_ARRAY_BUFFER, values);
     gl.EnableVertexAttribArray(static_cast<GLuint>(location));
-    gl.VertexAttribPointer(static_cast<GLuint>(location), 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    gl.VertexAttribPointer(static_cast<GLuint>(location), Vector::length(), GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 lit::Transform transform_block(const glm::dmat4& model_view, const glm::dmat4& projection) {
@@ -42,12 +43,34 @@ lit::Transform transform_block(const glm::dmat4& model_view, const glm::dmat4& p
     return transform;
 }
 
+/// In eye space, as all of lit's directions.
+lit::Hemisphere hemisphere_block(const gobo::scene::Probe& probe, const glm::dmat4& view) {
+    lit::Hemisphere block{};
+    block.up = glm::vec3(glm::dmat3(view) * probe.up);
+    block.sky = glm::vec3(probe.sky);
+    block.ground = glm::vec3(probe.ground);
+    return block;
+}
+
+lit::Harmonics harmonics_block(const gobo::scene::Probe& probe, const glm::dmat4& view) {
+    lit::Harmonics block{};
+    block.toProbe = glm::mat3(glm::transpose(glm::dmat3(view)));
+    for (std::size_t i = 0; i < probe.coefficients.size(); ++i)
+        block.coefficients[i] = glm::vec3(probe.coefficients[i]);
+    block.scale = static_cast<float>(probe.scale);
+    return block;
+}
+
 }  // namespace
 
 Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record)
     : gl_(gl), stage_(stage), size_(size), record_(record) {
     make_framebuffer();
-    for (const StageDraw& draw : stage.draws) upload(draw.mesh);
+    for (const StageDraw& draw : stage.draws) {
+        upload(draw.mesh);
+        for (const std::string& effect : draw.not_drawn)
+            complain(effect, draw.name + " calls for " + effect + ", which this viewer does not draw");
+    }
 }
 
 void Renderer::make_framebuffer() {
@@ -70,6 +93,7 @@ void Renderer::upload(const gobo::Mesh& mesh) {
     gl_.BindVertexArray(vertices.array);
     add_attribute(gl_, lit::attribute::position, mesh.positions);
     add_attribute(gl_, lit::attribute::normal, mesh.normals);
+    add_attribute(gl_, lit::attribute::color, mesh.colors);
     buffer_of(gl_, GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
     vertices_.push_back(vertices);
 }
@@ -111,6 +135,8 @@ void Renderer::draw(std::size_t number, const Settings& settings, const glm::dma
     set(transform_block(view * draw.model, projection));
     set(draw.material);
     set(lit::Ambient{glm::vec3(stage_.scene.ambient), {}});
+    set(hemisphere_block(draw.probe, view));
+    set(harmonics_block(draw.probe, view));
     set(lights.directional);
     set(lights.point);
     set(lights.spot);

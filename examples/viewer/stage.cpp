@@ -42,7 +42,25 @@ Enum named(const std::string& name, std::initializer_list<std::pair<const char*,
     return otherwise;
 }
 
-void call_for(const Effect& effect, DrawState& state) {
+bool is_light(const Effect& effect) {
+    return effect.feature == "directional" || effect.feature == "point" || effect.feature == "spot";
+}
+
+/// Whether the effect is one of the surface or of the light around it.
+bool call_for_surface(const Effect& effect, DrawState& state) {
+    if (effect.feature == "sides") state.sides = lit::Sides::two;
+    if (effect.feature == "vertex_color") state.vertex_color = lit::VertexColor::modulate;
+    if (effect.feature == "ambient")
+        state.ambient = named(effect.value,
+                              {{"hemisphere", lit::AmbientFeature::hemisphere},
+                               {"spherical_harmonics", lit::AmbientFeature::spherical_harmonics}},
+                              lit::AmbientFeature::global);
+    return effect.feature == "sides" || effect.feature == "vertex_color" ||
+           (effect.feature == "ambient" && effect.value != "image");
+}
+
+/// Whether this viewer draws the effect.
+bool call_for(const Effect& effect, DrawState& state) {
     if (effect.feature == "directional") ++state.directional;
     if (effect.feature == "point") ++state.point;
     if (effect.feature == "spot") ++state.spot;
@@ -58,10 +76,8 @@ void call_for(const Effect& effect, DrawState& state) {
                            {"exponential", lit::Fog::exponential},
                            {"exponential_squared", lit::Fog::exponential_squared}},
                           lit::Fog::none);
-}
-
-bool is_light(const Effect& effect) {
-    return effect.feature == "directional" || effect.feature == "point" || effect.feature == "spot";
+    return is_light(effect) || effect.feature == "diffuse" || effect.feature == "specular" ||
+           effect.feature == "fog" || call_for_surface(effect, state);
 }
 
 StageDraw make_draw(const Scene& scene, const Draw& draw) {
@@ -74,11 +90,12 @@ StageDraw make_draw(const Scene& scene, const Draw& draw) {
     result.material = material_block(material_of(scene, draw));
     const gobo::scene::Wishes wishes = wishes_of(scene, draw);
     if (wishes.fog) result.fog = fog_block(*wishes.fog);
+    result.probe = wishes.probe.value_or(gobo::scene::Probe());
     result.toon.levels = std::max(wishes.toon_levels.value_or(0), 0) > 0 ? *wishes.toon_levels : 4;
     for (std::size_t i = 0; i < draw.effects.size(); ++i) {
         const Effect& effect = draw.effects[i];
         if (!effect.is_in) continue;
-        call_for(effect, result.state);
+        if (!call_for(effect, result.state)) result.not_drawn.push_back(effect.name);
         if (is_light(effect)) result.lights.push_back(i);  // lights come first, in the scene's order
     }
     return result;

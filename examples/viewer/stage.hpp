@@ -24,6 +24,9 @@ struct DrawState {
     lit::Diffuse diffuse = lit::Diffuse::lambert;
     lit::Specular specular = lit::Specular::none;
     lit::Fog fog = lit::Fog::none;
+    lit::Sides sides = lit::Sides::one;
+    lit::VertexColor vertex_color = lit::VertexColor::none;
+    lit::AmbientFeature ambient = lit::AmbientFeature::global;
     lit::Shading shading = lit::Shading::fragment;
 };
 
@@ -36,7 +39,9 @@ struct StageDraw {
     lit::Material material{};
     lit::Fog_block fog{};
     lit::Toon toon{};
+    gobo::scene::Probe probe;
     DrawState state;
+    std::vector<std::string> not_drawn;  ///< effects that it calls for, but that this viewer lacks
     /// The lights that reach it, by their number among all lights of the scene.
     std::vector<std::size_t> lights;
 };
