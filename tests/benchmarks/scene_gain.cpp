@@ -3,12 +3,13 @@
 // Each scene is drawn by the ubershader with switches, by the one with light-count loops, and by the
 // permutations that its draws call for, twice: the two must come out alike, or times mean nothing. Time per
 // fragment is the slope between two sizes, so that what a draw costs by itself drops out; rivals take turns.
-// Operations are counted by the evaluator and repeat exactly.
+// Operations are counted by the evaluator and repeat exactly; weights, in additions, come from a study.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "scene_picture/scene_object.hpp"
 #include "scene_picture/software_scene.hpp"
 #include "scene_picture/uber_values.hpp"
+#include "study/weights.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -167,32 +169,34 @@ double quantile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-/// The weight of each kind of operation, from a CSV with lines `kind,weight`; 1 where there is none.
-std::array<double, evaluate::kKinds> read_weights(const std::string& path) {
-    std::array<double, evaluate::kKinds> weights;
-    weights.fill(1);
-    if (path.empty()) return weights;
-    const DiskFileSystem files;
-    const std::string text = must(files.read(path));
-    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind) {
-        const std::string row = fmt::format("\n{},", evaluate::kKindNames[kind]);
-        const auto found = text.find(row);
-        if (found != std::string::npos)
-            weights[kind] = std::strtod(text.c_str() + found + row.size(), nullptr);
-    }
-    return weights;
-}
+/// What shading a fragment executes, on average.
+struct Work {
+    double operations = 0;  ///< each counted as 1
+    double weighted = 0;    ///< in additions
+};
 
-double operations_per_fragment(const Scene& scene, const std::vector<Draw>& draws, const Rival& rival,
-                               const std::vector<RenderValue>& values,
-                               const std::array<double, evaluate::kKinds>& weights) {
+Work work_of(const Scene& scene, const std::vector<Draw>& draws, const Rival& rival,
+             const std::vector<RenderValue>& values, const std::optional<study::Weights>& weights) {
     const auto programs = must(software_programs(rival.shaders));
     const auto picture = must(draw_in_software(rival.shaders, programs, rival.objects, values,
                                                view_at(scene, draws, counted_width), true));
-    double sum = 0;
-    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)
-        sum += weights[kind] * static_cast<double>(picture.operations[kind]);
-    return sum / static_cast<double>(picture.fragments);
+    Work work;
+    for (const auto count : picture.operations)
+        work.operations += static_cast<double>(count) / static_cast<double>(picture.fragments);
+    if (weights)
+        work.weighted =
+            study::weighted(picture.operations, *weights) / static_cast<double>(picture.fragments);
+    return work;
+}
+
+/// Those of the renderer that draws, else the first.
+std::optional<study::Weights> read_weights(const std::string& path, const std::string& renderer) {
+    if (path.empty()) return std::nullopt;
+    const DiskFileSystem files;
+    const std::vector<study::Weights> all = must(study::read_weights(must(files.read(path)), path));
+    const auto own = std::find_if(
+        all.begin(), all.end(), [&](const study::Weights& weights) { return weights.renderer == renderer; });
+    return own == all.end() ? all.front() : *own;
 }
 
 std::size_t source_bytes(const Composition& composition) {
@@ -208,7 +212,7 @@ std::size_t spirv_words(const SceneShaders& shaders) {
 }
 
 void run_scene(const std::string& path, const Shipped& lit, const Shipped& uber, const Context& context,
-               const std::array<double, evaluate::kKinds>& weights) {
+               const std::optional<study::Weights>& weights) {
     const DiskFileSystem files;
     const Scene scene = must(read_scene(files, path));
     const auto draws = what_draws_call_for(scene, eye_of_cameras(scene), {});
@@ -220,15 +224,17 @@ void run_scene(const std::string& path, const Shipped& lit, const Shipped& uber,
     const auto values = values_beside_scene(lit.family.render);
     time_rivals(context, scene, draws, values, rivals);
     const double base_time = quantile(rivals[2].nanoseconds, 0.5);
-    const double base_operations = operations_per_fragment(scene, draws, rivals[2], values, weights);
+    const Work base = work_of(scene, draws, rivals[2], values, weights);
     fmt::print("\n{}\n", path.substr(path.rfind('/') + 1));
-    fmt::print("{:<20}{:>9}{:>7}{:>18}{:>7}{:>10}{:>9}{:>10}{:>10}\n", "", "op/frag", "x", "ns/frag (IQR)",
-               "x", "programs", "GLSL kB", "SPIR-V kB", "link ms");
+    fmt::print("{:<20}{:>9}{:>7}{:>10}{:>7}{:>18}{:>7}{:>10}{:>9}{:>10}{:>10}\n", "", "op/frag", "x",
+               "weighted", "x", "ns/frag (IQR)", "x", "programs", "GLSL kB", "SPIR-V kB", "link ms");
     for (const Rival& rival : rivals) {
-        const double operations = operations_per_fragment(scene, draws, rival, values, weights);
+        const Work work = work_of(scene, draws, rival, values, weights);
         const double median = quantile(rival.nanoseconds, 0.5);
-        fmt::print("{:<20}{:>9.0f}{:>7.2f}{:>18}{:>7.2f}{:>10}{:>9.1f}{:>10.1f}{:>10.1f}\n", rival.name,
-                   operations, operations / base_operations,
+        fmt::print("{:<20}{:>9.0f}{:>7.2f}{:>10}{:>7}{:>18}{:>7.2f}{:>10}{:>9.1f}{:>10.1f}{:>10.1f}\n",
+                   rival.name, work.operations, work.operations / base.operations,
+                   weights ? fmt::format("{:.0f}", work.weighted) : "-",
+                   weights ? fmt::format("{:.2f}", work.weighted / base.weighted) : "-",
                    fmt::format("{:.0f} ({:.0f}-{:.0f})", median, quantile(rival.nanoseconds, 0.25),
                                quantile(rival.nanoseconds, 0.75)),
                    median / base_time, rival.shaders.composition.permutations.size(),
@@ -246,9 +252,9 @@ void run(const std::vector<std::string>& scenes, const std::string& weights_path
     const Shipped lit("lit");
     const Shipped uber("uber");
     const auto context = must(open_context(Backend::osmesa));
-    const auto weights = read_weights(weights_path);
-    fmt::print("{}; {} interleaved rounds, medians of processor time; operations {}\n", context.renderer(),
-               rounds, weights_path.empty() ? "counted, each as 1" : "weighted by " + weights_path);
+    const auto weights = read_weights(weights_path, context.renderer());
+    fmt::print("{}; {} interleaved rounds, medians of processor time; weights: {}\n", context.renderer(),
+               rounds, weights ? weights->renderer : "none");
     for (const std::string& path : scenes) run_scene(path, lit, uber, context, weights);
 }
 
@@ -267,7 +273,7 @@ int main(int argc, char** argv) {
         }
     }
     if (scenes.empty()) {
-        std::fputs("usage: scene_gain [--weights=KINDS.csv] SCENE.gltf...\n", stderr);
+        std::fputs("usage: scene_gain [--weights=WEIGHTS.csv] SCENE.gltf...\n", stderr);
         return 2;
     }
     // One thread, and no program from an earlier run: both would be measured otherwise.
