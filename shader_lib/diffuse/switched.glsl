@@ -7,7 +7,7 @@
 #include "diffuse/lambert.glsl" with diffuseTerm as lambertTerm
 #include "diffuse/toon.glsl" with diffuseTerm as toonTerm
 #include "diffuse/toon_ceil.glsl" with diffuseTerm as toonCeilTerm
-#include "diffuse/toon_thresholds.glsl" with beginDiffuse as beginTones, diffuseTerm as toneTerm, limitedDiffuse as limitedTones, toon as toneLevels
+#include "diffuse/toon_thresholds.glsl" with beginDiffuse as beginTones, diffuseTerm as toneTerm, limitedDiffuse as limitedTones
 #include "uber/switches.glsl"
 
 /// Prepares the sum of a point's scattered light. To be called before the first light.

@@ -5,7 +5,7 @@
 // Range:  cosine above 0, levels 1 to 64; result 0 to (N - 1) / N times the light.
 // Edges:  a cosine of 1 or a rounding above it is in the top band, not in one more (H-T1); within an ulp of
 //         k / N it is one of the two neighbouring bands (H-T2).
-#include "diffuse/levels.glsl"
+#include <diffuse/levels>
 #include "diffuse/unlimited.glsl"
 
 /// What is scattered of a light that arrives at an angle of the given cosine to the normal.

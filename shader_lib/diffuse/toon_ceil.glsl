@@ -6,7 +6,7 @@
 // Range:  cosine above 0, levels 1 to 64; result 1 / N to 1 times the light.
 // Edges:  a cosine a rounding above 1 is in the top band, not in one more (H-T1); within an ulp of k / N it is
 //         one of the two neighbouring bands (H-T2).
-#include "diffuse/levels.glsl"
+#include <diffuse/levels>
 #include "diffuse/unlimited.glsl"
 
 /// What is scattered of a light that arrives at an angle of the given cosine to the normal.

@@ -9,12 +9,7 @@
 // Edges:  a cosine exactly at a threshold does not exceed it, within an ulp it is one of the two neighbouring
 //         tones (H-T2); at a cosine of 1 or a rounding above it there is no tone beyond the first (H-T1); a
 //         threshold of 0 is exceeded by every light in front.
-
-/// Cosines, the highest first (0.95, 0.5, 0.25), and the tone above each (1, 0.6, 0.4).
-BLOCK(14, ToonThresholds) {
-    vec3 thresholds;
-    vec3 tones;
-} toon;
+#include <diffuse/tones>
 
 /// The brightest light so far that gives a tone, per channel.
 vec3 brightestLight;

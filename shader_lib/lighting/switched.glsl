@@ -23,8 +23,7 @@ vec3 litSurface() {
     vec3 radiance = material.emission + ambientRadiance() + reflectionRadiance();
     beginResponse();
     for (int i = 0; i < 10; ++i) {
-        AnyLight light = switchedLights.lights[i];
-        if (light.isEnabled) addAnyLight(light, light.isLocal, light.isSpot);
+        if (switchedLights.lights[i].isEnabled) addAnyLight(switchedLights.lights[i]);
     }
     return radiance + responseRadiance();
 }

@@ -1,22 +1,8 @@
 // Shadows of point lights (S15): the first POINT_SHADOWS of them have six maps each, the faces of a cube.
 //
-// Model:  the face is chosen by the largest component of the ray from the light; there the map is a
-//         perspective one, whose x, y and depth follow from the ray and three numbers. So a light is one
-//         matrix, not six, and its faces are layers of the array that all lights share.
-// Source: Gerasimov, Omnidirectional Shadow Mapping, GPU Gems (2004), ch. 12.
-// Space:  eye; the faces' axes are those that `toMap` turns to.
-// Edges:  at the light itself w is 0: no shadow (H-W1, H-L1). A spread a little below 1/2 draws more than the
-//         face, so that the filter's texels lie on it and no seam shows.
-#include "point_shadows/cube_face.glsl"
+// Model, source, edges: cubeVisibility().
 #include "shadow/parameters.glsl"
-#include "shadow/visibility.glsl"
-#include "surface/position.glsl"
+#include "shadow/six_maps.glsl"
 
 /// The share of point light `i` that reaches the surface.
-float pointVisibility(int i) {
-    Shadow shadow = shadows.shadows[DIRECTIONAL_SHADOWS + SPOT_SHADOWS + i];
-    vec4 ray = cubeFace((shadow.toMap * vec4(surfacePosition(), 1.0)).xyz);
-    vec2 place = 0.5 * ray.z + shadow.spread * ray.xy;
-    float depth = shadow.depthScale * ray.z + shadow.depthShift;
-    return visibility(vec4(place, depth, ray.z), shadow.layer + ray.w);
-}
+float pointVisibility(int i) { return cubeVisibility(shadows.shadows[DIRECTIONAL_SHADOWS + SPOT_SHADOWS + i]); }

@@ -6,11 +6,19 @@
 
 /// Which value of each feature is meant.
 BLOCK(22, Switches) {
+    int ambient;
+    int cutout;
     int diffuse;
     int directional;
     int fog;
+    int homogeneous;
+    int light_ambient;
     int lighting;
+    int material;
     int point;
+    int reflection;
+    int sides;
     int specular;
     int spot;
+    int vertex_color;
 } switches;

@@ -1,4 +1,7 @@
 // The ubershader draws what each permutation of lit draws: the same pieces, switched at run time.
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compose/dialect.hpp"
@@ -59,20 +62,53 @@ class Painter {
     SoftwarePrograms programs_;
 };
 
+int count_of(const Family& family, const Key& key, const char* feature) {
+    return key[static_cast<std::size_t>(*family.index_of(feature))];
+}
+
 /// Keys that hold every pair of values of what the ubershader switches.
 std::vector<Key> switched_cover(const ShippedFamily& lit, const ShippedFamily& uber) {
     Selection selection;
     selection.cover = 2;
-    selection.over = {"directional", "point", "spot"};
+    selection.over = {"directional",         "point",         "spot",        "homogeneous",
+                      "directional_shadows", "point_shadows", "spot_shadows"};
     for (const Feature& feature : lit.family.features) {
         const auto index = uber.family.index_of(feature.name);
         const Feature& own = uber.family.features[static_cast<std::size_t>(*index)];
         if (own.index_of("switched")) selection.over.push_back(feature.name);
     }
-    selection.where = "directional + point + spot <= 10";
+    selection.where = fmt::format("directional + point + spot + homogeneous <= {}", kSwitchedLights);
     const auto keys = select(lit.family, selection, "450");
     EXPECT_TRUE(keys) << text_of(keys.error());
     return *keys;
+}
+
+/// The value of a shadow's member.
+RenderValue shadow_value(int shadow, const char* member, std::vector<double> numbers) {
+    return {fmt::format("Shadows.shadows[{}].{}", shadow, member), "", std::move(numbers), {}};
+}
+
+/// The values of the family with shadows of two kinds: each darkens half of space or what lies beyond a
+/// distance, another for each light, so that none can be taken for another.
+std::vector<RenderValue> with_shadows(const Family& lit, const Key& key) {
+    std::vector<RenderValue> values = lit.render;
+    values.push_back({"shadowMaps", "", {0.5}, {}});
+    const int with_one_map = count_of(lit, key, "directional_shadows") + count_of(lit, key, "spot_shadows");
+    const int all = with_one_map + count_of(lit, key, "point_shadows");
+    for (int i = 0; i < all; ++i) {
+        const double turn = 0.5 * i;
+        values.push_back(i < with_one_map
+                             ? shadow_value(i, "toMap",
+                                            {0, 0, 0.1 * std::cos(turn), 0, 0, 0, 0.1 * std::sin(turn), 0,  //
+                                             0, 0, 0.02, 0, 0.5, 0.5, 0.6, 1})
+                             : shadow_value(i, "toMap", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}));
+        values.push_back(shadow_value(i, "layer", {0}));
+        values.push_back(shadow_value(i, "depthScale", {1.1}));
+        values.push_back(
+            shadow_value(i, "depthShift", {-0.6 * (0.6 + 0.1 * i)}));  // darker from 0.6 + 0.1 i on
+        values.push_back(shadow_value(i, "spread", {0.5}));
+    }
+    return values;
 }
 
 double largest_of(const Image& image) {
@@ -97,9 +133,9 @@ TEST_P(Uber, DrawsWhatEachPermutationDraws) {
     Painter switched(uber, stage, uber_keys);
     for (std::size_t i = 0; i < keys.size(); ++i) {
         SCOPED_TRACE(key_text(lit.family, keys[i]));
-        const Image expected = specialised.paint(i, lit.family.render);
-        const Image actual =
-            switched.paint(i, uber_values(uber.family, lit.family, keys[i], lit.family.render));
+        const std::vector<RenderValue> values = with_shadows(lit.family, keys[i]);
+        const Image expected = specialised.paint(i, values);
+        const Image actual = switched.paint(i, uber_values(uber.family, lit.family, keys[i], values));
         const auto difference = compare(actual, expected);
         ASSERT_TRUE(difference);
         EXPECT_LE(difference->largest, 1e-6 * std::max(1.0, largest_of(expected))) << to_text(*difference);
@@ -116,7 +152,9 @@ TEST(UberKey, KeepsQualityAndSwitchesTheRest) {
     const ShippedFamily uber("uber");
     const Key key = *parse_key(lit.family, "fog=linear fog_distance=planar specular=phong point=2");
     EXPECT_EQ(key_text(uber.family, uber_key(uber.family, lit.family, key, UberLights::switched)),
-              "diffuse=switched fog=switched fog_distance=planar lighting=switched specular=switched");
+              "ambient=switched cutout=switched diffuse=switched fog=switched fog_distance=planar "
+              "light_ambient=switched lighting=switched material=switched reflection=switched sides=switched "
+              "specular=switched vertex_color=switched");
     EXPECT_EQ(lights_of(lit.family, key), 2);
 }
 

@@ -18,6 +18,16 @@ Family lit_family() {
     return read_family(disk.read(kSource + "/templates/lit.toml").value(), "templates/lit.toml").value();
 }
 
+Family uber_family() {
+    const DiskFileSystem disk;
+    const FindFamily find_base = [&disk](const std::string& base) -> Result<FamilyText> {
+        const std::string path = "templates/" + base + ".toml";
+        return FamilyText{disk.read(kSource + "/" + path).value(), path};
+    };
+    return read_family(disk.read(kSource + "/templates/uber.toml").value(), "templates/uber.toml", find_base)
+        .value();
+}
+
 std::string piece_text(const std::string& include_path) {
     const DiskFileSystem disk;
     return disk.read(kSource + "/shader_lib/" + include_path).value();

@@ -15,10 +15,13 @@ using Overlay = std::map<std::string, std::string, std::less<>>;
 /// lit as it stands in the source tree.
 [[nodiscard]] Family lit_family();
 
+/// The ubershader `uber` as it stands in the source tree.
+[[nodiscard]] Family uber_family();
+
 /// The text of a piece of shader_lib/.
 [[nodiscard]] std::string piece_text(const std::string& include_path);
 
-/// The keys composed with the overlay; errors in the pieces come back.
+/// The keys of `lit`, or of the family that extends it, composed with the overlay; errors in the pieces come back.
 [[nodiscard]] Result<Composition> compose_lit(const Family& family, const std::vector<Key>& keys,
                                               const Overlay& overlay);
 

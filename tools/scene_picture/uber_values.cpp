@@ -9,17 +9,24 @@
 namespace gobo::scene {
 namespace {
 
-/// A kind of light of `lit`: its feature, its block, and what it is to the ubershader.
+/// A kind of light of `lit`: its feature, its block, which of its lights cast shadows, and what it is to the
+/// ubershader.
 struct LightFeature {
     const char* feature;
     const char* block;
+    const char* shadows;
     bool is_local;
     bool is_spot;
 };
 
-constexpr std::array kinds = {LightFeature{"directional", "DirectionalLights", false, false},
-                              LightFeature{"point", "PointLights", true, false},
-                              LightFeature{"spot", "SpotLights", true, true}};
+constexpr std::array kinds = {
+    LightFeature{"directional", "DirectionalLights", "directional_shadows", false, false},
+    LightFeature{"point", "PointLights", "point_shadows", true, false},
+    LightFeature{"spot", "SpotLights", "spot_shadows", true, true},
+    LightFeature{"homogeneous", "HomogeneousLights", nullptr, false, false}};
+
+/// The kinds in the order in which the block `Shadows` has them.
+constexpr std::array<std::size_t, 3> shadow_order = {0, 2, 1};
 
 constexpr const char* switched = "switched";
 
@@ -32,27 +39,74 @@ void set(std::vector<RenderValue>& values, std::string name, double number) {
     values.push_back({std::move(name), "", {number}, {}});
 }
 
-/// A light's values under other names.
-void add_light(const std::vector<RenderValue>& given, const std::string& from, const std::string& to,
-               std::vector<RenderValue>& values) {
+/// Values under other names: those that begin with `from` begin with `to`.
+void rename(const std::vector<RenderValue>& given, const std::string& from, const std::string& to,
+            std::vector<RenderValue>& values) {
     for (const RenderValue& value : given) {
         if (!value.name.starts_with(from)) continue;
         RenderValue renamed = value;
-        const std::string member = value.name.substr(from.size());
-        renamed.name = to + (member == "direction" ? "position" : member);
-        if (member == "direction" && renamed.source.empty()) renamed.numbers.push_back(0);  // a vec4's w
+        renamed.name = to + value.name.substr(from.size());
         values.push_back(std::move(renamed));
     }
 }
 
-/// A light among the switched lights.
-void add_switched_light(const std::vector<RenderValue>& given, const std::string& from,
-                        const LightFeature& kind, int place, std::vector<RenderValue>& values) {
-    const std::string to = fmt::format("SwitchedLights.lights[{}].", place);
-    add_light(given, from, to, values);
+/// Where a light of a permutation stands: how many lights stand before it, of its kind and of all, and before
+/// its shadow.
+struct Place {
+    int of_kind = 0;
+    int of_all = 0;
+    int shadow = -1;  ///< it casts none
+};
+
+/// A light under the name that the ubershader has for it.
+void add_light(const std::vector<RenderValue>& given, const LightFeature& kind, const Place& place,
+               const std::string& to, std::vector<RenderValue>& values) {
+    rename(given, fmt::format("{}.lights[{}].", kind.block, place.of_kind), to, values);
+    rename(given, fmt::format("LightAmbients.colors[{}]", place.of_all), to + "ambient", values);
+    rename(given, fmt::format("Shadows.shadows[{}].", place.shadow), to + "shadow.", values);
     set(values, to + "isEnabled", 1);
     set(values, to + "isLocal", kind.is_local ? 1 : 0);
     set(values, to + "isSpot", kind.is_spot ? 1 : 0);
+    set(values, to + "isHomogeneous", kind.shadows == nullptr ? 1 : 0);
+    set(values, to + "isShadowed", place.shadow >= 0 ? 1 : 0);
+}
+
+/// How many shadows stand before those of a kind in the block `Shadows`.
+int shadows_before(const Family& lit, const Key& key, std::size_t kind) {
+    int count = 0;
+    for (const std::size_t other : shadow_order) {
+        if (other == kind) break;
+        count += value_of(lit, key, kinds[other].shadows);
+    }
+    return count;
+}
+
+void add_lights(const Family& lit, const Key& key, const std::vector<RenderValue>& given,
+                std::vector<RenderValue>& values) {
+    Place place;
+    for (int i = 0; i < kSwitchedLights; ++i)
+        set(values, fmt::format("SwitchedLights.lights[{}].isEnabled", i), 0);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const LightFeature& kind = kinds[k];
+        const int count = value_of(lit, key, kind.feature);
+        const int shadowed = kind.shadows == nullptr ? 0 : value_of(lit, key, kind.shadows);
+        set(values, fmt::format("Switches.{}", kind.feature), count);
+        for (place.of_kind = 0; place.of_kind < count; ++place.of_kind, ++place.of_all) {
+            place.shadow = place.of_kind < shadowed ? shadows_before(lit, key, k) + place.of_kind : -1;
+            add_light(given, kind, place, fmt::format("LoopedLights.{}[{}].", kind.feature, place.of_kind),
+                      values);
+            if (place.of_all < kSwitchedLights)
+                add_light(given, kind, place, fmt::format("SwitchedLights.lights[{}].", place.of_all),
+                          values);
+        }
+    }
+}
+
+/// What the ubershader has in another block than `lit`.
+void add_moved(const Family& lit, const Key& key, const std::vector<RenderValue>& given,
+               std::vector<RenderValue>& values) {
+    if (value_of(lit, key, "material") == 0) rename(given, "Material.", "Materials.rows[0].", values);
+    rename(given, "ToonThresholds.", "Toon.", values);
 }
 
 }  // namespace
@@ -88,18 +142,8 @@ std::vector<RenderValue> uber_values(const Family& uber, const Family& lit, cons
         const bool is_switched = index && uber.features[static_cast<std::size_t>(*index)].index_of(switched);
         if (is_switched) set(values, "Switches." + feature.name, key[i]);
     }
-    int place = 0;
-    for (int i = 0; i < kSwitchedLights; ++i)
-        set(values, fmt::format("SwitchedLights.lights[{}].isEnabled", i), 0);
-    for (const LightFeature& kind : kinds) {
-        const int count = value_of(lit, key, kind.feature);
-        set(values, fmt::format("Switches.{}", kind.feature), count);
-        for (int i = 0; i < count; ++i) {
-            const std::string from = fmt::format("{}.lights[{}].", kind.block, i);
-            add_light(given, from, fmt::format("LoopedLights.{}[{}].", kind.feature, i), values);
-            if (place < kSwitchedLights) add_switched_light(given, from, kind, place++, values);
-        }
-    }
+    add_moved(lit, key, given, values);
+    add_lights(lit, key, given, values);
     return values;
 }
 

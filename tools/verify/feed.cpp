@@ -10,6 +10,7 @@
 #include "verify/field_access.hpp"
 #include "verify/image_light_feed.hpp"
 #include "verify/shadow_feed.hpp"
+#include "verify/switched_feed.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -138,6 +139,7 @@ std::optional<Field> field_of(const std::string& name) {
     if (const auto light = element_name(name, "SpotLights.lights")) return spot_field(*light);
     if (auto surface = surface_field_of(name)) return surface;
     if (const auto image = image_light_field(name)) return image;
+    if (const auto switched = switched_field(name)) return switched;
     return shadow_field(name);
 }
 

@@ -78,6 +78,21 @@ std::optional<Field> homogeneous_member(const ElementName& name) {
     return std::nullopt;
 }
 
+/// A member of a row of the table. An ubershader's first row is the sample's only material, where its model
+/// has no table.
+std::optional<Field> row_member(const ElementName& row) {
+    auto field = material_member(
+        row.member, [i = row.index](auto& s) -> auto& { return s.scene.materials[i]; });
+    const auto only = material_member(
+        row.member, [](auto& s) -> auto& { return s.scene.material; });
+    if (field && row.index == 0)
+        field->get = [in_table = field->get, alone = only->get](const Sample& sample) {
+            const bool has_table = sample.model.material == oracle::MaterialChoice::array;
+            return has_table ? in_table(sample) : alone(sample);
+        };
+    return field;
+}
+
 }  // namespace
 
 std::optional<ElementName> element_name(std::string_view name, std::string_view array) {
@@ -101,8 +116,7 @@ std::optional<Field> surface_field_of(const std::string& name) {
     if (const auto light = element_name(name, "LightAmbients.colors"))
         return growing(&oracle::Scene::light_ambients, light->index);
     if (const auto row = element_name(name, "Materials.rows"); row && row->index < 14)
-        return material_member(
-            row->member, [i = row->index](auto& s) -> auto& { return s.scene.materials[i]; });
+        return row_member(*row);
     if (const auto term = element_name(name, "Harmonics.coefficients"); term && term->index < 9)
         return field([i = term->index](auto& s) -> auto& { return s.scene.harmonics.coefficients[i]; });
     return std::nullopt;

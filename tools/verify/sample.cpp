@@ -43,6 +43,7 @@ class SampleMaker {
   private:
     /// All that is the same for every point of a draw.
     void furnish(Sample& sample) {
+        sample.model = model_;
         choose_side(model_, stage_, random_, sample);
         if (mesh_ != nullptr)
             for (const glm::vec3& position : mesh_->positions)

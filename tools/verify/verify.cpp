@@ -6,7 +6,7 @@
 #include <xxhash.h>
 
 #include "family/key.hpp"
-#include "oracle/model.hpp"
+#include "oracle/settings.hpp"
 #include "verify/against_oracle.hpp"
 #include "verify/alone.hpp"
 #include "verify/on_mesh.hpp"
@@ -15,6 +15,9 @@
 
 namespace gobo::verify {
 namespace {
+
+/// Samples of each stage for each setting of an ubershader's switches.
+constexpr int kPointsOfSetting = 16;
 
 /// Verifies one permutation after the other, keeping what all share.
 class Verifier {
@@ -25,11 +28,11 @@ class Verifier {
     [[nodiscard]] PermutationReport verify(const Permutation& permutation) const {
         PermutationReport report;
         report.key = permutation.key;
-        const auto model = oracle::model_of(family_, permutation.key);
-        report.has_oracle = model.has_value();
+        const std::vector<oracle::Model> models = oracle::models_of(family_, permutation.key);
+        report.has_oracle = !models.empty();
         for (const int stage : {permutation.vertex, permutation.fragment}) {
             if (stage < 0) continue;  // loose files may leave one out
-            Result<StageReport> found = check(stage, permutation.key, model);
+            Result<StageReport> found = check(stage, permutation.key, models);
             if (found)
                 add(report, std::move(*found));
             else
@@ -37,28 +40,39 @@ class Verifier {
         }
         const bool is_whole = permutation.vertex >= 0 && permutation.fragment >= 0;
         if (!is_whole || !report.diagnostics.empty()) return report;
-        if (model && !options_.meshes.empty()) check_on_meshes(report, permutation, *model);
+        if (!models.empty()) check_on_meshes(report, permutation, models);
         if (!family_.relations.empty()) check_relations(report, permutation);
         return report;
     }
 
   private:
     [[nodiscard]] Result<StageReport> check(int stage, const Key& key,
-                                            const tl::expected<oracle::Model, std::string>& model) const {
+                                            const std::vector<oracle::Model>& models) const {
         const Result<evaluate::Program>& program = decoded_.stage(stage);
         if (!program) return tl::unexpected(program.error());
         const StageKind kind = decoded_.kind_of(stage);
         const std::uint64_t seed = seed_of(key);
         const int count = kind == StageKind::vertex ? options_.vertices : options_.fragments;
-        return model ? check_against_oracle(*program, kind, *model, count, seed)
-                     : check_alone(*program, kind, family_.domains, count, seed);
+        if (models.empty()) return check_alone(*program, kind, family_.domains, count, seed);
+        const bool is_one = models.size() == 1;
+        StageReport all;
+        for (std::size_t i = 0; i < models.size(); ++i) {
+            Result<StageReport> one =
+                check_against_oracle(*program, kind, models[i], is_one ? count : kPointsOfSetting, seed + i);
+            if (!one) return one;
+            all.figures += one->figures;
+            all.failed_points += one->failed_points;
+            for (Failure& failure : one->worst) add_failure(all, std::move(failure));
+        }
+        return all;
     }
 
     void check_on_meshes(PermutationReport& report, const Permutation& permutation,
-                         const oracle::Model& model) const {
+                         const std::vector<oracle::Model>& models) const {
         const Result<Pipeline> pipeline = decoded_.pipeline(permutation);
         if (!pipeline) return add(report, pipeline.error());
         for (std::size_t i = 0; i < options_.meshes.size(); ++i) {
+            const oracle::Model& model = models[i * models.size() / options_.meshes.size()];
             auto found =
                 check_on_mesh(*pipeline, model, options_.meshes[i], seed_of(permutation.key) + i + 1);
             if (!found) return add(report, std::move(found.error()));

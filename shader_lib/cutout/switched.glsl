@@ -1,0 +1,10 @@
+// Holes cut by alpha, where a switch has it so (L8, S16).
+//
+// Source, ranges, edges: as the threshold's.
+#include "cutout/threshold.glsl" with cutOut as cutOutHoles
+#include "uber/switches.glsl"
+
+/// Discards the fragment where the surface has a hole.
+void cutOut() {
+    if (switches.cutout == 1) cutOutHoles();
+}

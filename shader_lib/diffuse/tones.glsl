@@ -1,0 +1,9 @@
+// The thresholds and tones of cartoon shading in three tones (S8).
+//
+// Range:  0 to 1, the highest threshold first.
+
+/// Cosines, the highest first (0.95, 0.5, 0.25), and the tone above each (1, 0.6, 0.4).
+BLOCK(14, ToonThresholds) {
+    vec3 thresholds;
+    vec3 tones;
+} toon;
