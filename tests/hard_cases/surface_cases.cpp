@@ -220,6 +220,12 @@ std::vector<Case> surroundings_cases() {
            {"Hemisphere.ground", {1, 1, 1}}}},
          is_color({0.125, 0.125, 0.125, 1}),
          features},
+        // Just above and just below the horizon the sky is half of what is seen, however short the normal.
+        {"S12_short_normal_at_the_horizon_of_a_sky",
+         "ambient == hemisphere && sides == one && shading == fragment",
+         {{{"eyeNormal", {0.5, 0, 1e-7}}, {"Hemisphere.up", {0, 0, 1}}}},
+         same_as({{"eyeNormal", {0.5, 0, -1e-7}}}, 1e-6),
+         {"ambient", "hemisphere", "normal", "sides", "shading"}},
         {"H_B1_negative_irradiance",
          "ambient == spherical_harmonics",
          {{{"Harmonics.coefficients[]", {-1, -1, -1}}}},

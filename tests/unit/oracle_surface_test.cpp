@@ -214,6 +214,12 @@ TEST(OracleSurface, SeesTheShareOfTheSkyThatTheIntegralGives) {
         EXPECT_NEAR(sine + sky_share(Hemisphere::sine, (180 - degrees) * kDegree), 1, kRounding) << degrees;
     }
     EXPECT_NEAR(largest, (std::numbers::sqrt2 - 1) / 2, 1e-12) << "0.21, at 45 and 135 degrees";
+    for (const double length : {0.3, 0.9}) {
+        EXPECT_NEAR(sky_share(Hemisphere::sine, 89.9999 * kDegree, length),
+                    sky_share(Hemisphere::sine, 90.0001 * kDegree, length), 1e-9)
+            << "a shortened normal sees no jump at the horizon";
+        EXPECT_NEAR(sky_share(Hemisphere::sine, 0, length), 0.5 + 0.5 * length, kRounding);
+    }
 }
 
 TEST(OracleSurface, MixesSkyAndGround) {

@@ -45,8 +45,8 @@ int last_order(Harmonics order) {
 double sky_share(Hemisphere kind, double angle, double length) {
     if (length == 0) return 0.5;
     if (kind == Hemisphere::cosine) return 0.5 + 0.5 * length * std::cos(angle);
-    const double half = 0.5 * length * std::sin(angle);
-    return angle <= std::numbers::pi / 2 ? 1 - half : half;
+    const double beyond_half = 0.5 * length * (1 - std::sin(angle));  // 0 at a right angle, of any length
+    return angle <= std::numbers::pi / 2 ? 0.5 + beyond_half : 0.5 - beyond_half;
 }
 
 AmbientLight hemisphere_light(Hemisphere kind, const HemisphereLight& light, const glm::dvec3& normal) {

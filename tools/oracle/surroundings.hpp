@@ -33,8 +33,8 @@ struct AmbientLight {
 };
 
 /// The share of the sky that a surface at this angle (radians) from straight up sees: 1 - sin / 2 up to a
-/// right angle and sin / 2 beyond it, exactly; (1 + cos) / 2 approximately. Sine and cosine count by the
-/// length of a normal that is interpolated as it is.
+/// right angle and sin / 2 beyond it, exactly; (1 + cos) / 2 approximately. What is more or less than half
+/// counts by the length of a normal that is interpolated as it is.
 [[nodiscard]] double sky_share(Hemisphere kind, double angle, double length = 1);
 
 /// mix(G, S, share of the sky). A zero normal sees half of each.
