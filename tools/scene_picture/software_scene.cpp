@@ -55,7 +55,8 @@ class Canvas {
         picture_.fragments += shaded.size();
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const std::size_t pixel = index(object.fragments[i]);
-            if (shaded[i].is_discarded || shaded[i].depth >= std::min(depths_[pixel], 1.0)) continue;
+            if (!object.fragments[i].is_covered || shaded[i].is_discarded) continue;
+            if (shaded[i].depth >= std::min(depths_[pixel], 1.0)) continue;
             depths_[pixel] = shaded[i].depth;
             picture_.draw[pixel] = number;
             for (std::size_t c = 0; c < 4; ++c)
