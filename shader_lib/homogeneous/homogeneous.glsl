@@ -1,8 +1,8 @@
 // Lights of either kind, directional or local, told apart by one vector's fourth component (L6).
 //
-// Model, source, edges: homogeneousRay().
+// Model, source, edges: eitherRay().
 // Space:  eye. Ranges: components within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
-#include "homogeneous/ray.glsl"
+#include "homogeneous/either_ray.glsl"
 #include "lighting/response.glsl"
 
 /// `position` is a point in eye space, times its w; or where w is 0 the direction to the light, of any length.
@@ -21,7 +21,7 @@ BLOCK(11, HomogeneousLights) {
 void addHomogeneousLights() {
     for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) {
         HomogeneousLight light = homogeneousLights.lights[i];
-        LightRay ray = homogeneousRay(light.position, light.attenuation);
+        LightRay ray = eitherRay(light.position, light.attenuation);
         addLightAmbient(ray.fading);
         addLight(ray.toLight, ray.share * light.color);
     }

@@ -6,7 +6,7 @@
 // Space:  eye. Ranges: as those of directional, point, spot and homogeneous lights.
 // Edges:  as theirs.
 #include <guards/polar>
-#include "homogeneous/ray.glsl"
+#include "homogeneous/either_ray.glsl"
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
 #include "shading/light_ray.glsl"
@@ -56,7 +56,7 @@ float anyVisibility(AnyLight light) {
 void addAnyLight(AnyLight light) {
     ambientOfLight = light.ambient;
     if (light.isHomogeneous) {
-        LightRay ray = homogeneousRay(light.position, light.attenuation);
+        LightRay ray = eitherRay(light.position, light.attenuation);
         addLightAmbient(ray.fading);
         addLight(ray.toLight, ray.share * light.color);
     } else {

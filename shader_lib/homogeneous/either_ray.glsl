@@ -11,7 +11,7 @@
 #include "surface/position.glsl"
 
 /// The ray to a light at a point in eye space, times its w, or in a direction of any length, w being 0.
-LightRay homogeneousRay(vec4 position, vec3 coefficients) {
+LightRay eitherRay(vec4 position, vec3 coefficients) {
     float w = position.w;
     bool isLocal = abs(w) >= 9.5367431640625e-7;
     vec4 ray = directionAndLength(isLocal ? position.xyz / w - surfacePosition() : position.xyz);
