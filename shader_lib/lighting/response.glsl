@@ -6,6 +6,7 @@
 // Space:  eye. Ranges: n and s unit or zero; result linear and unclamped.
 // Edges:  a light gives exactly nothing unless n.s > 0 (S1, S4, H-S4), nor where s or n is zero (H-N1, H-L1).
 #include <diffuse>
+#include <intensity>
 #include <light_ambient>
 #include <material>
 #include <sides>
@@ -21,6 +22,7 @@ LightSum scattered;
 void beginResponse() {
     litNormal = visibleNormal();
     scattered = emptySum();
+    beginIntensities();
     beginDiffuse();
     beginLightAmbient();
     beginHighlights();
@@ -28,7 +30,7 @@ void beginResponse() {
 
 /// Adds a light that arrives with radiance `light` from the unit direction `toLight` (zero: from nowhere).
 void addLight(vec3 toLight, vec3 light) {
-    float cosine = dot(litNormal, toLight);
+    float cosine = nextIntensity(litNormal, toLight);
     if (cosine > 0.0) {  // H-S4; NaN does not pass
         addTerm(scattered, diffuseTerm(cosine, light));
         addHighlight(litNormal, toLight, light);

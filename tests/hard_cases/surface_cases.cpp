@@ -56,7 +56,7 @@ std::vector<Inputs> beside(const std::vector<double>& cosines) {
 }
 
 std::vector<Case> toon_cases() {
-    const std::vector<std::string> features = {"directional", "diffuse", "shading"};
+    const std::vector<std::string> features = {"directional", "diffuse", "intensity", "shading"};
     return {
         {"H_T1_cosine_of_one_at_full_tone",
          "directional > 0 && (diffuse == toon_ceil || diffuse == toon_thresholds)",
@@ -67,6 +67,22 @@ std::vector<Case> toon_cases() {
          beside({0.25, 0.5, 0.75}), is_neighbouring_band_of_ceil(), features},
         {"H_T2_beside_a_threshold", "directional > 0 && diffuse == toon_thresholds",
          beside({0.25, 0.5, 0.95}), is_neighbouring_tone(), features},
+        {"H_T1_interpolated_cosine_beyond_one",
+         "directional > 0 && intensity == vertex && diffuse != toon",
+         {with(kOnlyLights, {{"lightIntensities[]", {1.000001}}})},
+         is_color({1, 1, 1, 1}),
+         features},
+        {"S8_tones_of_the_vertices_cosines",
+         "directional > 0 && intensity == vertex && diffuse == toon_thresholds",
+         {with(kOnlyLights, {{"lightIntensities[]", {0.6}}})},
+         is_color({0.625, 0.625, 0.625, 1}),
+         features},
+        {"S8_vertices_cosines_seen_from_the_back",
+         "directional > 0 && intensity == vertex && diffuse == toon_thresholds && sides == two",
+         {with(with(kOnlyLights, faces_front(false)), {{"lightIntensities[]", {0.6}}}),
+          with(with(kOnlyLights, faces_front(true)), {{"lightIntensities[]", {-0.6}}})},
+         is_color({0, 0, 0, 1}),
+         {"directional", "diffuse", "intensity", "shading", "sides"}},
         {"H_T2_thresholds_of_zero",
          "directional > 0 && diffuse == toon_thresholds",
          {with(with(kOnlyLights, light_from(1, 0, 1e-6)), {{"ToonThresholds.thresholds", {0, 0, 0}}})},

@@ -58,6 +58,8 @@ const std::map<std::string, Setter>& setters() {
                                                       {"hybrid", Shading::hybrid},
                                                       {"vertex", Shading::vertex},
                                                       {"flat", Shading::flat}})},
+        {"intensity", choice<Intensity>(&Model::intensity,
+                                        {{"fragment", Intensity::fragment}, {"vertex", Intensity::vertex}})},
         {"normal", choice<Normal>(&Model::normal, {{"renormalised", Normal::renormalised},
                                                    {"interpolated", Normal::interpolated}})},
         {"viewer",

@@ -29,6 +29,7 @@ enum class Cutout { none, threshold };
 enum class VertexColor { none, modulate };
 
 // Quality: the same model where it is evaluated, or what stands in for parts of it.
+enum class Intensity { fragment, vertex };
 enum class Normal { renormalised, interpolated };
 enum class Viewer { local, infinite };
 enum class Power { exact, near_exact, squaring, gaussian_fitted, gaussian, lyon, schlick };
@@ -47,6 +48,7 @@ struct Model {
     FogDistance fog_distance = FogDistance::radial;
     Shading shading = Shading::fragment;
     Depth depth = Depth::untouched;
+    Intensity intensity = Intensity::fragment;  ///< where the cosine of each light is found
     Normal normal = Normal::renormalised;
     Viewer viewer = Viewer::local;
     Power power = Power::exact;

@@ -43,6 +43,14 @@ glm::dvec3 limited(const Model& model, const Scene& scene, const std::vector<Lig
     return glm::min(total, *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end()) * brightest);
 }
 
+/// The lights' cosines to the side that is seen, where they come from the vertices.
+std::vector<double> intensities_of(const Model& model, const SurfacePoint& point, bool is_flipped) {
+    if (model.intensity == Intensity::fragment) return {};
+    std::vector<double> result = point.intensities;
+    for (double& cosine : result) cosine *= is_flipped ? -1 : 1;
+    return result;
+}
+
 }  // namespace
 
 glm::dvec3 to_viewer(const Model& model, const glm::dvec3& position) {
@@ -71,7 +79,8 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     const bool is_hybrid = model.shading == Shading::hybrid;
     const glm::dvec3 normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
     const View view{normal, to_viewer(model, point.position), material.shininess,
-                    is_hybrid ? point.halfways : std::vector<glm::dvec3>()};
+                    is_hybrid ? point.halfways : std::vector<glm::dvec3>(),
+                    intensities_of(model, point, is_flipped)};
     const glm::dvec3 highlight = material.strength * material.specular;
     radiance.ambient = ambient_light(model, scene, normal);
     if (model.reflection == Reflection::image)

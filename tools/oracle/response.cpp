@@ -75,7 +75,8 @@ LightTerm respond(const Model& model, const Scene& scene, const View& view, cons
                   std::size_t light, Decisions& decisions) {
     LightTerm term;
     term.arrival = arrival;
-    term.cosine = glm::dot(view.normal, arrival.to_light);
+    term.cosine =
+        view.intensities.empty() ? glm::dot(view.normal, arrival.to_light) : view.intensities[light];
     const bool has_highlight = model.specular != Specular::none;
     // Where the radiance is continuous at the horizon, nothing is decided there.
     term.is_lit = jumps_at_horizon(model) ? decisions.above(term.cosine, 0) : term.cosine > 0;

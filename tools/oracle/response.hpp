@@ -28,6 +28,8 @@ struct View {
     double shininess = 0;
     /// Per light, what hybrid shading interpolates; empty where it is found from light and viewer.
     std::vector<glm::dvec3> halfways;
+    /// Per light, its cosine to the side that is seen; empty where it is found from normal and light.
+    std::vector<double> intensities;
 };
 
 /// 1 - cos of the highlight's angle for light number `light`. Directions that are interpolated as they are

@@ -23,6 +23,9 @@ struct SurfacePoint {
     int material = 0;      ///< index into the table of materials, or of its pairs
     bool is_back = false;  ///< which side is seen
 
+    /// Per light, where its cosine to the front's normal is found at the vertices and interpolated.
+    std::vector<double> intensities = {};
+
     // What hybrid shading is given besides, interpolated between vertices.
     std::vector<glm::dvec4> rays = {};      ///< per local light: its direction, and the share that arrives
     std::vector<glm::dvec3> halfways = {};  ///< per light: between its direction and the viewer's

@@ -9,6 +9,7 @@
 
 #include "oracle/output_range.hpp"
 #include "verify/hybrid.hpp"
+#include "verify/intensities.hpp"
 #include "verify/rounding.hpp"
 
 namespace gobo::verify {
@@ -103,18 +104,24 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
     add_handed_on(sample, outputs);
-    if (model.shading == oracle::Shading::fragment) return outputs;
-    if (model.shading == oracle::Shading::hybrid) {
-        for (Expected& handed_on :
-             expect_handed_on(model, sample.scene, placed.value, glm::length(position_error), decisions))
-            outputs.push_back(std::move(handed_on));
-        return outputs;
-    }
-    const bool is_flat = model.shading == oracle::Shading::flat;
     oracle::SurfacePoint point = sample.surface;
     point.position = placed.value;
     point.normal = normal.value;
     const PointErrors errors{glm::length(position_error), normal.error};
+    if (model.shading == oracle::Shading::fragment) {
+        if (model.intensity == oracle::Intensity::fragment) return outputs;
+        for (Expected& intensity : expect_intensities(model, sample.scene, point, errors.position,
+                                                      errors.normal + kDirectionError, decisions))
+            outputs.push_back(std::move(intensity));
+        return outputs;
+    }
+    if (model.shading == oracle::Shading::hybrid) {
+        for (Expected& handed_on :
+             expect_handed_on(model, sample.scene, placed.value, errors.position, decisions))
+            outputs.push_back(std::move(handed_on));
+        return outputs;
+    }
+    const bool is_flat = model.shading == oracle::Shading::flat;
     for (const bool is_back : {false, true}) {
         if (is_back && model.sides == oracle::Sides::one) break;
         point.is_back = is_back;

@@ -58,20 +58,20 @@ Field light_field(std::vector<Light> oracle::Scene::*lights, std::size_t index, 
             }};
 }
 
-/// An element of what hybrid shading hands on: "lightRays[2]". Setting it makes those before it too; one that was
-/// never set is zero, as where the vertex stage is about to hand it on.
-template <class Vector>
+/// An element of what is handed on for each light: "lightRays[2]". Setting it makes those before it too; one
+/// that was never set is zero, as where the vertex stage is about to hand it on.
+template <class Element>
 std::optional<Field> handed_on_field(const std::string& name, std::string_view array,
-                                     std::vector<Vector> oracle::SurfacePoint::*elements) {
+                                     std::vector<Element> oracle::SurfacePoint::*elements) {
     const auto element = element_name(name, array);
     if (!element) return std::nullopt;
     const std::size_t index = element->index;
     return Field{[=](const Sample& sample) {
-                     const std::vector<Vector>& all = sample.surface.*elements;
-                     return numbers(index < all.size() ? all[index] : Vector(0));
+                     const std::vector<Element>& all = sample.surface.*elements;
+                     return numbers(index < all.size() ? all[index] : Element(0));
                  },
                  [=](Sample& sample, const std::vector<double>& values) {
-                     std::vector<Vector>& all = sample.surface.*elements;
+                     std::vector<Element>& all = sample.surface.*elements;
                      if (all.size() <= index) all.resize(index + 1);
                      assign(all[index], values);
                  }};
@@ -133,6 +133,8 @@ std::optional<Field> field_of(const std::string& name) {
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
     if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
     if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
+    if (auto cosine = handed_on_field(name, "lightIntensities", &oracle::SurfacePoint::intensities))
+        return cosine;
     if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
     if (const auto light = element_name(name, "PointLights.lights"))
         return point_field(&oracle::Scene::point, *light);

@@ -10,6 +10,7 @@
 #include "oracle/oracle.hpp"
 #include "verify/hybrid.hpp"
 #include "verify/image_light_feed.hpp"
+#include "verify/intensities.hpp"
 #include "verify/random.hpp"
 #include "verify/sample_surface.hpp"
 #include "verify/shadow_sample.hpp"
@@ -57,6 +58,8 @@ class SampleMaker {
         add_lights(sample);
         if (model_.shading == oracle::Shading::hybrid && !is_vertex_)
             hand_on(model_, sample.scene, random_, sample.surface);
+        if (model_.intensity == oracle::Intensity::vertex && !is_vertex_)
+            hand_on_intensities(model_, sample.scene, random_, sample.surface);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
@@ -334,6 +337,7 @@ Sample rounded_to_float(Sample sample) {
     for (glm::dvec4& ray : sample.surface.rays)
         for (int i = 0; i < 4; ++i) to_float(ray[i]);
     for (glm::dvec3& halfway : sample.surface.halfways) to_float(halfway);
+    for (double& cosine : sample.surface.intensities) to_float(cosine);
     round_surface(sample);
     return sample;
 }

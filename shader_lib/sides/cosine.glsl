@@ -1,0 +1,8 @@
+// A cosine to the front's normal, as the side that is seen has it (S11).
+//
+// Model:  c, or -c on the back.
+// Edges:  which side is seen is isBackVisible()'s to say (H-G2).
+#include "surface/side.glsl"
+
+/// The cosine to the normal of the side that is seen.
+float cosineOfSide(float cosine) { return isBackVisible() ? -cosine : cosine; }

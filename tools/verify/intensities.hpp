@@ -1,0 +1,26 @@
+// Cosines of lights that are found at the vertices: what the vertex stage hands on, and the fragment stage is
+// given.
+#pragma once
+
+#include <vector>
+
+#include "oracle/decisions.hpp"
+#include "oracle/model.hpp"
+#include "oracle/scene.hpp"
+#include "verify/expectation.hpp"
+#include "verify/random.hpp"
+
+namespace gobo::verify {
+
+/// The cosine of each light as the vertex stage writes it, at a position and a unit normal that are off by so
+/// much.
+[[nodiscard]] std::vector<Expected> expect_intensities(const oracle::Model& model, const oracle::Scene& scene,
+                                                       const oracle::SurfacePoint& vertex,
+                                                       double position_error, double normal_error,
+                                                       oracle::Decisions& decisions);
+
+/// Gives the surface point cosines such as interpolation makes of its lights': nearer to 0.
+void hand_on_intensities(const oracle::Model& model, const oracle::Scene& scene, Random& random,
+                         oracle::SurfacePoint& point);
+
+}  // namespace gobo::verify
