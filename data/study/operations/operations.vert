@@ -1,7 +1,6 @@
 // Places the vertex and hands on where it is.
+#include "placement.glsl"
 #include <varyings>
-
-ATTRIBUTE(0) vec3 position;
 
 BLOCK(1, Transform) {
     mat4 modelViewProjection;
