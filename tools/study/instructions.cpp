@@ -10,6 +10,7 @@
 
 #include "family/key.hpp"
 #include "render/framebuffer.hpp"
+#include "study/scene_shadows.hpp"
 #include "verify/render_feed.hpp"
 
 namespace gobo::study {
@@ -66,8 +67,9 @@ Result<double> slope(const DrawCommand& command, const std::string& key) {
 Result<double> draw_once(const FileSystem& shipped, const Family& family, const SearchPath& search,
                          const StudyPlan& plan, const Context& context, const Key& key, int width,
                          int height) {
-    const Result<DrawnScene> scene = draw_scene(shipped, family, plan.scenes.front(), width, height);
+    Result<DrawnScene> scene = draw_scene(shipped, family, plan.scenes.front(), width, height);
     if (!scene) return tl::unexpected(scene.error());
+    scene = with_shadows(family, key, std::move(*scene));
     const Result<Variants> variants = load_variants(family, search, {key}, 1);
     if (!variants) return tl::unexpected(variants.error());
     const Permutation& permutation = variants->composition.permutations.front();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "study/oracle_reference.hpp"
+#include "study/scene_shadows.hpp"
 #include "verify/render_feed.hpp"
 
 namespace gobo::study {
@@ -100,6 +101,26 @@ std::vector<RenderValue> values_of(const Variant& variant, const DrawnScene& sce
     return values;
 }
 
+/// The sampler of lit's shadow maps answers from the scene's.
+void give_shadow_maps(evaluate::Invocations& invocations, const evaluate::Image& maps) {
+    for (auto& [name, image] : invocations.images)
+        if (name.starts_with("shadowMaps")) image = maps;
+}
+
+/// The permutation's own colours in fp64, and where a shadow is decided within a rounding.
+Result<void> refer_to_fp64(const Variant& accurate, verify::SoftwareObject object, const DrawnScene& scene,
+                           ObjectPoints& part) {
+    const auto mark = [&part](std::size_t invocation) { part.at_edge[invocation] = true; };
+    // In quads, invocations are not the fragments alone.
+    if (scene.shadow_maps && !accurate.program.link.needs_quads)
+        give_shadow_maps(object.uniforms, image_of(scene.shadow_maps, mark));
+    const auto shaded = verify::shade_in<double>(accurate.program, object);
+    if (!shaded) return tl::unexpected(shaded.error());
+    for (std::size_t i = 0; i < shaded->size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) part.reference[i][c] = (*shaded)[i].color[c];
+    return {};
+}
+
 /// Fills in what ought to be seen.
 Result<void> add_reference(const Family& family, const Variant& accurate, ScenePoints& points) {
     for (ObjectPoints& part : points.objects) {
@@ -114,10 +135,7 @@ Result<void> add_reference(const Family& family, const Variant& accurate, SceneP
             part.at_edge = std::move((*answers)->at_edge);
             continue;
         }
-        const auto shaded = verify::shade_in<double>(accurate.program, *object);
-        if (!shaded) return tl::unexpected(shaded.error());
-        for (std::size_t i = 0; i < shaded->size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c) part.reference[i][c] = (*shaded)[i].color[c];
+        if (auto referred = refer_to_fp64(accurate, *object, points.scene, part); !referred) return referred;
     }
     return {};
 }
@@ -179,6 +197,10 @@ Result<verify::SoftwareObject> shaded_object(const Variant& variant, const Drawn
     auto uniforms = verify::uniforms_of(variant.program.fragment, variant.interface, values, viewed);
     if (!uniforms) return tl::unexpected(uniforms.error());
     verify::add_attributes(variant.program.vertex, points.object.mesh, values, *vertices);
+    if (scene.shadow_maps) {
+        give_shadow_maps(*vertices, image_of(scene.shadow_maps));
+        give_shadow_maps(*uniforms, image_of(scene.shadow_maps));
+    }
     object.vertices = std::move(*vertices);
     object.uniforms = std::move(*uniforms);
     object.indices = points.object.mesh.indices;

@@ -50,7 +50,7 @@ class EffectsStudy {
 
   private:
     [[nodiscard]] std::string identity(const EffectsResult& result, const Key& key, std::size_t scene) const {
-        return identity_of_text(fmt::format("errors 1 {} {:x} {:x} {:x}", scenes_[scene].identity,
+        return identity_of_text(fmt::format("errors 2 {} {:x} {:x} {:x}", scenes_[scene].identity,
                                             variants_.at(key).hash, variants_.at(full_rate(key)).hash,
                                             variants_.at(result.keys.front().key).hash));
     }

@@ -1,10 +1,12 @@
 // What a study draws: the scenes of a family's plan.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/file_system.hpp"
+#include "evaluate/images.hpp"
 #include "render/render.hpp"
 #include "study/plan.hpp"
 
@@ -23,6 +25,7 @@ struct DrawnScene {
     std::vector<Object> objects;
     std::vector<RenderValue> values;  ///< the family's, and the scene's over them
     View view;
+    std::shared_ptr<const evaluate::DepthTexels> shadow_maps;  ///< see with_shadows(); null: none
     std::string identity;  ///< changes with whatever a measurement of the scene depends on
 };
 

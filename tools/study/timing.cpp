@@ -9,6 +9,7 @@
 
 #include "family/key.hpp"
 #include "render/framebuffer.hpp"
+#include "study/scene_shadows.hpp"
 #include "verify/random.hpp"
 #include "verify/render_feed.hpp"
 
@@ -191,15 +192,17 @@ Result<TimedGroup> time_variants(const Context& context, const Family& family, c
     auto targets = make_targets(context);
     if (!targets) return tl::unexpected(targets.error());
     const Stopwatch stopwatch(context, std::move(*targets));
-    const DrawnScene few = sphere_scene(family, kFewSlices, 16, 12);
-    const DrawnScene many = sphere_scene(family, kManySlices, 16, 12);
+    // All keys have the same effects, so the same shadows.
+    const DrawnScene shadowed = with_shadows(family, keys.front(), scene);
+    const DrawnScene few = with_shadows(family, keys.front(), sphere_scene(family, kFewSlices, 16, 12));
+    const DrawnScene many = with_shadows(family, keys.front(), sphere_scene(family, kManySlices, 16, 12));
     const double vertices = static_cast<double>(many.objects[0].mesh.positions.size()) -
                             static_cast<double>(few.objects[0].mesh.positions.size());
     std::vector<Key> with_control = keys;
     with_control.push_back(keys.front());
     std::vector<Timed> all;
     for (const Key& key : with_control) {
-        Result<Timed> timed = stopwatch.prepare(variants, key, scene, few, many);
+        Result<Timed> timed = stopwatch.prepare(variants, key, shadowed, few, many);
         if (!timed) return tl::unexpected(timed.error());
         stopwatch.warm_up(*timed);
         all.push_back(std::move(*timed));
