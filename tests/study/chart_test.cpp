@@ -28,10 +28,10 @@ INSTANTIATE_TEST_SUITE_P(
     Rows, AxisFor,
     testing::Values(AxisRow{"linear_begins_at_zero", false, {10, 20}, 0, 0, 21},
                     AxisRow{"nothing", false, {}, 0, 0, 1},
-                    AxisRow{"full_decades", true, {3, 250}, 1, 1, 1000},
-                    AxisRow{"one_value_has_room", true, {5}, 1, 1, 10},
+                    AxisRow{"ends_are_round", true, {3, 250}, 1, 2, 500},
+                    AxisRow{"one_value_has_room", true, {5}, 1, 2, 10},
                     AxisRow{"zeros_stand_at_the_least", true, {0, 0.5}, 1e-3, 1e-3, 1},
-                    AxisRow{"infinite_errors_stretch_nothing", true, {1, HUGE_VAL, 20}, 1, 1, 100}),
+                    AxisRow{"infinite_errors_stretch_nothing", true, {1, HUGE_VAL, 20}, 1, 1, 50}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Chart, NamesItsMarksAndEscapesThem) {
@@ -42,6 +42,34 @@ TEST(Chart, NamesItsMarksAndEscapesThem) {
     EXPECT_NE(svg.find("<title>shading=&quot;vertex&quot; &amp; more</title>"), std::string::npos);
     EXPECT_NE(svg.find("class=\"point\""), std::string::npos);
     EXPECT_NE(svg.find("cost, additions"), std::string::npos);
+}
+
+struct NumberRow {
+    double number;
+    const char* text;
+};
+
+class ShortNumber : public testing::TestWithParam<NumberRow> {};
+
+TEST_P(ShortNumber, IsForReaders) {
+    EXPECT_EQ(short_number(GetParam().number), GetParam().text);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, ShortNumber,
+                         testing::Values(NumberRow{0, "0"}, NumberRow{0.012345, "0.0123"},
+                                         NumberRow{1.26e-7, "1.3e-07"}, NumberRow{999.4, "999"},
+                                         NumberRow{999.6, "1000"}, NumberRow{12345.6, "12346"},
+                                         NumberRow{2.5e6, "2.5e+06"}));
+
+TEST(Chart, LabelsWhatHasRoomForIt) {
+    Chart chart("t", {"x", false, 0, 1}, {"y", false, 0, 1});
+    chart.add({0.5, 0.5, 0, false, 4, "", "", "first"});
+    chart.add({0.501, 0.5, 0, false, 4, "", "", "covered"});
+    chart.add({0.8, 0.5, 0, false, 4, "", "", "beside"});
+    const std::string svg = chart.svg();
+    EXPECT_NE(svg.find(">first</text>"), std::string::npos);
+    EXPECT_EQ(svg.find(">covered</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">beside</text>"), std::string::npos);
 }
 
 TEST(Chart, LeavesOutWhatHasNoPlace) {

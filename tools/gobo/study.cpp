@@ -9,7 +9,9 @@
 #include "family/key.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/study_files.hpp"
+#include "study/front_table.hpp"
 #include "study/instructions.hpp"
+#include "study/qualities.hpp"
 #include "study/report.hpp"
 #include "study/weigh.hpp"
 
@@ -29,6 +31,9 @@ struct StudyCommandOptions {
     bool no_time = false;
     bool weigh = false;
     bool callgrind = false;
+    std::string front;  ///< effects of a finished study to show
+    std::string svg;
+    std::string study;
     std::string draw;       ///< a key to draw once: what callgrind watches
     std::string draw_size;  ///< "160x120"
 };
@@ -53,6 +58,30 @@ std::string command_line(const StudyCommandOptions& options) {
     if (!options.plan.empty()) line += " --plan " + options.plan;
     if (!options.weights_from.empty()) line += " --weights-from " + options.weights_from;
     return line;
+}
+
+Outcome show_front(const StudyCommandOptions& options, const World& world) {
+    const Result<LoadedFamily> family = load_family(world, options.family, options.common);
+    if (!family) return failed(family.error());
+    const auto plan = load_plan(world, family->family, options.plan);
+    if (!plan) return failed(plan.error());
+    const Result<Key> key = parse_key(family->family, options.front);
+    if (!key) return failed(key.error());
+    const Key effects = study::effects_of(family->family, *key);
+    const std::string shipped = fmt::format("data/study/{}.csv", family->family.name);
+    const bool is_shipped = options.study.empty();
+    const Result<std::string> csv =
+        is_shipped ? world.shipped.read(shipped) : read_input(world, options.study);
+    if (!csv) return failed(csv.error());
+    const auto rows = study::read_rows(*csv, is_shipped ? shipped : options.study, family->family, effects);
+    if (!rows) return failed(rows.error());
+    if (options.svg.empty()) return {study::front_table(*rows), {}, {}};
+    std::vector<const study::StudyRow*> all;
+    for (const study::StudyRow& row : *rows) all.push_back(&row);
+    const study::Chart chart =
+        study::front_chart(family->family, plan->rate, all, key_text(family->family, effects));
+    if (auto written = world.disk.write(options.svg, chart.svg()); !written) return failed(written.error());
+    return {study::front_table(*rows), {}, options.svg};
 }
 
 Result<void> write_all(FileSystem& disk, const std::string& folder,
@@ -168,6 +197,11 @@ Result<std::map<std::string, std::string>> make_files(const StudyCommandOptions&
 }
 
 Outcome run(const StudyCommandOptions& options, const World& world) {
+    if (!options.front.empty()) return show_front(options, world);
+    if (options.folder.empty())
+        return failed(fail(Fault::usage, "--output is required",
+                           "name the folder for index.html, the charts and the tables: -o study")
+                          .value());
     if (options.weigh) return weigh(options, world);
     if (!options.draw.empty()) return draw(options, world);
     const Result<LoadedFamily> family = load_family(world, options.family, options.common);
@@ -209,8 +243,14 @@ Command study_command(CLI::App& gobo) {
     CLI::App* app = gobo.add_subcommand("study", "Error against cost of every quality: tables and a report");
     app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
     app->add_option("-o,--output", options->folder, "Folder for index.html, the charts and the tables")
-        ->type_name("DIR")
-        ->required();
+        ->type_name("DIR");
+    app->add_option("--front", options->front,
+                    "Print the front of these effects from a finished study, in six lines, and stop")
+        ->type_name("KEY");
+    app->add_option("--svg", options->svg, "With --front: its chart")->type_name("FILE");
+    app->add_option("--study", options->study,
+                    "With --front: a study.csv or summary.csv; by default the one that came with the family")
+        ->type_name("FILE");
     app->add_option("--effects", options->effects,
                     "A combination of effects (repeatable); by default those of the plan")
         ->type_name("KEY")
@@ -245,7 +285,8 @@ Command study_command(CLI::App& gobo) {
         "  gobo study lit -o study\n"
         "  gobo study lit -o study --quick\n"
         "  gobo study lit -o study --no-time --effects 'point=2 specular=blinn' --effects 'fog=linear'\n"
-        "  gobo study lit -o study --weights");
+        "  gobo study lit -o study --weights\n"
+        "  gobo study lit --front 'directional=1 specular=blinn'");
     return {app, [options](const World& world) { return run(*options, world); }};
 }
 

@@ -63,20 +63,51 @@ double step_for(double range, int most) {
     return decade * 10;
 }
 
+/// Where a logarithmic axis is labelled: at decades, and between them where these are few.
+std::vector<double> logarithmic_ticks(const Axis& axis) {
+    const double decades = std::log10(axis.high / axis.low);
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / 9)));
+    const std::vector<double> factors = decades < 2.5 ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
+    const int first = static_cast<int>(std::floor(std::log10(axis.low) + 1e-9));
+    std::vector<double> ticks;
+    for (int decade = first; decade <= first + static_cast<int>(decades) + 1; decade += every)
+        for (const double factor : factors) {
+            const double at = factor * std::pow(10, decade);
+            if (at >= axis.low * (1 - 1e-9) && at <= axis.high * (1 + 1e-9)) ticks.push_back(at);
+        }
+    return ticks;
+}
+
 /// Where an axis is labelled.
 std::vector<double> ticks_of(const Axis& axis) {
+    if (axis.logarithmic) return logarithmic_ticks(axis);
     std::vector<double> ticks;
-    if (axis.logarithmic) {
-        const double decades = std::log10(axis.high / axis.low);
-        const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
-        for (int i = 0; i <= static_cast<int>(std::round(decades)); i += every)
-            ticks.push_back(axis.low * std::pow(10, i));
-        return ticks;
-    }
     const double step = step_for(axis.high - axis.low, 8);
     for (double at = std::ceil(axis.low / step) * step; at <= axis.high + step * 1e-6; at += step)
         ticks.push_back(at);
     return ticks;
+}
+
+/// Small and large powers of ten with their exponent raised, as readers write them.
+std::string tick_label(double tick) {
+    const double exponent = std::log10(std::abs(tick));
+    const bool is_power = tick > 0 && std::abs(exponent - std::round(exponent)) < 1e-9;
+    if (!is_power || (exponent > -2.5 && exponent < 4.5)) return short_number(tick);
+    return fmt::format(R"(10<tspan dy="-5" font-size="9">{}{:.0f}</tspan>)", exponent < 0 ? "\u2212" : "",
+                       std::abs(exponent));
+}
+
+/// The number of the form 1, 2 or 5 times a power of ten that is next to the value, below it or above it.
+double round_end(double value, bool above) {
+    const double decade = std::pow(10, std::floor(std::log10(value) + 1e-9));
+    if (above) {
+        for (const double factor : {1.0, 2.0, 5.0})
+            if (factor * decade >= value * (1 - 1e-9)) return factor * decade;
+        return 10 * decade;
+    }
+    for (const double factor : {5.0, 2.0})
+        if (factor * decade <= value * (1 + 1e-9)) return factor * decade;
+    return decade;
 }
 
 double share(const Axis& axis, double value) {
@@ -112,7 +143,7 @@ std::string escaped(std::string_view text) {
 std::string short_number(double number) {
     if (number != 0 && (std::abs(number) < 1e-3 || std::abs(number) >= 1e6))
         return fmt::format("{:.1e}", number);
-    return fmt::format("{:.3g}", number);
+    return std::abs(number) >= 999.5 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g}", number);
 }
 
 Axis axis_for(std::string title, bool logarithmic, const std::vector<double>& values, double least) {
@@ -125,9 +156,9 @@ Axis axis_for(std::string title, bool logarithmic, const std::vector<double>& va
     }
     if (logarithmic) {
         if (low > high || high <= 0) return {std::move(title), true, 0.1, 1};
-        low = std::pow(10, std::floor(std::log10(low)));
-        high = std::pow(10, std::ceil(std::log10(high) + 1e-9));
-        return {std::move(title), true, low, std::max(high, low * 10)};
+        // Some room beside the outermost marks.
+        low = std::max(round_end(low * 0.8, false), std::min(low, least > 0 ? least : low));
+        return {std::move(title), true, low, std::max(round_end(high * 1.2, true), low * 5)};
     }
     return {std::move(title), false, low, high > low ? low + (high - low) * 1.05 : low + 1};
 }
@@ -148,6 +179,19 @@ void Chart::add(Mark mark) {
     marks_ += fmt::format("<g {}>{}<title>{}</title></g>\n", mark.attributes,
                           shape(mark.series, x_at(mark.x), y_at(mark.y), mark.size, mark.is_hollow),
                           escaped(mark.tip));
+    if (!mark.label.empty()) add_label(mark.label, x_at(mark.x), y_at(mark.y));
+}
+
+void Chart::add_label(const std::string& text, double x, double y) {
+    constexpr double width = 16;
+    constexpr double height = 11;
+    for (const auto& [other_x, other_y] : labelled_)
+        if (std::abs(other_x - x) < width && std::abs(other_y - y) < height) return;
+    labelled_.emplace_back(x, y);
+    labels_text_ +=
+        fmt::format(R"(<text x="{:.1f}" y="{:.1f}" font-size="10" pointer-events="none">{}</text>)"
+                    "\n",
+                    x + 7, y - 6, escaped(text));
 }
 
 void Chart::add_line(const std::vector<std::pair<double, double>>& points, int series) {
@@ -183,14 +227,14 @@ std::string Chart::axes() const {
         text += fmt::format(
             R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1}" y2="{2}" stroke="#ddd"/><text x="{0:.1f}" y="{3}" text-anchor="middle">{4}</text>)"
             "\n",
-            x, kTop, height_ - kBottom, height_ - kBottom + 17, short_number(tick));
+            x, kTop, height_ - kBottom, height_ - kBottom + 17, tick_label(tick));
     }
     for (const double tick : ticks_of(y_)) {
         const double y = y_at(tick);
         text += fmt::format(
             R"(<line x1="{1}" x2="{2}" y1="{0:.1f}" y2="{0:.1f}" stroke="#ddd"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5}</text>)"
             "\n",
-            y, kLeft, width_ - kRight, kLeft - 6, y + 4, short_number(tick));
+            y, kLeft, width_ - kRight, kLeft - 6, y + 4, tick_label(tick));
     }
     text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
                         "\n",
@@ -210,7 +254,11 @@ std::string Chart::legend() const {
         const Label& label = labels_[static_cast<std::size_t>(i)];
         const int y = height_ + 6 + i / 3 * kLegendRow;
         const int x = kLeft + i % 3 * (width_ - kLeft) / 3;
-        text += shape(label.series, x, y, 5, label.is_hollow);
+        text += label.series < 0
+                    ? fmt::format(
+                          R"(<line x1="{}" x2="{}" y1="{}" y2="{}" stroke="#000000" stroke-width="1.5"/>)",
+                          x - 7, x + 7, y, y)
+                    : shape(label.series, x, y, 5, label.is_hollow);
         text += fmt::format(R"(<text x="{}" y="{}">{}</text>)"
                             "\n",
                             x + 12, y + 4, escaped(label.text));
@@ -226,7 +274,7 @@ std::string Chart::svg() const {
         "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" "
         "fill=\"#ffffff\"/>\n"
         "<text x=\"{2}\" y=\"20\" font-size=\"14\" font-weight=\"bold\">{3}</text>\n{4}{5}{6}{7}</svg>\n",
-        width_, full, kLeft, escaped(title_), axes(), lines_, marks_, legend());
+        width_, full, kLeft, escaped(title_), axes(), lines_, marks_ + labels_text_, legend());
 }
 
 }  // namespace gobo::study

@@ -12,7 +12,8 @@ namespace gobo::study {
 /// `text` for use between tags and in attributes.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// A number for readers: three significant digits, no exponent where it can do without.
+/// A number for readers: three significant digits, and all of those before the point; no exponent where it
+/// can do without.
 [[nodiscard]] std::string short_number(double number);
 
 struct Axis {
@@ -22,8 +23,8 @@ struct Axis {
     double high = 1;  ///< above `low`
 };
 
-/// An axis that holds all values and a little more. A logarithmic one ends at full decades and takes what is
-/// not above `least` as `least`.
+/// An axis that holds all values and a little more. A logarithmic one ends at 1, 2 or 5 of a decade and takes
+/// what is not above `least` as `least`.
 [[nodiscard]] Axis axis_for(std::string title, bool logarithmic, const std::vector<double>& values,
                             double least = 0);
 
@@ -38,6 +39,7 @@ struct Mark {
     double size = 5;         ///< pixels from the centre to the edge
     std::string attributes;  ///< of the mark's group, escaped
     std::string tip;         ///< what it is, for the pointer and for screen readers
+    std::string label = {};  ///< beside it, unless an earlier label is in the way
 };
 
 class Chart {
@@ -49,6 +51,7 @@ class Chart {
     void add_line(const std::vector<std::pair<double, double>>& points, int series);
     /// From point to point along the axes, as a front runs: right, then down.
     void add_steps(const std::vector<std::pair<double, double>>& points);
+    /// `series` below 0 stands for the black line.
     void add_legend(std::string label, int series, bool is_hollow = false);
 
     /// An <svg> element that stands alone as a file too.
@@ -57,6 +60,7 @@ class Chart {
   private:
     [[nodiscard]] double x_at(double value) const;
     [[nodiscard]] double y_at(double value) const;
+    void add_label(const std::string& text, double x, double y);
     [[nodiscard]] std::string axes() const;
     [[nodiscard]] std::string legend() const;
 
@@ -65,6 +69,8 @@ class Chart {
     int width_, height_;
     std::string lines_;
     std::string marks_;
+    std::string labels_text_;
+    std::vector<std::pair<double, double>> labelled_;
     struct Label {
         std::string text;
         int series = 0;

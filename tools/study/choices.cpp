@@ -9,20 +9,37 @@
 namespace gobo::study {
 namespace {
 
+/// Errors up to so many times the most accurate key's, which has nothing but roundings, count as none: which
+/// of two such is the smaller is chance.
+constexpr double kChance = 2;
+
+/// The two errors that a duel looks at, on one scene.
+struct Errors {
+    double max = 0;
+    double rms = 0;
+
+    Errors(const Measurement& measured, const Measurement& accurate)
+        : max(measured.total.max <= kChance * accurate.total.max ? 0 : measured.total.max),
+          rms(measured.total.rms <= kChance * accurate.total.rms ? 0 : measured.total.rms) {}
+};
+
 /// How two values of a feature compare over all pairs of keys that differ in nothing else.
 struct Duel {
     std::size_t pairs = 0;
     bool is_never_worse = true;  ///< the first: neither dearer nor less accurate
     bool is_ever_better = false;
 
-    void add(const Measurement& first, const Measurement& second, const Weights& weights) {
+    void add(const Measurement& first, const Measurement& second, const Measurement& accurate,
+             const Weights& weights) {
+        const Errors first_errors(first, accurate);
+        const Errors second_errors(second, accurate);
         const double first_cost = costs_of(first, weights).total;
         const double second_cost = costs_of(second, weights).total;
         ++pairs;
-        if (first_cost > second_cost || first.total.max > second.total.max ||
-            first.total.rms > second.total.rms)
+        if (first_cost > second_cost || first_errors.max > second_errors.max ||
+            first_errors.rms > second_errors.rms)
             is_never_worse = false;
-        if (first_cost < second_cost || first.total.max < second.total.max) is_ever_better = true;
+        if (first_cost < second_cost || first_errors.max < second_errors.max) is_ever_better = true;
     }
 };
 
@@ -52,7 +69,8 @@ class Duels {
                     if (first != second)
                         for (std::size_t scene = 0; scene < first->scenes.size(); ++scene)
                             duels_[{first->key[feature], second->key[feature]}].add(
-                                first->scenes[scene], second->scenes[scene], weights);
+                                first->scenes[scene], second->scenes[scene],
+                                effects.keys.front().scenes[scene], weights);
     }
 
     std::map<std::pair<int, int>, Duel> duels_;
@@ -115,6 +133,9 @@ std::vector<ChoiceSummary> summarise_choices(const Family& family, const Study& 
             summary.is_retired = std::find(feature.retired.begin(), feature.retired.end(), summary.value) !=
                                  feature.retired.end();
             measure_alone(family, study, weights, index, value, summary);
+            // Nothing is more accurate than the most accurate value, and it may be there for inputs that no
+            // scene has.
+            if (summary.is_most_accurate) continue;
             for (int other = 0; other < values && summary.dominated_by.empty(); ++other) {
                 const Duel* duel = duels.find(other, value);
                 if (duel == nullptr || !duel->is_never_worse || !duel->is_ever_better) continue;

@@ -7,6 +7,7 @@
 #include "family/key.hpp"
 #include "study/front.hpp"
 #include "study/qualities.hpp"
+#include "study/time_study.hpp"
 
 namespace gobo::study {
 namespace {
@@ -69,6 +70,16 @@ void mark_front(std::vector<StudyRow*> rows) {
     }
 }
 
+/// `rows` are the timed ones over all scenes, one for each key.
+void mark_time_front(const std::vector<StudyRow*>& rows) {
+    for (StudyRow* row : rows) {
+        const Spread own = time_of(*row);
+        row->on_time_front = std::none_of(rows.begin(), rows.end(), [&](const StudyRow* other) {
+            return other->error.max <= row->error.max && time_of(*other).high < own.low;
+        });
+    }
+}
+
 std::string counts_text(const evaluate::Counts& counts) {
     std::string text;
     for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)
@@ -78,13 +89,17 @@ std::string counts_text(const evaluate::Counts& counts) {
 }
 
 /// Both clocks' slopes: nothing where the key was not timed.
-std::vector<std::string> timing_cells(const std::optional<Timing>& timing) {
-    if (!timing) return std::vector<std::string>(14);
+std::vector<std::string> timing_cells(const StudyRow& row) {
+    if (!row.timing) return std::vector<std::string>(18);
+    const std::optional<Timing>& timing = row.timing;
     std::vector<std::string> cells;
     for (const Slopes* slopes : {&timing->elapsed, &timing->processor})
         for (const Spread* spread : {&slopes->fragment, &slopes->vertex})
             for (const double number : {spread->median, spread->low, spread->high})
                 cells.push_back(csv_number(number));
+    const Spread time = time_of(row);
+    for (const double number : {time.median, time.low, time.high}) cells.push_back(csv_number(number));
+    cells.push_back(row.on_time_front ? (*row.on_time_front ? "yes" : "no") : "");
     cells.push_back(std::to_string(timing->rounds));
     cells.push_back(timing->renderer);
     return cells;
@@ -118,8 +133,8 @@ std::vector<std::string> columns() {
         for (const std::string what : {"fragment", "vertex"})
             for (const std::string part : {"", "_q1", "_q3"})
                 names.push_back(fmt::format("{}_ns_{}{}", what, clock, part));
-    names.insert(names.end(),
-                 {"rounds", "renderer", "fragment_instructions", "fragment_operations", "vertex_operations"});
+    names.insert(names.end(), {"time_ns", "time_ns_q1", "time_ns_q3", "time_front", "rounds", "renderer",
+                               "fragment_instructions", "fragment_operations", "vertex_operations"});
     return names;
 }
 
@@ -150,8 +165,22 @@ std::vector<StudyRow> rows_of(const Family& family, const Study& study, const We
                 of_scene.push_back(&rows[i]);
             mark_front(std::move(of_scene));
         }
+        std::vector<StudyRow*> timed;
+        for (std::size_t i = first; i < rows.size(); i += study.scenes.size() + 1)
+            if (rows[i].timing) timed.push_back(&rows[i]);
+        if (!timed.empty() && effects.control &&
+            ranked_control(*effects.control, timed.front()->timing->renderer) <= kLargestControl)
+            mark_time_front(timed);
     }
     return rows;
+}
+
+Spread time_of(const StudyRow& row) {
+    const Slopes& slopes = ranked_slopes(*row.timing);
+    const double share = row.costs.vertices_per_fragment;
+    return {slopes.fragment.median + share * slopes.vertex.median,
+            slopes.fragment.low + share * slopes.vertex.low,
+            slopes.fragment.high + share * slopes.vertex.high};
 }
 
 std::string study_csv(const std::vector<StudyRow>& rows) {
@@ -171,7 +200,7 @@ std::string study_csv(const std::vector<StudyRow>& rows) {
             cells.push_back(csv_number(number));
         cells.push_back(row.on_front ? "yes" : "no");
         cells.push_back(row.dominated_by);
-        for (std::string& cell : timing_cells(row.timing)) cells.push_back(std::move(cell));
+        for (std::string& cell : timing_cells(row)) cells.push_back(std::move(cell));
         cells.push_back(row.instructions ? csv_number(*row.instructions) : "");
         cells.push_back(counts_text(row.work.fragments));
         cells.push_back(counts_text(row.work.vertices));

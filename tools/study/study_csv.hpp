@@ -26,7 +26,13 @@ struct StudyRow {
     std::optional<Timing> timing;
     std::optional<double> instructions;
     verify::Work work;
+    /// Whether no key that is as accurate is measurably faster. Nothing where the row was not timed, or the
+    /// control of its combination of effects does not hold.
+    std::optional<bool> on_time_front;
 };
+
+/// Nanoseconds of a fragment with its share of the vertices, as Costs::total; of a row that was timed.
+[[nodiscard]] Spread time_of(const StudyRow& row);
 
 /// Sorted as the study is: by effects, key, scene, the row of all scenes first.
 [[nodiscard]] std::vector<StudyRow> rows_of(const Family& family, const Study& study, const Weights& weights);

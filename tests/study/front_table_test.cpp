@@ -1,0 +1,143 @@
+// The front of a finished study as readers see it: a short table, a chart, and which keys are on it by time.
+#include "study/front_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "family/key.hpp"
+#include "family/read_family.hpp"
+
+namespace gobo::study {
+namespace {
+
+const Family& small_family() {
+    static const Family family = read_family(R"(
+name = "small"
+vertex = "small.vert"
+fragment = "small.frag"
+[features.light]
+count = [0, 2]
+constant = "LIGHTS"
+[features.power]
+role = "quality"
+values = ["exact", "near", "rough"]
+[features.shading]
+role = "quality"
+values = ["fragment", "vertex"]
+)",
+                                             "small.toml")
+                                     .value();
+    return family;
+}
+
+Key key_of(const std::string& text) {
+    return parse_key(small_family(), text).value();
+}
+
+constexpr const char* kStudy =
+    "effects,key,scene,error_max,error_rms,cost,front\n"
+    "light=1,light=1,*,2e-07,1e-08,1234,yes\n"
+    "light=1,light=1,teapot,2e-07,1e-08,100,yes\n"
+    "light=1,light=1 power=near,*,8e-07,2e-08,1200,yes\n"
+    "light=1,light=1 power=rough,*,0.02,0.003,900,yes\n"
+    "light=1,light=1 shading=vertex,*,0.3,0.1,20.4,yes\n"
+    "light=1,light=1 power=near shading=vertex,*,0.4,0.1,30,no\n"
+    "light=2,light=2,*,3e-07,2e-08,1300,yes\n";
+
+TEST(FrontTable, HasTheCheapestQualityWithinEachPowerOfTen) {
+    const auto rows = read_rows(kStudy, "study.csv", small_family(), key_of("light=1"));
+    ASSERT_TRUE(rows);
+    EXPECT_EQ(front_table(*rows),
+              "| quality | largest error | RMS error | cost, additions | time, ns |\n"
+              "|---|---|---|---|---|\n"
+              "| `power=near` | 8.0e-07 | 2.0e-08 | 1200 |  |\n"
+              "| `power=rough` | 0.02 | 0.003 | 900 |  |\n"
+              "| `shading=vertex` | 0.3 | 0.1 | 20.4 |  |\n");
+}
+
+TEST(FrontTable, NumbersTheFrontInItsChart) {
+    const auto rows = read_rows(kStudy, "study.csv", small_family(), key_of("light=1")).value();
+    std::vector<const StudyRow*> all;
+    for (const StudyRow& row : rows) all.push_back(&row);
+    const std::string svg = front_chart(small_family(), {"shading"}, all, "light=1").svg();
+    for (const char* part :
+         {">4</text>", ">shading=vertex</text>", ">hollow: dominated</text>",
+          "data-key=\"light=1 power=rough\"", ">weighted cost of a fragment, in additions</text>"})
+        EXPECT_NE(svg.find(part), std::string::npos) << part;
+    EXPECT_EQ(svg.find(">5</text>"), std::string::npos) << "what is dominated has no number";
+}
+
+struct BadStudy {
+    const char* name;
+    const char* csv;
+    const char* effects;
+    const char* message;
+    int line;
+};
+
+class BadStudies : public testing::TestWithParam<BadStudy> {};
+
+TEST_P(BadStudies, AreRefused) {
+    const auto rows = read_rows(GetParam().csv, "study.csv", small_family(), key_of(GetParam().effects));
+    ASSERT_FALSE(rows);
+    EXPECT_EQ(rows.error().front().message, GetParam().message);
+    EXPECT_EQ(rows.error().front().place.line, GetParam().line);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, BadStudies,
+    testing::Values(BadStudy{"no_study", "a,b\n1,2\n", "light=1", "has no column 'effects'", 2},
+                    BadStudy{"other_effects", kStudy, "default", "holds no 'default'", 2},
+                    BadStudy{"unknown_key",
+                             "effects,key,scene,error_max,cost,front\nlight=1,light=1 power=odd,*,1,1,yes\n",
+                             "light=1", "feature 'power' has no value 'odd'", 2}),
+    [](const auto& row) { return row.param.name; });
+
+/// A study of one scene: error, cost and range of times of each key.
+struct TimedKey {
+    const char* key;
+    double error;
+    Spread time;
+    bool on_front;
+};
+
+Study timed_study(const std::vector<TimedKey>& keys, double control) {
+    Study study;
+    study.scenes = {"teapot"};
+    EffectsResult& effects = study.effects.emplace_back();
+    effects.effects = key_of("light=1");
+    effects.control = Control{control, control};
+    for (const TimedKey& one : keys) {
+        KeyResult& result = effects.keys.emplace_back();
+        result.key = key_of(one.key);
+        Measurement& measured = result.scenes.emplace_back();
+        measured.pixels = 100;
+        measured.total.max = one.error;
+        Timing timing;
+        timing.renderer = "llvmpipe";
+        timing.processor.fragment = one.time;
+        result.timing = timing;
+    }
+    return study;
+}
+
+TEST(FrontByTime, HoldsWhomNobodyAsAccurateIsMeasurablyFaster) {
+    const std::vector<TimedKey> keys = {
+        {"light=1", 1e-7, {10, 9, 11}, true},
+        {"light=1 power=near", 1e-6, {9.5, 8.5, 10}, true},  // overlaps the first
+        {"light=1 power=rough", 1e-3, {12, 11.5, 13}, false},
+        {"light=1 shading=vertex", 0.1, {2, 1.9, 2.1}, true}};
+    const auto rows = rows_of(small_family(), timed_study(keys, 0.01), {});
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        ASSERT_TRUE(rows[2 * i].on_time_front) << keys[i].key;
+        EXPECT_EQ(*rows[2 * i].on_time_front, keys[i].on_front) << keys[i].key;
+        EXPECT_FALSE(rows[2 * i + 1].on_time_front) << "times are not of single scenes";
+    }
+}
+
+TEST(FrontByTime, IsNotDrawnWhereTheControlFails) {
+    const auto rows = rows_of(small_family(), timed_study({{"light=1", 1e-7, {10, 9, 11}, true}}, 0.03), {});
+    EXPECT_FALSE(rows.front().on_time_front);
+}
+
+}  // namespace
+}  // namespace gobo::study
