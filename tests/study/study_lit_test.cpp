@@ -76,6 +76,25 @@ TEST(StudyOfLit, CountsLessWorkPerFragmentWhereVerticesDoIt) {
     EXPECT_LT(vertex.total, accurate.total);
 }
 
+TEST(StudyOfLit, SeesTheEdgesOfShadowsAndWhatIsDecidedThere) {
+    const LitUnderStudy& lit = lit_under_study();
+    Journal journal;
+    const Study study = run_study(source_files(), lit.family, lit.search,
+                                  quick_options({"directional=1 directional_shadows=1"}), journal)
+                            .value();
+    const EffectsResult& effects = study.effects.front();
+    const Measurement& accurate = effects.keys.front().scenes.front();
+    EXPECT_FALSE(accurate.from_oracle) << "the oracle is not told what textures hold";
+    EXPECT_LE(accurate.edges * 100, accurate.pixels) << "more than 1 % at a discontinuity";
+    EXPECT_LT(accurate.total.max, 1e-5) << "a comparison decided the other way by a rounding is an edge";
+    // The rim of a shadow lies a texel's share of light off: most of one texel of the four.
+    const KeyResult* nearest = find(effects, "shadow_filter=nearest");
+    ASSERT_NE(nearest, nullptr);
+    EXPECT_GT(nearest->scenes.front().total.max, 0.05);
+    EXPECT_LT(costs_of(nearest->scenes.front(), lit.weights).fragment,
+              costs_of(accurate, lit.weights).fragment);
+}
+
 TEST(StudyOfLit, SeesErrorsOfVertexShadingShrinkWithTessellation) {
     double before = HUGE_VAL;
     int stops = 0;

@@ -9,19 +9,13 @@
 namespace gobo::study {
 namespace {
 
-/// Errors up to so many times the most accurate key's, which has nothing but roundings, count as none: which
-/// of two such is the smaller is chance.
+/// Errors that differ by less than so many times that of the most accurate key, which has nothing but
+/// roundings, are alike: which of two such is the smaller is chance.
 constexpr double kChance = 2;
 
-/// The two errors that a duel looks at, on one scene.
-struct Errors {
-    double max = 0;
-    double rms = 0;
-
-    Errors(const Measurement& measured, const Measurement& accurate)
-        : max(measured.total.max <= kChance * accurate.total.max ? 0 : measured.total.max),
-          rms(measured.total.rms <= kChance * accurate.total.rms ? 0 : measured.total.rms) {}
-};
+bool is_less(const ErrorFigures& first, const ErrorFigures& second, const ErrorFigures& accurate) {
+    return first.max + kChance * accurate.max < second.max || first.rms + kChance * accurate.rms < second.rms;
+}
 
 /// How two values of a feature compare over all pairs of keys that differ in nothing else.
 struct Duel {
@@ -31,15 +25,13 @@ struct Duel {
 
     void add(const Measurement& first, const Measurement& second, const Measurement& accurate,
              const Weights& weights) {
-        const Errors first_errors(first, accurate);
-        const Errors second_errors(second, accurate);
         const double first_cost = costs_of(first, weights).total;
         const double second_cost = costs_of(second, weights).total;
         ++pairs;
-        if (first_cost > second_cost || first_errors.max > second_errors.max ||
-            first_errors.rms > second_errors.rms)
+        if (first_cost > second_cost || is_less(second.total, first.total, accurate.total))
             is_never_worse = false;
-        if (first_cost < second_cost || first_errors.max < second_errors.max) is_ever_better = true;
+        if (first_cost < second_cost || is_less(first.total, second.total, accurate.total))
+            is_ever_better = true;
     }
 };
 

@@ -152,6 +152,7 @@ void count(ScenePoints& points) {
 }  // namespace
 
 Result<ScenePoints> find_points(const Family& family, const Variant& accurate, DrawnScene scene) {
+    scene = with_shadows(family, accurate.key, std::move(scene));
     const auto objects =
         verify::rasterise_objects(accurate.program, accurate.interface, scene.objects,
                                   verify::with_plain_textures(accurate.interface, scene.values), scene.view);
