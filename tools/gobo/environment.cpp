@@ -43,15 +43,20 @@ Result<CubeImages> load_environment(const World& world, const std::string& folde
     return images;
 }
 
-Result<void> add_environment(const World& world, const std::string& folder, int jobs,
-                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
+Result<CubeImages> environment_for(const World& world, const std::string& folder, int jobs,
+                                   const std::vector<Interface>& interfaces) {
     const auto looks_up = [](const Interface& interface) {
         return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
             return sampler.name == "diffuseMap" || sampler.name == "specularMap";
         });
     };
-    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up)) return {};
-    const auto images = load_environment(world, folder, jobs);
+    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up)) return CubeImages{};
+    return load_environment(world, folder, jobs);
+}
+
+Result<void> add_environment(const World& world, const std::string& folder, int jobs,
+                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
+    const auto images = environment_for(world, folder, jobs, interfaces);
     if (!images) return tl::unexpected(images.error());
     for (const auto& [sampler, image] : *images)
         if (const auto added = cubes.add(sampler, image); !added) return added;

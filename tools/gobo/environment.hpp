@@ -17,6 +17,10 @@ using CubeImages = std::map<std::string, Image>;
 /// those of the shipped environment `studio`, for a shininess of 48.
 [[nodiscard]] Result<CubeImages> load_environment(const World& world, const std::string& folder, int jobs);
 
+/// The same; none where no interface looks any up.
+[[nodiscard]] Result<CubeImages> environment_for(const World& world, const std::string& folder, int jobs,
+                                                 const std::vector<Interface>& interfaces);
+
 /// Gives `cubes` the maps of the environment, where an interface looks any up.
 [[nodiscard]] Result<void> add_environment(const World& world, const std::string& folder, int jobs,
                                            const std::vector<Interface>& interfaces, CubeMaps& cubes);

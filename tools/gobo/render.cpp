@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include "common/text.hpp"
+#include "gallery/drawing.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/depth_pass.hpp"
 #include "gobo/environment.hpp"
+#include "gobo/render_gallery.hpp"
 #include "gobo/render_scene.hpp"
 #include "render/cube_maps.hpp"
 #include "render/render_selection.hpp"
@@ -22,7 +24,7 @@ struct RenderOptions {
     std::string family = "lit";
     std::string dialect;
     std::string folder;
-    std::string size = "640x480";
+    std::string size;
     std::string backend = "osmesa";
     std::string format = "png";
     std::string mesh = "teapot";
@@ -52,13 +54,26 @@ Result<Mesh> read_mesh(const World& world, const std::string& name) {
                 suggestion(name, {"plane", "sphere", "teapot", "torus"}) + "; or name an .obj file");
 }
 
+/// What is left of a selection without its scenes.
+bool selects_keys(const SelectionOptions& selection) {
+    return !selection.keys.empty() || !selection.key_files.empty() || selection.all || selection.cover != 0;
+}
+
+/// Pictures for the eye of keys that nobody named go on a page.
+bool makes_page(const RenderOptions& options) {
+    const SelectionOptions& selection = options.selection;
+    const bool is_default_set = !selects_keys(selection) && selection.scenes.empty();
+    return options.format == "png" && (selection.all || selection.cover != 0 || is_default_set);
+}
+
 Result<PictureOptions> read_options(const RenderOptions& options) {
-    const auto size = read_size(options.size);
+    const std::string usual = makes_page(options) ? "400x300" : "640x480";
+    const auto size = read_size(options.size.empty() ? usual : options.size);
     if (!size) return tl::unexpected(size.error());
     const auto format = image_format_of(options.format);
     if (!format) return tl::unexpected(format.error());
     PictureOptions pictures;
-    pictures.view.camera = demo_camera();
+    pictures.view.camera = gallery::gallery_camera();
     pictures.view.width = size->first;
     pictures.view.height = size->second;
     pictures.view.background = {0.05F, 0.06F, 0.08F, 1};
@@ -67,17 +82,16 @@ Result<PictureOptions> read_options(const RenderOptions& options) {
     return pictures;
 }
 
-/// What is left of a selection without its scenes.
-bool selects_keys(const SelectionOptions& selection) {
-    return !selection.keys.empty() || !selection.key_files.empty() || selection.all || selection.cover != 0;
-}
-
-/// The interfaces of all permutations, or why there are none.
-Result<std::vector<Interface>> interfaces_of(const Family& family, const Composition& composition, int jobs) {
+Result<Validated> validate_all(const Family& family, const Composition& composition, int jobs) {
     ValidateOptions options;
     options.jobs = jobs;
-    const Validated validated = validate(family, composition, options);
+    options.keep_spirv = true;
+    Validated validated = validate(family, composition, options);
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);
+    return validated;
+}
+
+std::vector<Interface> interfaces_of(const Composition& composition, const Validated& validated) {
     std::vector<Interface> interfaces;
     for (const Permutation& permutation : composition.permutations)
         interfaces.push_back(interface_of(validated, permutation));
@@ -93,8 +107,14 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     selection.scenes.clear();
     const auto composition = load_composition(world, family, selection, dialect);
     if (!composition) return tl::unexpected(composition.error());
-    const auto interfaces = interfaces_of(family.family, *composition, options.common.jobs);
-    if (!interfaces) return tl::unexpected(interfaces.error());
+    const auto validated = validate_all(family.family, *composition, options.common.jobs);
+    if (!validated) return tl::unexpected(validated.error());
+    const std::vector<Interface> interfaces = interfaces_of(*composition, *validated);
+    const auto environment = environment_for(world, options.environment, options.common.jobs, interfaces);
+    if (!environment) return tl::unexpected(environment.error());
+    if (makes_page(options))
+        return render_gallery(world, options.common, context, family.family, *composition, *validated,
+                              {*mesh, pictures.view, pictures.folder, *environment});
     DepthPass depth_pass;
     if (has_shadows(family.family, *composition)) {
         auto loaded = load_depth_pass(world, options.common);
@@ -103,12 +123,10 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
         pictures.depth_pass = &depth_pass;
     }
     CubeMaps cubes(context);
-    if (const auto added =
-            add_environment(world, options.environment, options.common.jobs, *interfaces, cubes);
-        !added)
-        return tl::unexpected(added.error());
+    for (const auto& [sampler, image] : *environment)
+        if (const auto added = cubes.add(sampler, image); !added) return tl::unexpected(added.error());
     pictures.textures = cubes.textures();
-    return render_selection(context, family.family, *composition, *interfaces, demo_objects(*mesh), pictures,
+    return render_selection(context, family.family, *composition, interfaces, demo_objects(*mesh), pictures,
                             world.disk);
 }
 
@@ -164,7 +182,8 @@ Command render_command(CLI::App& gobo) {
     app->add_option("-o,--output", options->folder, "Folder for the pictures, which are named after the keys")
         ->type_name("DIR")
         ->required();
-    app->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
+    app->add_option("--size", options->size, "Pixels; by default 640x480, and 400x300 on a page")
+        ->type_name("WxH");
     app->add_option("--backend", options->backend, "What draws")
         ->type_name("osmesa|egl")
         ->capture_default_str();
@@ -188,7 +207,9 @@ Command render_command(CLI::App& gobo) {
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
     app->footer(
-        "Prints the paths of the pictures. The family's [render] table says what its uniforms hold; with "
+        "Prints the paths of the pictures. Pictures of --all, --cover or the default set come with a page, "
+        "index.html, that\ntells each one's error and cost, and beside them with what was expected. The "
+        "family's [render] table says what its uniforms hold; with "
         "--scene the scene does, and each of its draws has the permutation that it calls for.\n\n"
         "Examples:\n"
         "  gobo render --scene room.gltf -o pictures\n"

@@ -36,16 +36,6 @@ tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::
     return fail(std::move(diagnostic));
 }
 
-/// What stands in a sampler's place where the family does not say.
-std::string usual_texture(std::string_view sampler) {
-    std::string name(sampler);
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    const auto mentions = [&](const char* word) { return name.find(word) != std::string::npos; };
-    if (mentions("normal")) return "texture_normal";
-    return mentions("ramp") || mentions("lut") ? "texture_ramp" : "texture_checker";
-}
-
 /// Uploads a mesh's attribute to `location` of the vertex array that is bound.
 void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::string_view source) {
     const GladGLContext& gl = resources.context().gl();
@@ -188,10 +178,8 @@ void DrawList::add_textures(const Interface& interface, const std::vector<Render
             units_.push_back({static_cast<GLuint>(bindings.samplers.at(sampler.name)), found->second});
             continue;
         }
-        const RenderValue* value = find_value(values, sampler.name);
-        const std::string source = value != nullptr ? value->source : usual_texture(sampler.name);
-        const auto texture = make_texture(resources_.context(), sampler.type, source,
-                                          value != nullptr ? value->numbers : std::vector<double>());
+        const auto texture =
+            make_texture(resources_.context(), sampler.type, texture_source_of(sampler.name, values));
         if (!texture) {
             warn(warning(
                 fmt::format("the renderer has no texture for '{}' of type {}", sampler.name, sampler.type),

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "render/lit_shadows.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
 #include "verify/parallel.hpp"
-#include "verify/software_picture.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -122,7 +122,7 @@ Color color_at(const Image& image, int x, int y) {
 class Judge {
   public:
     Judge(const Image& drawn, const WitnessScene& scene, const PixelLimit& limit)
-        : drawn_(drawn), limit_(limit) {
+        : drawn_(drawn), limit_(limit), keeps_pictures_(scene.keeps_pictures) {
         std::copy(scene.view.background.begin(), scene.view.background.end(), background_.begin());
         report_.expected = Image(drawn.width, drawn.height, 4);
         report_.actual = drawn;
@@ -136,6 +136,17 @@ class Judge {
     }
 
     [[nodiscard]] bool has_doubts() const { return !doubts_.empty(); }
+
+    /// The objects with those of their fragments alone that lie in pixels in doubt.
+    [[nodiscard]] std::vector<SoftwareObject> in_doubt(std::vector<SoftwareObject> objects) const {
+        std::set<std::pair<int, int>> pixels;
+        for (const WrongPixel& pixel : doubts_) pixels.emplace(pixel.x, drawn_.height - 1 - pixel.y);
+        for (SoftwareObject& object : objects)
+            std::erase_if(object.fragments, [&](const Fragment& fragment) {
+                return !pixels.contains({fragment.x, fragment.y});
+            });
+        return objects;
+    }
 
     /// Clears the doubts that this evaluation explains.
     void explain(const Layers& layers) {
@@ -160,7 +171,7 @@ class Judge {
         report_.worst = std::move(doubts_);
         report_.root_mean_square =
             compared_ > 0 ? std::sqrt(squares_ / (4 * static_cast<double>(compared_))) : 0;
-        if (!report_.fails()) report_.actual = report_.expected = Image();
+        if (!report_.fails() && !keeps_pictures_) report_.actual = report_.expected = Image();
         return std::move(report_);
     }
 
@@ -193,6 +204,7 @@ class Judge {
 
     const Image& drawn_;
     PixelLimit limit_;
+    bool keeps_pictures_;
     Color background_{};
     std::vector<WrongPixel> doubts_;
     double squares_ = 0;
@@ -255,20 +267,34 @@ PictureReport compare_picture(const Image& drawn, const SpirvModule& vertex, con
                               const Interface& interface, const WitnessScene& scene) {
     const Result<SoftwareProgram> program = software_program(vertex, fragment);
     if (!program) return without_picture(program.error());
-    const auto objects = rasterise_objects(*program, interface, scene.objects,
-                                           with_plain_textures(interface, scene.values), scene.view);
+    auto objects = rasterise_scene(*program, interface, scene);
     if (!objects) return without_picture(objects.error());
     Judge judge(drawn, scene, limit_of(program->vertex, program->fragment));
     const Result<Layers> plain = shade_all(*program, *objects, scene.view, 0, 0);
     if (!plain) return without_picture(plain.error());
     judge.compare(*plain);
     judge.explain(*plain);
+    *objects = judge.in_doubt(std::move(*objects));
     for (std::uint64_t seed = 1; seed <= kNudges && judge.has_doubts(); ++seed) {
         const Result<Layers> nudged = shade_all(*program, *objects, scene.view, kNudge, seed);
         if (!nudged) return without_picture(nudged.error());
         judge.explain(*nudged);
     }
     return std::move(judge).report();
+}
+
+Result<std::vector<SoftwareObject>> rasterise_scene(const SoftwareProgram& program,
+                                                    const Interface& interface, const WitnessScene& scene) {
+    auto objects = rasterise_objects(program, interface, scene.objects,
+                                     with_plain_textures(interface, scene.values), scene.view);
+    if (!objects) return objects;
+    for (SoftwareObject& object : *objects) {
+        for (const auto& [sampler, image] : scene.images) {
+            object.vertices.images[sampler] = image;
+            object.uniforms.images[sampler] = image;
+        }
+    }
+    return objects;
 }
 
 std::vector<PictureReport> witness(const Context& context, const Composition& composition,

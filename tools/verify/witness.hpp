@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "evaluate/program.hpp"
 #include "render/render.hpp"
 #include "validate/validated.hpp"
+#include "verify/software_picture.hpp"
 
 namespace gobo::verify {
 
@@ -52,7 +54,7 @@ struct PictureReport {
     std::size_t edges = 0;  ///< right, but decided differently at a discontinuity or a triangle's edge
     std::size_t wrong = 0;
     std::vector<WrongPixel> worst;  ///< at most kWorstPixels, largest ratio first
-    Image actual;                   ///< kept where the picture fails
+    Image actual;                   ///< kept where the picture fails, or the scene keeps all
     Image expected;
     Diagnostics diagnostics;  ///< why there is no picture
 
@@ -71,6 +73,9 @@ struct WitnessScene {
     std::vector<RenderValue> values;  ///< the family's [render] table
     View view;
     const Family* family = nullptr;  ///< of which the keys are; without it there are no shadows
+    /// What samplers answer, by their names; others one colour or depth.
+    std::map<std::string, evaluate::Image> images;
+    bool keeps_pictures = false;
 };
 
 /// Holds a picture drawn by the renderer against the evaluation of the same scene. A pixel that is out of its
@@ -79,6 +84,11 @@ struct WitnessScene {
 [[nodiscard]] PictureReport compare_picture(const Image& drawn, const SpirvModule& vertex,
                                             const SpirvModule& fragment, const Interface& interface,
                                             const WitnessScene& scene);
+
+/// The scene's objects as the stages see them, rasterised to its view.
+[[nodiscard]] Result<std::vector<SoftwareObject>> rasterise_scene(const SoftwareProgram& program,
+                                                                  const Interface& interface,
+                                                                  const WitnessScene& scene);
 
 /// Draws every permutation of the composition in the context, and compares by `jobs` threads. `validated`
 /// must hold the SPIR-V of every stage. Reports are in the composition's order.
