@@ -25,6 +25,7 @@ struct RenderOptions {
     std::string dialect;
     std::string folder;
     std::string size;
+    int smooth = 1;
     std::string backend = "osmesa";
     std::string format = "png";
     std::string mesh = "teapot";
@@ -63,7 +64,8 @@ bool selects_keys(const SelectionOptions& selection) {
 bool makes_page(const RenderOptions& options) {
     const SelectionOptions& selection = options.selection;
     const bool is_default_set = !selects_keys(selection) && selection.scenes.empty();
-    return options.format == "png" && (selection.all || selection.cover != 0 || is_default_set);
+    return options.format == "png" && options.smooth == 1 &&
+           (selection.all || selection.cover != 0 || is_default_set);
 }
 
 Result<PictureOptions> read_options(const RenderOptions& options) {
@@ -74,8 +76,9 @@ Result<PictureOptions> read_options(const RenderOptions& options) {
     if (!format) return tl::unexpected(format.error());
     PictureOptions pictures;
     pictures.view.camera = gallery::gallery_camera();
-    pictures.view.width = size->first;
-    pictures.view.height = size->second;
+    pictures.smooth = options.smooth;
+    pictures.view.width = size->first * options.smooth;
+    pictures.view.height = size->second * options.smooth;
     pictures.view.background = {0.05F, 0.06F, 0.08F, 1};
     pictures.format = *format;
     pictures.folder = options.folder;
@@ -168,8 +171,8 @@ Outcome run(const RenderOptions& options, const World& world) {
     const std::string files = rendered->files.empty() ? "" : join(rendered->files, "\n") + "\n";
     return {files, rendered->diagnostics,
             fmt::format("{} picture{} of {} x {} by {}", rendered->files.size(),
-                        rendered->files.size() == 1 ? "" : "s", pictures->view.width, pictures->view.height,
-                        context->renderer())};
+                        rendered->files.size() == 1 ? "" : "s", pictures->view.width / pictures->smooth,
+                        pictures->view.height / pictures->smooth, context->renderer())};
 }
 
 }  // namespace
@@ -184,6 +187,9 @@ Command render_command(CLI::App& gobo) {
         ->required();
     app->add_option("--size", options->size, "Pixels; by default 640x480, and 400x300 on a page")
         ->type_name("WxH");
+    app->add_option("--smooth", options->smooth, "Make each pixel the average of N x N; without a page")
+        ->type_name("N")
+        ->check(CLI::Range(1, 8));
     app->add_option("--backend", options->backend, "What draws")
         ->type_name("osmesa|egl")
         ->capture_default_str();

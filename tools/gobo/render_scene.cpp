@@ -70,7 +70,7 @@ Result<ScenePicture> render_scene(const SceneRequest& request, const World& worl
     for (std::size_t i = 3; i < opaque.values.size(); i += 4) opaque.values[i] = 1;
     const std::string file =
         fmt::format("{}/{}.{}", options.folder, stem_of(request.path), name_of(options.format));
-    if (const auto written = write_image(world.disk, file, opaque); !written)
+    if (const auto written = write_image(world.disk, file, shrunk(opaque, options.smooth)); !written)
         return tl::unexpected(written.error());
     return ScenePicture{file, picture->warnings};
 }

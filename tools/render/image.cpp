@@ -77,6 +77,16 @@ std::string to_text(const Comparison& comparison) {
     return text;
 }
 
+Image shrunk(const Image& picture, int factor) {
+    Image small(picture.width / factor, picture.height / factor, picture.channels);
+    const float share = 1 / static_cast<float>(factor * factor);
+    for (int y = 0; y < small.height * factor; ++y)
+        for (int x = 0; x < small.width * factor; ++x)
+            for (int channel = 0; channel < picture.channels; ++channel)
+                small.at(x / factor, y / factor, channel) += share * picture.at(x, y, channel);
+    return small;
+}
+
 Image difference_picture(const Image& first, const Image& second, float scale) {
     Image picture(first.width, first.height, 3);
     for (int y = 0; y < first.height; ++y) {

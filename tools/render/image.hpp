@@ -63,6 +63,10 @@ struct Comparison {
 /// The comparison in words, a line for the figures and one per pixel.
 [[nodiscard]] std::string to_text(const Comparison& comparison);
 
+/// The picture with each square of `factor` x `factor` pixels averaged to one. The sides must be multiples of
+/// it.
+[[nodiscard]] Image shrunk(const Image& picture, int factor);
+
 /// A picture of the absolute differences, from black (none) through red and yellow to white (`scale` and
 /// above). The images must be of one size.
 [[nodiscard]] Image difference_picture(const Image& first, const Image& second, float scale);

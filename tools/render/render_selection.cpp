@@ -32,7 +32,7 @@ Result<Diagnostics> render_one(const Context& context, const std::vector<StageTe
     const auto picture =
         render_permutation(context, stages, interface, objects, values, options.view, textures);
     if (!picture) return tl::unexpected(picture.error());
-    if (const auto written = write_image(files, path, picture->color); !written)
+    if (const auto written = write_image(files, path, shrunk(picture->color, options.smooth)); !written)
         return tl::unexpected(written.error());
     return picture->warnings;
 }

@@ -18,6 +18,7 @@ struct PictureOptions {
     View view;
     ImageFormat format = ImageFormat::png;
     std::string folder;
+    int smooth = 1;          ///< pixels are averages of so many, squared: the view is that much larger
     GivenTextures textures;  ///< of samplers that get more than the family says
     const DepthPass* depth_pass =
         nullptr;  ///< draws the maps of keys with shadows; without it there are none

@@ -1,0 +1,24 @@
+// The lighting models that the project promises, and where each is to be found: docs/models.toml.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/diagnostic.hpp"
+
+namespace gobo::models {
+
+/// One model of the classic texts.
+struct Model {
+    std::string id;      ///< "S3"
+    std::string title;   ///< "Blinn's highlight"
+    std::string family;  ///< "lit"
+    std::string key;     ///< an example
+    std::string where;   ///< the permutations that have the model: a condition over the family's features
+};
+
+/// The models in the order of the file. Errors: a syntax error, an unknown or missing name, at its line.
+[[nodiscard]] Result<std::vector<Model>> read_catalogue(std::string_view toml, const std::string& path);
+
+}  // namespace gobo::models
