@@ -3,6 +3,7 @@
 // Model:  A constant.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Ambient Light.
 // Range:  A 0 to 1e5 (radiance).
+// Edges:  none: the light is the same wherever the surface lies and faces.
 
 /// The global ambient light A.
 BLOCK(2, Ambient) {

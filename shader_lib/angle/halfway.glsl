@@ -1,4 +1,4 @@
-// The angle between a normal and the half vector of two directions, as its versine.
+// The angle between a normal and the half vector of two directions, as its versine (S3).
 //
 // Model:  1 - n.h with h = (s + v) / |s + v|; for small angles sin^2 / (1 + sqrt(1 - sin^2)), with
 //         sin = |n x s + n x v| / |s + v|. The half vector is not rounded on the way, nor is the sum s + v.

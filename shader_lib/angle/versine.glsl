@@ -1,4 +1,4 @@
-// The angle between two directions as its versine, 1 - cos(angle), which keeps small angles apart: a float
+// The angle between two directions as its versine (S2, S3, L5), 1 - cos(angle), which keeps small angles apart: a float
 // cosine tells none below 3.5e-4 radians from 0.
 //
 // Model:  1 - a.b = |a - b|^2 / 2 for unit vectors.

@@ -1,4 +1,4 @@
-// What is seen of a surface through fog.
+// What is seen of a surface through fog (F1, F2, F3).
 //
 // Model:  f L + (1 - f) C.
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.

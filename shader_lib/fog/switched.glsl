@@ -2,6 +2,7 @@
 //
 // Model:  that of the chosen fog.
 // Source: as the fogs'.
+// Range:  as the fogs'.
 // Edges:  as the fogs'; an unknown number is clear air.
 #include "fog/exponential.glsl" with throughFog as throughExponentialFog
 #include "fog/exponential_squared.glsl" with throughFog as throughExponentialSquaredFog

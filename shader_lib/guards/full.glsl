@@ -1,4 +1,4 @@
-// The scale of a vector: the guard that lets lengths and directions be taken of any vector.
+// The scale of a vector: the guard that lets lengths and directions be taken of any vector (L4, L5, E4, F4).
 //
 // Model:  |v| = m |v / m| with m = max(|x|, |y|, |z|), so that no square leaves the range of a float.
 // Source: the usual scaling of hypot(); Higham, Accuracy and Stability of Numerical Algorithms, 27.8.

@@ -1,6 +1,7 @@
-// A vector as direction and length, for both at the price of one.
+// A vector as direction and length, for both at the price of one (L4, L5).
 //
 // Model:  v = |v| (v / |v|).
+// Source: the usual scaling of hypot(); Higham, Accuracy and Stability of Numerical Algorithms, 27.8.
 // Spaces: any. Range: as vectorScale().
 // Edges:  the zero vector has direction zero and length 0 (H-L1); otherwise the direction is unit to 2e-7 at
 //         any length (H-N2, H-N3).

@@ -2,6 +2,7 @@
 //
 // Model:  the polynomial without its square terms.
 // Source: Ramamoorthi and Hanrahan, SIGGRAPH 2001, equation 13.
+// Range:  not clamped: may be negative away from the light.
 // Edges:  a surface without a normal gets the mean (H-N1).
 #include "harmonics/normal.glsl"
 #include "harmonics/to_first_order.glsl"

@@ -3,6 +3,7 @@
 // Model:  c4 L00 + 2 c2 (L11 x + L1-1 y + L10 z), c2 = 0.511664, c4 = 0.886227.
 // Source: Ramamoorthi and Hanrahan, SIGGRAPH 2001, equation 13.
 // Space:  the probe's axes. Range: n unit or zero.
+// Edges:  a surface without a normal gets the mean (H-N1).
 #include "harmonics/coefficients.glsl"
 
 /// The terms of order 0 and 1 on a surface that faces n.

@@ -1,4 +1,4 @@
-// The lights have no ambient terms: all ambient light is global.
+// The lights have no ambient terms: all ambient light is global (L9 is not asked for).
 
 /// Prepares the sum of the lights' ambient terms: there is none.
 void beginLightAmbient() {}

@@ -4,6 +4,7 @@
 //         a new term carries through them as a one does through a binary counter.
 // Range:  up to 8191 terms. Not negative, the relative error of k terms is at most about log2(k) 2^-24.
 // Source: Higham, Accuracy and Stability of Numerical Algorithms, 4.2.
+// Edges:  no terms give exactly 0; the order of the lights may change the last digits.
 
 /// A sum under way.
 struct LightSum {

@@ -3,6 +3,7 @@
 // Model:  sum of t_i.
 // Range:  terms not negative, so the relative error of k terms is at most (k - 1) 2^-24.
 // Source: Higham, Accuracy and Stability of Numerical Algorithms, 4.2.
+// Edges:  no terms give exactly 0; the order of the lights may change the last digits.
 
 /// A sum under way.
 struct LightSum {

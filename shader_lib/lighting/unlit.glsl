@@ -4,6 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Introduction to Lighting: no lighting; glTF 2.0
 //         KHR_materials_unlit.
 // Range:  radiance 0 to 1.
+// Edges:  none: no normal is asked for.
 #include <material>
 #include <vertex_color>
 

@@ -1,4 +1,4 @@
-// Radiance clamped to what a display of fixed range shows.
+// Radiance clamped to what a display of fixed range shows (L7: the texts clamp the sum).
 //
 // Model:  min(L, 1).
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: the texts' min(rgb, vec3(1.0)).

@@ -1,4 +1,4 @@
-// Radiance that a target of 16-bit floats can hold.
+// Radiance that a target of 16-bit floats can hold (L7).
 //
 // Model:  min(L, 65504).
 // Source: IEEE 754-2019, 3.6: the largest finite binary16 is (2 - 2^-10) 2^15; from 65520 on a conversion

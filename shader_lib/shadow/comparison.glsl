@@ -1,4 +1,4 @@
-// One comparison with a shadow map.
+// One comparison with a shadow map (S15).
 //
 // Model:  1 where the reference depth is at most the stored one, else 0.
 // Source: OpenGL 4.5 core specification, 8.23, Texture Comparison Modes.

@@ -1,4 +1,4 @@
-// The face of a cube that a direction meets, as six layers of an array hold them.
+// The face of a cube that a direction meets, as six layers of an array hold them (S15).
 //
 // Model:  the face of the largest component; s and t along its sides.
 // Source: OpenGL 4.5 core specification, table 8.19, whose faces and senses of s and t these are.

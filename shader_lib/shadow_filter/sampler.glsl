@@ -5,6 +5,7 @@
 // Source: OpenGL 4.5 core specification, 8.23.1: with GL_LINEAR the comparisons are weighted, how exactly is
 //         left open.
 // Space:  window space of the light. Range: 0 to 1, result the same.
+// Edges:  as the driver's: beside a map visibility() does not ask.
 #include "shadow/comparison.glsl"
 
 /// The share of the light that gets through.

@@ -3,6 +3,7 @@
 // Model:  strength K_s sum f_s L (S5), not modulated by the surface's colour.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Specular Highlights.
 // Ranges: as the material's; result linear and unclamped.
+// Edges:  no highlights give exactly 0.
 #include <light_sum>
 #include <material>
 

@@ -1,4 +1,4 @@
-// No highlights: the surface is dull.
+// No highlights: the surface is dull (S2 and S3 are not asked for).
 
 /// Prepares what all highlights share: nothing.
 void beginHighlights() {}

@@ -1,6 +1,7 @@
 // Whether the model is mirrored, so that its triangles run the other way round (S11, H-G2).
 //
 // Model:  the sign of the model-view matrix's determinant: the view never mirrors.
+// Source: OpenGL 4.5 core specification, 14.6.1: the sign of a triangle's area on the screen.
 // Range:  the product of the three scales from 1e-37 to 1e37 or 0; result -1 or 1.
 // Edges:  a model without volume counts as not mirrored (H-G1).
 #include "surface/transform.vert.glsl"

@@ -1,4 +1,9 @@
 // Which material the surface is made of, in the vertex stage (S10).
+//
+// Model:  i.
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Material Properties: an array of materials.
+// Range:  any integer.
+// Edges:  materialRow() tells what an index beyond the table means.
 
 ATTRIBUTE(3) int materialIndex;
 

@@ -1,4 +1,4 @@
-// The surface's normal in the vertex stage.
+// The surface's normal in the vertex stage (E2, E4).
 //
 // Model:  n = N x / |N x| with N the inverse transpose of the model-view matrix.
 // Spaces: attribute `normal` in object space, result in eye space. Range: normals of any length.

@@ -1,8 +1,9 @@
-// The surface's position in the vertex stage.
+// The surface's position in the vertex stage (E2, E4).
 //
 // Model:  p = M x with M affine.
 // Spaces: attribute `position` in object space, result in eye space.
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2.
+// Edges:  none: finite for any finite matrix and position within the domain.
 #include "surface/transform.vert.glsl"
 
 ATTRIBUTE(0) vec3 position;

@@ -3,6 +3,7 @@
 // Model:  C K, per channel.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: Color.rgb * scatteredLight + reflectedLight.
 // Ranges: colours 0 to 1; result 0 to 1.
+// Edges:  as surfaceColor(): never negative (H-I1).
 #include "surface/color.glsl"
 
 /// The reflectivity that scatters light.

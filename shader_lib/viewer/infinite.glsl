@@ -4,6 +4,8 @@
 // Model:  v = +z.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Directional Light: its eye direction is a constant too.
 // Space:  eye.
+// Range:  unit.
+// Edges:  none: the same everywhere.
 
 /// The unit vector from the surface to the viewer, in eye space.
 vec3 towardViewer() { return vec3(0.0, 0.0, 1.0); }

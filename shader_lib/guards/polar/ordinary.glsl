@@ -1,6 +1,7 @@
-// A vector of ordinary length as direction and length, for both at the price of one.
+// A vector of ordinary length as direction and length, for both at the price of one (L4, L5).
 //
 // Model:  v = |v| (v / |v|).
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights: length and direction as written there.
 // Spaces: any. Range: zero, or lengths from 1e-15 to 1e15; their squares are well within a float.
 // Edges:  the zero vector has direction zero and length 0 (H-L1); outside the range as unitVector().
 

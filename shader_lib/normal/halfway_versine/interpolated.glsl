@@ -1,4 +1,4 @@
-// The angle between a normal that may be shorter than 1 and a half vector, as the plain dot product has it.
+// The angle between a normal that may be shorter than 1 and a half vector, as the plain dot product has it (S3).
 //
 // Model:  1 - n.h with h = (s + v) / |s + v|.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: the power's base is the dot product itself.

@@ -1,4 +1,4 @@
-// The angle between a unit normal and the half vector of two unit directions, as a versine.
+// The angle between a unit normal and the half vector of two unit directions, as a versine (S3).
 //
 // Model, source, range, edges: versineToHalfway().
 #include "angle/halfway.glsl"

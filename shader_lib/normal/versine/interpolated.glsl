@@ -1,5 +1,5 @@
 // The angle of a highlight between vectors of which one may be shorter than 1, as the versine that the plain
-// dot product stands for: |a - b|^2 / 2 is not the same then.
+// dot product stands for (S2, S3): |a - b|^2 / 2 is not the same then.
 //
 // Model:  1 - a.b.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: the power's base is the dot product itself.

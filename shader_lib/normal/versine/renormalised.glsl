@@ -1,4 +1,4 @@
-// The angle of a highlight between two unit vectors, as a versine.
+// The angle of a highlight between two unit vectors, as a versine (S2, S3).
 //
 // Model, source, range, edges: versineBetween().
 #include "angle/versine.glsl"
