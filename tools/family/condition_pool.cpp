@@ -20,6 +20,10 @@ std::optional<bool> decided(int largest, Comparison comparison, int value) {
     return at_zero;
 }
 
+std::uint64_t bit_of(int feature) {
+    return std::uint64_t{1} << (static_cast<unsigned>(feature) % 64U);
+}
+
 }  // namespace
 
 ConditionPool::ConditionPool(const std::vector<Feature>& features) {
@@ -27,6 +31,7 @@ ConditionPool::ConditionPool(const std::vector<Feature>& features) {
         largest_values_.push_back(static_cast<int>(feature.values.size()) - 1);
     nodes_.push_back({Kind::constant, {}, Comparison::equal, 0});
     nodes_.push_back({Kind::constant, {}, Comparison::equal, 1});
+    mentioned_ = {0, 0};
 }
 
 ConditionPool::Id ConditionPool::add(const Expression& expression) {
@@ -49,8 +54,18 @@ ConditionPool::Id ConditionPool::add(const Expression& expression) {
 
 ConditionPool::Id ConditionPool::intern(Node node) {
     const auto [at, is_new] = ids_.try_emplace(node, static_cast<Id>(nodes_.size()));
-    if (is_new) nodes_.push_back(std::move(node));
+    if (!is_new) return at->second;
+    std::uint64_t mentioned = 0;
+    for (const int operand : node.operands)
+        mentioned |=
+            node.kind == Kind::compare ? bit_of(operand) : mentioned_[static_cast<std::size_t>(operand)];
+    mentioned_.push_back(mentioned);
+    nodes_.push_back(std::move(node));
     return at->second;
+}
+
+bool ConditionPool::mentions(Id condition, int feature) const {
+    return (mentioned_[static_cast<std::size_t>(condition)] & bit_of(feature)) != 0;
 }
 
 ConditionPool::Id ConditionPool::compare(std::vector<int> features, Comparison comparison, int value) {
@@ -90,13 +105,26 @@ ConditionPool::Id ConditionPool::junction(Kind kind, std::vector<Id> parts) {
 }
 
 ConditionPool::Id ConditionPool::assign(Id condition, int feature, int value) {
+    if (!mentions(condition, feature)) return condition;
+    // A key has far fewer features, and a feature fewer values, than 65,536: a selection could not name them.
+    const std::uint64_t question = static_cast<std::uint64_t>(condition) << 32U |
+                                   static_cast<std::uint64_t>(feature) << 16U |
+                                   static_cast<std::uint64_t>(value);
+    if (const auto known = assigned_.find(question); known != assigned_.end()) return known->second;
     const Node node = nodes_[static_cast<std::size_t>(condition)];  // a copy: new conditions move the nodes
-    if (node.kind == Kind::constant) return condition;
+    const Id left = assign_parts(node, feature, value);
+    assigned_.emplace(question, left);
+    return left;
+}
+
+ConditionPool::Id ConditionPool::assign_parts(const Node& node, int feature, int value) {
     if (node.kind == Kind::compare) {
+        if (std::find(node.operands.begin(), node.operands.end(), feature) == node.operands.end())
+            return intern(node);
         std::vector<int> open;
         std::remove_copy(node.operands.begin(), node.operands.end(), std::back_inserter(open), feature);
         const auto times = static_cast<int>(node.operands.size() - open.size());
-        return times == 0 ? condition : compare(std::move(open), node.comparison, node.value - times * value);
+        return compare(std::move(open), node.comparison, node.value - times * value);
     }
     std::vector<Id> parts;
     for (const Id part : node.operands) parts.push_back(assign(part, feature, value));

@@ -2,7 +2,9 @@
 // number.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "family/expression.hpp"
@@ -38,12 +40,17 @@ class ConditionPool {
         auto operator<=>(const Node&) const = default;
     };
 
+    /// Whether the condition may depend on the feature; never false where it does.
+    [[nodiscard]] bool mentions(Id condition, int feature) const;
+    Id assign_parts(const Node& node, int feature, int value);
     Id intern(Node node);
     Id junction(Expression::Kind kind, std::vector<Id> parts);
 
     std::vector<int> largest_values_;  ///< per feature
     std::vector<Node> nodes_;
+    std::vector<std::uint64_t> mentioned_;  ///< per node: a bit for each feature, every 64th sharing one
     std::map<Node, Id> ids_;
+    std::unordered_map<std::uint64_t, Id> assigned_;  ///< by condition, feature and value
 };
 
 }  // namespace gobo
