@@ -1,7 +1,8 @@
 # cmake -D OUTPUT=... -D ROOT=... -P gobo_embed.cmake: writes a C++ file that holds the text of every file below ROOT/shader_lib,
-# ROOT/templates, ROOT/data/meshes, ROOT/data/environments and ROOT/data/study. Untouched where nothing changed, so that a touched file alone rebuilds nothing.
+# ROOT/templates, ROOT/data/meshes, ROOT/data/environments and ROOT/data/study, and the published light probes. Untouched where
+# nothing changed, so that a touched file alone rebuilds nothing.
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/shader_lib/*" "${ROOT}/templates/*" "${ROOT}/data/meshes/*"
-  "${ROOT}/data/environments/*.exr" "${ROOT}/data/study/*" "${ROOT}/docs/data/guard_prices.csv")
+  "${ROOT}/data/environments/*.exr" "${ROOT}/data/study/*" "${ROOT}/data/light_probes.csv" "${ROOT}/docs/data/guard_prices.csv")
 list(SORT files)
 set(rows "")
 foreach(file IN LISTS files)
