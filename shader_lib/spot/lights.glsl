@@ -5,7 +5,7 @@
 //         cone.
 // Space:  eye. Ranges: as point lights; versines 0 to 2 (1 - cos of the half angle), exponent 0 to 1e6, axis
 //         unit.
-// Edges:  cone() tells what equal angles and an exponent of 0 mean (H-P1, H-P2).
+// Edges:  spot/cone.glsl tells what equal and extreme angles mean (H-P1, H-P2).
 
 /// `position` is in eye space, its w is 1 (L6); `axis` is the unit vector along which the light shines. The
 /// cone is given by the versines of its half angles, 1 - cos(angle), which hold an angle of 1e-4 as well as
