@@ -12,5 +12,5 @@
 float versineBetween(vec3 a, vec3 b) {
     float cosine = dot(a, b);
     vec3 difference = a - b;
-    return cosine > 0.5 ? 0.5 * dot(difference, difference) : 1.0 - cosine;
+    return cosine > 0.5 ? 0.5 * dot(difference, difference) : 1.0 - cosine;  // H-P4
 }

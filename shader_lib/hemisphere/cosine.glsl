@@ -6,4 +6,4 @@
 // Edges:  a rounding outside [0, 1] is clamped; a zero vector sees half the sky (H-N1).
 
 /// The share of the sky.
-float skyShare(vec3 normal, vec3 up) { return clamp(0.5 + 0.5 * dot(normal, up), 0.0, 1.0); }
+float skyShare(vec3 normal, vec3 up) { return clamp(0.5 + 0.5 * dot(normal, up), 0.0, 1.0); }  // H-I1

@@ -25,6 +25,9 @@ inline void PrintTo(const Case& tested, std::ostream* out) {
 
 [[nodiscard]] const std::vector<Case>& lit_cases();
 
+/// The part of them that is about models: flattened ones, and ones that are much longer than wide.
+[[nodiscard]] std::vector<Case> model_cases();
+
 /// The part of them that is about the surface's own models: tones, sides, tables of materials, holes,
 /// colours, and the light around it.
 [[nodiscard]] std::vector<Case> surface_cases();

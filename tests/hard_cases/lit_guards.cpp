@@ -107,6 +107,8 @@ const std::vector<Guard> kGuards = {
      "H_S1_shininess_zero_without_logarithm"},
     {"squaring_negative_base", "power/highlight/squaring.glsl", "max(1.0 - versine, 0.0)", "1.0 - versine",
      "H_S2_negative_base_squaring"},
+    {"lyon_negative_base", "power/highlight/lyon.glsl", "max(1.0 - 0.25 * exponent * versine, 0.0)",
+     "1.0 - 0.25 * exponent * versine", "H_S2_negative_base_lyon"},
     {"ordinary_direction_zero", "guards/unit_vector/ordinary.glsl", "max(dot(v, v), 1e-30)", "dot(v, v)",
      "H_N1_zero_normal_ordinary"},
     {"ordinary_polar_zero", "guards/polar/ordinary.glsl", "max(square, 1e-30)", "square",

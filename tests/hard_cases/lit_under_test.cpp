@@ -96,12 +96,6 @@ std::string without_number(std::string name) {
     return open == std::string::npos ? name : name.erase(open + 1, close - open - 1);
 }
 
-/// What a float holds of the numbers, so that every mode is given the same.
-std::vector<double> as_floats(std::vector<double> numbers) {
-    for (double& number : numbers) number = static_cast<double>(static_cast<float>(number));
-    return numbers;
-}
-
 /// One invocation of the stage; values of the vertex stage stand between ordinary ones and the case's.
 evaluate::Invocations invocation(const evaluate::Program& program, const Inputs& handed_on,
                                  const Inputs& inputs) {
@@ -155,7 +149,33 @@ Shaded shaded_by(const evaluate::Program& fragment, const evaluate::Invocations&
     return shaded;
 }
 
+/// One stage alone, as a permutation of only this.
+Composition alone(const Composition& composition, int stage) {
+    const Stage& source = composition.stages[static_cast<std::size_t>(stage)];
+    const bool is_vertex = source.kind == StageKind::vertex;
+    Composition result = composition;
+    result.stages = {source};
+    result.permutations = {{composition.permutations.front().key, is_vertex ? 0 : -1, is_vertex ? -1 : 0}};
+    return result;
+}
+
+evaluate::Program compiled(const Family& family, const Composition& composition, int stage) {
+    ValidateOptions options;
+    options.keep_spirv = true;
+    options.debug_information = true;
+    const Validated validated = validate(family, alone(composition, stage), options);
+    EXPECT_EQ(exit_status(validated.diagnostics), 0);
+    Result<evaluate::Program> program = evaluate::decode(validated.stages.front().spirv);
+    EXPECT_TRUE(program);
+    return program ? std::move(*program) : evaluate::Program{};
+}
+
 }  // namespace
+
+std::vector<double> as_floats(std::vector<double> numbers) {
+    for (double& number : numbers) number = static_cast<double>(static_cast<float>(number));
+    return numbers;
+}
 
 LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
                            const Overlay& overlay, int cover) {
@@ -183,16 +203,13 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     EXPECT_TRUE(composition);
     if (!composition) return;
     composition_ = *composition;
-    ValidateOptions options;
-    options.keep_spirv = true;
-    options.debug_information = true;
-    const Validated validated = validate(family_, composition_, options);
-    EXPECT_EQ(exit_status(validated.diagnostics), 0);
-    for (const ValidatedStage& stage : validated.stages) {
-        Result<evaluate::Program> program = evaluate::decode(stage.spirv);
-        EXPECT_TRUE(program);
-        programs_.push_back(program ? std::move(*program) : evaluate::Program{});
-    }
+    programs_.resize(composition_.stages.size());
+}
+
+const evaluate::Program& LitUnderTest::program(int stage) const {
+    std::unique_ptr<evaluate::Program>& program = programs_[static_cast<std::size_t>(stage)];
+    if (!program) program = std::make_unique<evaluate::Program>(compiled(family_, composition_, stage));
+    return *program;
 }
 
 std::string LitUnderTest::key(std::size_t permutation) const {
@@ -200,11 +217,11 @@ std::string LitUnderTest::key(std::size_t permutation) const {
 }
 
 const evaluate::Program& LitUnderTest::vertex(std::size_t permutation) const {
-    return programs_[static_cast<std::size_t>(composition_.permutations[permutation].vertex)];
+    return program(composition_.permutations[permutation].vertex);
 }
 
 const evaluate::Program& LitUnderTest::fragment(std::size_t permutation) const {
-    return programs_[static_cast<std::size_t>(composition_.permutations[permutation].fragment)];
+    return program(composition_.permutations[permutation].fragment);
 }
 
 StageInputs LitUnderTest::inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const {

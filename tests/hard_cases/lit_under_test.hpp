@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +12,16 @@
 #include "evaluate/evaluate.hpp"
 #include "family/family.hpp"
 #include "sanitize/machine.hpp"
+#include "validate/glslang_stage.hpp"
 
 namespace gobo {
 
 /// Numbers by reflected name; "PointLights.lights[].color" is of every light, overruled
 /// by "PointLights.lights[2].color".
 using Inputs = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// What floats hold of the numbers, so that every mode is given the same.
+[[nodiscard]] std::vector<double> as_floats(std::vector<double> numbers);
 
 /// Pieces that take the place of the shipped ones, by include path: "fog/linear.glsl".
 using Overlay = std::map<std::string, std::string, std::less<>>;
@@ -39,7 +44,7 @@ struct StageInputs {
     evaluate::Invocations fragment;
 };
 
-/// The stages of the keys that a condition selects, ready to run.
+/// The stages of the keys that a condition selects, compiled as they are run.
 class LitUnderTest {
   public:
     /// All valid keys for which `where` holds and that have at most one light, ranging over `over`; failing
@@ -63,9 +68,14 @@ class LitUnderTest {
     [[nodiscard]] const evaluate::Program& fragment(std::size_t permutation) const;
 
   private:
+    [[nodiscard]] const evaluate::Program& program(int stage) const;
+
+    std::shared_ptr<GlslangProcess> glslang_ = std::make_shared<GlslangProcess>();  ///< keeps its tables
     Family family_;
     Composition composition_;
-    std::vector<evaluate::Program> programs_;  ///< of each stage of the composition
+    /// Of each stage of the composition; null until it is first asked for: whoever stops at the first fault
+    /// compiles little.
+    mutable std::vector<std::unique_ptr<evaluate::Program>> programs_;
 };
 
 }  // namespace gobo

@@ -4,37 +4,18 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "common/file_system.hpp"
 #include "common/text.hpp"
 #include "common/text_template.hpp"
+#include "hard_case_index.hpp"
+#include "normal_errors.hpp"
 #include "plain_shaders.hpp"
 
 namespace gobo {
 namespace {
-
-/// "H-N1" of "H_N1_zero_normal", and "zero normal".
-struct CaseName {
-    std::string id;
-    std::string what;
-};
-
-CaseName split(const std::string& name) {
-    std::string text = name;
-    for (char& character : text)
-        if (character == '_') character = ' ';
-    if (name.starts_with("H_D1_H_D2_")) return {"H-D1, H-D2", text.substr(10)};
-    if (name.starts_with("H_")) return {fmt::format("H-{}", text.substr(2, 2)), text.substr(5)};
-    const auto space = text.find(' ');  // a model's case: "S15_in_the_shadow"
-    return {text.substr(0, space), text.substr(space + 1)};
-}
-
-std::string number_text(double number) {
-    if (std::isnan(number)) return "NaN";
-    if (std::isinf(number)) return number > 0 ? "infinity" : "-infinity";
-    return fmt::format("{:.6g}", number);
-}
 
 /// What a reader sees of a shaded point: the depth where the case is about it, otherwise the red channel.
 std::string outcome(const Shaded& shaded, bool is_of_depth) {
@@ -55,7 +36,9 @@ std::string time_text(const GuardTimes& times, const std::string& name) {
     const GuardTime& time = found->second;
     if (time.guarded.median == 0) return "not timed: vertex stage";
     if (!time.is_measurable()) return "no measurable difference";
-    return fmt::format("{:+.0f} %", 100 * (time.guarded.median / time.plain.median - 1));
+    return fmt::format("{:+.0f} % ({:.0f} to {:.0f}, {:.0f} to {:.0f})",
+                       100 * (time.guarded.median / time.plain.median - 1), time.guarded.low,
+                       time.guarded.high, time.plain.low, time.plain.high);
 }
 
 std::string guard_row(const Guard& guard, const GuardTimes& times) {
@@ -74,7 +57,7 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     const Shaded with = guarded.shade(fault.permutation, point, fault.machine);
     const bool is_of_depth = tested->name.starts_with("H_D");
     const std::string trap = without.traps.empty() ? "" : ": " + trap_text(without.traps.front());
-    const CaseName name = split(tested->name);
+    const CaseName name = case_name(tested->name);
     return fmt::format("| {} | {} | `{}` | {}{} | {} | {} | {} | {} |\n", name.id, name.what, guard.guarded,
                        outcome(without, is_of_depth), trap, outcome(with, is_of_depth),
                        tested->check.tolerance, added_text(operations_of(guard)),
@@ -90,9 +73,8 @@ std::string guard_rows(const GuardTimes& times) {
 }
 
 /// How far machines with the largest errors allowed are from double precision, relative where the colour is
-/// above 1e-3; over all permutations and points of the case.
-double largest_error(const Case& tested) {
-    const LitUnderTest lit(tested.where, tested.features, {});
+/// above 1e-3; over all points of the case and the permutations given.
+double largest_error(const Case& tested, const LitUnderTest& lit) {
     double largest = 0;
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
         for (const Inputs& point : tested.points) {
@@ -107,33 +89,88 @@ double largest_error(const Case& tested) {
     return largest;
 }
 
+std::string case_row(const Case& tested) {
+    const CaseName name = case_name(tested.name);
+    const std::size_t permutations = LitUnderTest(tested.where, tested.features, {}).size();
+    const LitUnderTest cover(tested.where, tested.features, {}, 2);
+    return fmt::format("| {} | {} | {} | {} | {} | {:.0e} |\n", name.id, name.what, permutations,
+                       tested.points.size(), tested.check.tolerance, largest_error(tested, cover));
+}
+
 std::string case_rows() {
     std::string rows;
-    for (const Case& tested : lit_cases()) {
-        const CaseName name = split(tested.name);
-        rows += fmt::format("| {} | {} | {} | {} | {:.0e} |\n", name.id, name.what, tested.points.size(),
-                            tested.check.tolerance, largest_error(tested));
+    for (const Case& tested : lit_cases()) rows += case_row(tested);
+    return rows;
+}
+
+std::string file_name(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+std::string source_text(const std::string& path) {
+    return *DiskFileSystem().read(path);
+}
+
+std::string trap_rows() {
+    std::string rows;
+    for (const std::string& path : shaders_in("plain")) {
+        const std::string subject = subject_of(source_text(path));
+        for (const sanitize::SharedFinding& shared : report_of(path).findings) {
+            const sanitize::Finding& finding = shared.finding;
+            rows += fmt::format("| {} | `{}:{}` | {} | `{}` |\n", subject, file_name(path),
+                                finding.place.line, finding.message, finding.operation);
+        }
     }
     return rows;
 }
 
-/// The comment on a plain shader's second line: "H-L1: a light at the surface point."
-std::string subject_of(const std::string& source) {
-    const std::string_view line = line_of(source, 2);
-    return std::string(line.substr(line.find("// ") + 3));
-}
-
-std::string plain_rows() {
+/// Errors are those of single precision; formulas that are wrong are wrong in any.
+std::string wrong_rows() {
     std::string rows;
     for (const std::string& path : shaders_in("plain")) {
-        const std::string source = *DiskFileSystem().read(path);
-        for (const sanitize::SharedFinding& shared : report_of(path).findings) {
-            const sanitize::Finding& finding = shared.finding;
-            rows += fmt::format("| {} | `{}:{}` | {} | `{}` |\n", subject_of(source),
-                                path.substr(path.rfind('/') + 1), finding.place.line, finding.message,
-                                finding.operation);
-        }
+        const std::string source = source_text(path);
+        for (const WrongMark& mark : wrong_marks(source))
+            rows +=
+                fmt::format("| {} | `{}:{}` | `{}` | {} | {} | {} |\n", subject_of(source), file_name(path),
+                            mark.line, mark.at, number_text(result_of(path, mark.inputs, false)), mark.right,
+                            mark.is_inexact ? "rounding" : "formula");
     }
+    return rows;
+}
+
+/// "normalize_zero.frag, ..." of the plain shaders that name the case.
+std::string plain_files_of(const HardCase& hard) {
+    std::vector<std::string> names;
+    for (const std::string& path : shaders_in("plain")) {
+        const std::string subject = subject_of(source_text(path));
+        if (subject.substr(0, subject.find(':')).find(hard.id) != std::string::npos)
+            names.push_back(fmt::format("`{}`", file_name(path)));
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string tests_of(const HardCase& hard) {
+    std::vector<std::string> tests;
+    const auto rows = std::count_if(lit_cases().begin(), lit_cases().end(), [&](const Case& tested) {
+        return case_name(tested.name).id.find(hard.id) != std::string::npos;
+    });
+    if (rows > 0) tests.push_back(fmt::format("{} below", rows));
+    for (const std::string& path : hard.elsewhere) tests.push_back(fmt::format("`{}`", path));
+    return fmt::format("{}", fmt::join(tests, ", "));
+}
+
+std::string index_rows() {
+    std::string rows;
+    for (const HardCase& hard : hard_cases())
+        rows += fmt::format("| {} | {} | {} | {} | {} |\n", hard.id, hard.input, hard.plain,
+                            plain_files_of(hard), tests_of(hard));
+    return rows;
+}
+
+std::string normal_rows() {
+    std::string rows;
+    for (const NormalErrors& errors : normal_errors())
+        rows += fmt::format("| {} | {:.1e} | {:.1e} |\n", errors.away, errors.plain, errors.ours);
     return rows;
 }
 
@@ -148,10 +185,15 @@ std::string numerics_page(const GuardTimes& times) {
     const Result<std::string> page = DiskFileSystem().read(path);
     EXPECT_TRUE(page);
     if (!page) return {};
-    const Result<std::string> text = fill({"numerics.md.in", *page}, {{"guards", guard_rows(times)},
-                                                                      {"cases", case_rows()},
-                                                                      {"plain", plain_rows()},
-                                                                      {"renderer", renderer_of(times)}});
+    const Result<std::string> text =
+        fill({"numerics.md.in", *page}, {{"index", index_rows()},
+                                         {"guards", guard_rows(times)},
+                                         {"guard_count", std::to_string(lit_guards().size())},
+                                         {"cases", case_rows()},
+                                         {"traps", trap_rows()},
+                                         {"wrong", wrong_rows()},
+                                         {"normals", normal_rows()},
+                                         {"renderer", renderer_of(times)}});
     EXPECT_TRUE(text);
     return text ? *text : std::string();
 }

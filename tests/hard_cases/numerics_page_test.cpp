@@ -1,9 +1,14 @@
 // The page on numerics shows what the cases, guards and plain shaders give now.
 #include "numerics_page.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "common/file_system.hpp"
+#include "hard_case_index.hpp"
+#include "normal_errors.hpp"
+#include "plain_shaders.hpp"
 
 namespace gobo {
 namespace {
@@ -26,6 +31,50 @@ TEST(NumericsPage, HasATimeForEachGuard) {
     ASSERT_TRUE(csv);
     const GuardTimes times = times_of_csv(*csv);
     for (const Guard& guard : lit_guards()) EXPECT_TRUE(times.contains(guard.name)) << guard.name << kRemedy;
+}
+
+bool has_case(const std::string& id) {
+    return std::any_of(lit_cases().begin(), lit_cases().end(), [&](const Case& tested) {
+        return case_name(tested.name).id.find(id) != std::string::npos;
+    });
+}
+
+bool has_plain_shader(const std::string& id) {
+    const std::vector<std::string> paths = shaders_in("plain");
+    return std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+        return subject_of(*DiskFileSystem().read(path)).find(id) != std::string::npos;
+    });
+}
+
+TEST(HardCases, AreEachTriedAndHaveAPlainShader) {
+    for (const HardCase& hard : hard_cases()) {
+        EXPECT_TRUE(has_plain_shader(hard.id)) << "no file of tests/hard_cases/plain/ is about " << hard.id;
+        EXPECT_TRUE(has_case(hard.id) || !hard.elsewhere.empty()) << "nothing tries " << hard.id;
+        for (const std::string& path : hard.elsewhere) {
+            const Result<std::string> text = DiskFileSystem().read(GOBO_SOURCE_DIR "/tests/" + path);
+            ASSERT_TRUE(text) << path;
+            EXPECT_NE(text->find(hard.id), std::string::npos) << path << " does not name " << hard.id;
+        }
+    }
+}
+
+TEST(HardCases, AreAllInTheCatalogue) {
+    for (const Case& tested : lit_cases()) {
+        const std::string id = case_name(tested.name).id;
+        if (!id.starts_with("H-")) continue;  // a model's own case
+        EXPECT_TRUE(std::any_of(hard_cases().begin(), hard_cases().end(), [&](const HardCase& hard) {
+            return id.find(hard.id) != std::string::npos;
+        })) << id;
+    }
+}
+
+/// H-G3: what the page says of them in words.
+TEST(NormalErrors, AreThreeHundredthsOfARadianNearTheLongAxis) {
+    for (const NormalErrors& errors : normal_errors()) {
+        EXPECT_TRUE(errors.away < 0.1 || errors.plain <= 2e-3) << errors.away << ": " << errors.plain;
+        EXPECT_TRUE(errors.away > 0.003 || errors.plain >= 0.03) << errors.away << ": " << errors.plain;
+        EXPECT_TRUE(errors.away < 0.01 || errors.ours <= 1e-5) << errors.away << ": " << errors.ours;
+    }
 }
 
 }  // namespace

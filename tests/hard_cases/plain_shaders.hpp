@@ -1,10 +1,14 @@
-// Textbook shaders, each with marks at the lines that the sanitizer must flag ("// trap: message").
+// Textbook shaders, with marks at the lines that go wrong: "// trap: message" where the sanitizer must say
+// so, and "// wrong at INPUTS: 1, not 0.75" or "// inexact at INPUTS: 1, not 0.75" where nothing undefined
+// happens, but the first number comes out instead of the second.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "lit_under_test.hpp"
 #include "sanitize/sanitize.hpp"
 
 namespace gobo {
@@ -12,13 +16,36 @@ namespace gobo {
 /// "7: division by zero".
 using Lines = std::set<std::string>;
 
-/// The lines that the source marks.
+/// The lines that the source marks as traps; several messages of one line stand apart by "; ".
 [[nodiscard]] Lines marked_lines(const std::string& source);
+
+/// A line that gives another result than it should.
+struct WrongMark {
+    int line = 0;
+    bool is_inexact = false;  ///< only rounded: double precision is right. Otherwise it is as wrong
+    std::string at;           ///< "cosine = 1; levels = 4"
+    Inputs inputs;            ///< the same
+    std::string plain;        ///< what comes out, as number_text() writes it
+    std::string right;        ///< what should
+};
+/// Of the source, at most one a line; a mark that cannot be read fails the test.
+[[nodiscard]] std::vector<WrongMark> wrong_marks(const std::string& source);
+
+/// "0.75", "nan": six digits.
+[[nodiscard]] std::string number_text(double number);
+
+/// The first output's first component of the stage in that file, in fp32 or double; failing to run it fails
+/// the test.
+[[nodiscard]] double result_of(const std::string& path, const Inputs& inputs, bool is_double);
+
 /// The paths of the files in tests/hard_cases/FOLDER, sorted.
 [[nodiscard]] std::vector<std::string> shaders_in(const std::string& folder);
 /// What the sanitizer finds in a file; failing to run it fails the test.
 [[nodiscard]] sanitize::SanitizeReport report_of(const std::string& path);
 /// The lines that a report names.
 [[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
+
+/// The comment on a plain shader's second line: "H-L1: a light at the surface point."
+[[nodiscard]] std::string subject_of(const std::string& source);
 
 }  // namespace gobo

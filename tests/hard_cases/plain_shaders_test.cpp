@@ -1,5 +1,6 @@
 // Shaders as textbooks have them are flagged at the lines that say so ("// trap: message"), and nowhere else;
-// harmless ones are not flagged at all.
+// where nothing undefined happens but the result is wrong, it is as wrong as its line says. Harmless ones are
+// not flagged at all.
 #include "plain_shaders.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
 #include "evaluate/eval_inputs.hpp"
+#include "sanitize/output_bounds.hpp"
 #include "sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 
@@ -35,10 +37,23 @@ TEST_P(PlainShader, IsFlaggedAtItsMarks) {
     const Result<std::string> source = DiskFileSystem().read(GetParam());
     ASSERT_TRUE(source);
     const Lines marked = marked_lines(*source);
-    ASSERT_FALSE(marked.empty());
+    ASSERT_FALSE(marked.empty() && wrong_marks(*source).empty());
     const sanitize::SanitizeReport report = report_of(GetParam());
     EXPECT_TRUE(report.diagnostics.empty());
     EXPECT_EQ(found_lines(report), marked);
+}
+
+/// What is only inexact is right in double precision; what is wrong by its formula is not.
+TEST_P(PlainShader, IsAsWrongAsItsMarksSay) {
+    for (const WrongMark& mark : wrong_marks(*DiskFileSystem().read(GetParam()))) {
+        EXPECT_EQ(number_text(result_of(GetParam(), mark.inputs, false)), mark.plain) << mark.at;
+        EXPECT_NE(mark.plain, mark.right) << mark.at;
+        const std::string exact = number_text(result_of(GetParam(), mark.inputs, true));
+        if (mark.is_inexact)
+            EXPECT_EQ(exact, mark.right) << mark.at;
+        else
+            EXPECT_NE(exact, mark.right) << mark.at;
+    }
 }
 
 TEST_P(HarmlessShader, IsNotFlagged) {
@@ -66,7 +81,15 @@ TEST_P(PlainShader, NamesAnInputThatShowsIt) {
         ASSERT_TRUE(inputs) << to_text(inputs.error().front());
         const auto invocations = evaluate::invocations_of(*inputs, *program);
         ASSERT_TRUE(invocations) << to_text(invocations.error().front());
-        const auto alone = sanitize::find_traps(*program, *invocations, shared.finding.machine);
+        const sanitize::InputSpace space = sanitize::input_space_of(*program, {});
+        sanitize::PointSet point;
+        point.numbers = space.numbers;
+        point.resize(1);
+        point.values = sanitize::flat_point(space, *invocations, 0);
+        sanitize::OutputBounds bounds(*family, Key{}, composition->stages.front().kind, *program, space,
+                                      sanitize::depth_promise_of(validated.stages.front().spirv));
+        const auto alone =
+            sanitize::find_traps(*program, *invocations, shared.finding.machine, bounds.at(point));
         ASSERT_TRUE(alone);
         EXPECT_TRUE(std::any_of(alone->begin(), alone->end(), [&](const sanitize::Finding& finding) {
             return finding.message == shared.finding.message && finding.place == shared.finding.place;

@@ -313,5 +313,14 @@ TEST(OracleSurface, TurnsWithTheProbe) {
               kRounding);
 }
 
+/// Interfaces cannot keep a probe's matrix a rotation: what is said to be its largest must hold all the same.
+TEST(OracleSurface, KnowsTheLargestOfAProbeThatIsStretched) {
+    HarmonicsLight light;
+    light.coefficients = small_light(glm::dvec3(0, 0, 1));
+    light.to_probe = glm::dmat3(3);
+    const AmbientLight seen = harmonics_light(Harmonics::second, light, tilted(0));
+    EXPECT_GE(seen.largest.r, seen.value.r);
+}
+
 }  // namespace
 }  // namespace gobo::oracle

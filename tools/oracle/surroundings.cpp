@@ -1,5 +1,6 @@
 #include "oracle/surroundings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,7 +70,8 @@ AmbientLight harmonics_light(Harmonics order, const HarmonicsLight& light, const
     for (const Term& term : terms_at(n)) {
         if (term.order > last_order(order)) continue;
         const glm::dvec3 size = light.scale * glm::abs(light.coefficients[term.coefficient]);
-        result.largest += size;  // no factor exceeds 1.03: counted by the roundings
+        // Factors above 1 come from matrices that are no rotation; the 1.03 of others the roundings count.
+        result.largest += size * std::max(std::abs(term.factor), 1.0);
         result.slope += term.slope * size;
     }
     return result;

@@ -20,10 +20,14 @@ Interval interval_of(const Domain& domain) {
 }  // namespace
 
 OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage,
-                           const evaluate::Program& program, const InputSpace& space)
-    : model_(lit_bounds(family, key, stage, program, space)) {
+                           const evaluate::Program& program, const InputSpace& space, DepthPromise promise)
+    : model_(lit_bounds(family, key, stage, program, space)), promise_(promise) {
     for (const evaluate::Port& output : program.outputs) {
         Interval interval;
+        if (output.name == "gl_FragDepth") {
+            interval = {0, 1};
+            depth_ = declared_.size();
+        }
         const auto domain = std::find_if(family.domains.begin(), family.domains.end(),
                                          [&](const Domain& one) { return one.name == output.name; });
         // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
@@ -31,6 +35,13 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
         if (stage == StageKind::fragment && domain != family.domains.end()) interval = interval_of(*domain);
         declared_.insert(declared_.end(), output.components, interval);
     }
+    for (const InputField& field : space.fields)
+        if (field.name == "gl_FragCoord") own_depth_ = field.first + 2;
+}
+
+void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
+    if (promise_ == DepthPromise::greater || promise_ == DepthPromise::unchanged) depth.low = own_depth;
+    if (promise_ == DepthPromise::less || promise_ == DepthPromise::unchanged) depth.high = own_depth;
 }
 
 std::vector<Interval> OutputBounds::at(const PointSet& points) {
@@ -38,7 +49,9 @@ std::vector<Interval> OutputBounds::at(const PointSet& points) {
     intervals.reserve(points.count() * declared_.size());
     for (std::size_t i = 0; i < points.count(); ++i) {
         intervals.insert(intervals.end(), declared_.begin(), declared_.end());
-        if (model_) model_->narrow(points[i], std::span(intervals).last(declared_.size()));
+        const auto here = std::span(intervals).last(declared_.size());
+        if (model_) model_->narrow(points[i], here);
+        if (depth_ && own_depth_) keep_promise(points[i][*own_depth_], here[*depth_]);
     }
     return intervals;
 }

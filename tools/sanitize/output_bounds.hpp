@@ -3,11 +3,13 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "compose/composition.hpp"
 #include "family/family.hpp"
+#include "sanitize/depth_promise.hpp"
 #include "sanitize/input_space.hpp"
 
 namespace gobo::sanitize {
@@ -30,13 +32,14 @@ class ModelBounds {
 };
 
 /// Every output is finite. A fragment stage's stay within the domain that the family declares for them by
-/// name. Where the oracle knows the key's model, they are as the model allows: no radiance is negative or
+/// name, its depth within [0, 1] and, where it reads gl_FragCoord, on the side of gl_FragCoord.z that it
+/// promises. Where the oracle knows the key's model, they are as the model allows: no radiance is negative or
 /// more than the sum of all terms with every angle's share taken as 1.
 class OutputBounds {
   public:
     /// `program` and `space` must outlive the bounds.
     OutputBounds(const Family& family, const Key& key, StageKind stage, const evaluate::Program& program,
-                 const InputSpace& space);
+                 const InputSpace& space, DepthPromise promise);
 
     /// How many intervals a point has: one of each component of each output.
     [[nodiscard]] std::size_t components() const { return declared_.size(); }
@@ -44,8 +47,15 @@ class OutputBounds {
     [[nodiscard]] std::vector<Interval> at(const PointSet& points);
 
   private:
+    void keep_promise(double own_depth, Interval& depth) const;
+
     std::vector<Interval> declared_;
     std::unique_ptr<ModelBounds> model_;  ///< null where there are no equations
+    DepthPromise promise_;
+    /// Index of gl_FragDepth's interval; nothing where the stage writes none.
+    std::optional<std::size_t> depth_;
+    /// Index of gl_FragCoord.z in a point; nothing where the stage does not read it.
+    std::optional<std::size_t> own_depth_;
 };
 
 }  // namespace gobo::sanitize

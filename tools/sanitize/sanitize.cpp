@@ -33,10 +33,11 @@ StageReport open_stage(const Family& family, const Composition& composition, con
         report.diagnostics = program.error();
         return report;
     }
+    const DepthPromise promise = depth_promise_of(validated.stages[stage].spirv);
     const std::vector<std::size_t> permutations = permutations_of(composition, stage);
     const Key key = permutations.empty() ? Key{} : composition.permutations[permutations.front()].key;
     report.search = std::make_unique<StageSearch>(family, key, composition.stages[stage].kind,
-                                                  std::move(*program), options.machines);
+                                                  std::move(*program), promise, options.machines);
     if (options.guided > 0 || options.minutes > 0) report.search->guide_from(options.seed);
     return report;
 }

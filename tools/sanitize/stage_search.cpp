@@ -10,11 +10,11 @@ Signature signature_of(const Finding& finding) {
 }
 
 StageSearch::StageSearch(const Family& family, const Key& key, StageKind kind, evaluate::Program program,
-                         std::vector<Machine> machines)
+                         DepthPromise promise, std::vector<Machine> machines)
     : kind_(kind),
       program_(std::move(program)),
       space_(input_space_of(program_, family.domains)),
-      bounds_(family, key, kind, program_, space_),
+      bounds_(family, key, kind, program_, space_, promise),
       machines_(std::move(machines)) {}
 
 Result<bool> StageSearch::run(const PointSet& points) {

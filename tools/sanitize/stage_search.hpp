@@ -25,7 +25,7 @@ class StageSearch {
   public:
     /// `key` is any of those that share the stage.
     StageSearch(const Family& family, const Key& key, StageKind kind, evaluate::Program program,
-                std::vector<Machine> machines);
+                DepthPromise promise, std::vector<Machine> machines);
     StageSearch(const StageSearch&) = delete;
     StageSearch& operator=(const StageSearch&) = delete;
 

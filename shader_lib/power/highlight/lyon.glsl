@@ -9,7 +9,7 @@
 
 /// The highlight's share at 1 - cos(angle) = versine.
 float highlightPower(float versine, float exponent) {
-    float root = max(1.0 - 0.25 * exponent * versine, 0.0);
+    float root = max(1.0 - 0.25 * exponent * versine, 0.0);  // H-S2
     float square = root * root;
     return square * square;
 }

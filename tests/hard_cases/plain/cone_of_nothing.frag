@@ -1,0 +1,11 @@
+#version 450
+// H-P2: a spot light that is shut: its axis is still lit.
+layout(location = 0) in vec3 axis;
+layout(location = 1) in vec3 ray;
+uniform float cutoff;
+layout(location = 0) out vec4 color;
+
+void main() {
+    float cosine = dot(axis, ray);
+    color = vec4(cosine >= cos(cutoff) ? 1.0 : 0.0);  // wrong at axis = (0, 0, -1); ray = (0, 0, -1); cutoff = 0: 1, not 0
+}

@@ -1,0 +1,9 @@
+#version 450
+// H-D1: a depth moved out of its range.
+layout(location = 0) in float offset;
+layout(location = 0) out vec4 color;
+
+void main() {
+    color = vec4(1.0);
+    gl_FragDepth = gl_FragCoord.z + offset;  // trap: the output 'gl_FragDepth' is negative; the output 'gl_FragDepth' is above what its inputs allow
+}

@@ -1,0 +1,10 @@
+#version 450
+// H-D2: a depth that is promised to be greater, and is not.
+layout(location = 0) in float offset;
+layout(location = 0) out vec4 color;
+layout(depth_greater) out float gl_FragDepth;
+
+void main() {
+    color = vec4(1.0);
+    gl_FragDepth = clamp(gl_FragCoord.z + offset, 0.0, 1.0);  // trap: the output 'gl_FragDepth' is below what its inputs allow
+}
