@@ -94,7 +94,9 @@ class UberCase : public testing::TestWithParam<Case> {
             std::max(1.0, *std::max_element(expected.color.begin(), expected.color.end()));
         for (std::size_t c = 0; c < 4 && !expected.is_discarded; ++c)
             ASSERT_LE(std::abs(color[c] - expected.color[c]), 1e-6 * brightest) << "channel " << c;
-        for (const sanitize::Finding& finding : sanitize::find_traps(uber, invocation, machine).value())
+        const auto findings = sanitize::find_traps(uber, invocation, machine);
+        ASSERT_TRUE(findings);
+        for (const sanitize::Finding& finding : *findings)
             ADD_FAILURE() << finding.place.file << ":" << finding.place.line << ": " << to_text(finding);
     }
 

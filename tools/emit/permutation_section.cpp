@@ -27,9 +27,17 @@ PackedKey pack(const Key& values, const CppKey& key) {
     return words;
 }
 
+/// A decimal literal without suffix is signed: one with the top bit set would have no type.
+std::string literal_of(std::uint64_t word) {
+    const bool is_signed = word <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    return fmt::format("{}{}", word, is_signed ? "" : "U");
+}
+
 std::string packed_text(const PackedKey& words) {
-    if (words.size() == 1) return std::to_string(words.front());
-    return fmt::format("{{{{{}}}}}", fmt::join(words, ", "));
+    std::vector<std::string> literals(words.size());
+    std::transform(words.begin(), words.end(), literals.begin(), literal_of);
+    if (literals.size() == 1) return literals.front();
+    return fmt::format("{{{{{}}}}}", fmt::join(literals, ", "));
 }
 
 /// Marks what is used, then numbers it in order.

@@ -143,6 +143,17 @@ TEST(EmitHeader, AFeatureWithAnEnumOfItsOwnLeavesABlockItsName) {
     EXPECT_NE(header.find("struct Fog {"), std::string::npos);
 }
 
+TEST(EmitHeader, AKeyWithTheTopBitSetIsAnUnsignedLiteral) {
+    Built built = sample::lit();  // 17 bits
+    for (int bit = 17; bit < 64; ++bit) built.family.features.push_back(sample::define(std::to_string(bit)));
+    for (Permutation& permutation : built.composition.permutations) {
+        permutation.key.resize(built.family.features.size());
+        permutation.key.back() = 1;
+    }
+    const std::string header = header_of(built);
+    EXPECT_NE(header.find("9223372036854775808U"), std::string::npos);
+}
+
 TEST(EmitHeader, LeavesOutWhatNoPermutationUses) {
     Built built = sample::lit();
     built.composition.permutations.resize(1);
