@@ -26,6 +26,14 @@ if(GOBO_SANITIZE)
   target_link_options(gobo_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+# gobo_keep_roundings(TARGET): for code that rounds doubles to floats and goes on with doubles. Where g++ 12.2 makes one vector
+# instruction of two such neighbours, as of a dvec2, from -O2 on, it leaves the rounding out.
+function(gobo_keep_roundings target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
+  endif()
+endfunction()
+
 # gobo_library(NAME SOURCES a.cpp ... LINK lib ...): one folder of tools/ as a static library.
 function(gobo_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")

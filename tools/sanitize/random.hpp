@@ -6,24 +6,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/random_bits.hpp"
+
 namespace gobo::sanitize {
 
-/// xoshiro256++ of Blackman and Vigna, seeded by their splitmix64. The standard library's distributions
-/// differ from one to the next, so they are gobo's own; its generators cost more than the shaders they make
-/// inputs for.
+/// xoshiro256++ of Blackman and Vigna, seeded by SplitMix64 as they advise. The standard library's generators
+/// cost more than the shaders they make inputs for.
 class Random {
   public:
     explicit Random(std::uint64_t seed) {
-        for (std::uint64_t& word : state_) {
-            seed += 0x9e3779b97f4a7c15U;
-            std::uint64_t mixed = (seed ^ seed >> 30U) * 0xbf58476d1ce4e5b9U;
-            mixed = (mixed ^ mixed >> 27U) * 0x94d049bb133111ebU;
-            word = mixed ^ mixed >> 31U;
-        }
+        SplitMix64 bits(seed);
+        for (std::uint64_t& word : state_) word = bits.next();
     }
 
     /// In [0, 1).
-    [[nodiscard]] double unit() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
+    [[nodiscard]] double unit() { return unit_interval(next()); }
     /// In [low, high).
     [[nodiscard]] double between(double low, double high) { return low + (high - low) * unit(); }
     /// In [0, count); count is at most 2^32.

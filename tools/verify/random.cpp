@@ -6,16 +6,8 @@
 
 namespace gobo::verify {
 
-std::uint64_t Random::bits() {
-    state_ += 0x9E3779B97F4A7C15U;
-    std::uint64_t mixed = state_;
-    mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9U;
-    mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBU;
-    return mixed ^ (mixed >> 31U);
-}
-
 double Random::unit() {
-    return static_cast<double>(bits() >> 11U) * 0x1p-53;
+    return unit_interval(bits());
 }
 
 double Random::between(double low, double high) {

@@ -5,15 +5,16 @@
 
 #include <glm/vec3.hpp>
 
+#include "common/random_bits.hpp"
+
 namespace gobo::verify {
 
-/// SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014): any seed
-/// gives a good sequence, and every operation on it is exact.
+/// What samples are drawn from.
 class Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
+    explicit Random(std::uint64_t seed) : generator_(seed) {}
 
-    [[nodiscard]] std::uint64_t bits();
+    [[nodiscard]] std::uint64_t bits() { return generator_.next(); }
     /// In [0, 1).
     [[nodiscard]] double unit();
     /// In [low, high).
@@ -30,7 +31,7 @@ class Random {
     [[nodiscard]] glm::dvec3 direction();
 
   private:
-    std::uint64_t state_;
+    SplitMix64 generator_;
 };
 
 }  // namespace gobo::verify
