@@ -44,6 +44,7 @@ struct Arrival {
     bool is_shadowed = false;        ///< a shadow map was asked
     double shadow_per_rounding = 0;  ///< as of Visibility
     double shadow_per_length = 0;
+    double shadow_per_place = 0;
 };
 
 /// What a lighting model does with a direction that it is given: it makes it unit, or takes it as it is.

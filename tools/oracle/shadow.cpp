@@ -130,10 +130,13 @@ Visibility look_up(const Model& model, const Scene& scene, const Projected& proj
     const Sum y = divided(projected.y, projected.w);
     const DepthMaps& maps = scene.maps;
     Layer asked(maps, layer, divided(projected.depth, projected.w), decisions);
-    if (model.shadow_filter == ShadowFilter::nearest) return {asked.nearest(x, y), 0, 0};
-    // A place that moves by a texel changes the share by at most 1.
+    // A place that moves by a texel changes the share by at most 1, and so does the centre of a texel: it
+    // then gets so much of the next one.
+    const double centres = maps.width + maps.height;
+    if (model.shadow_filter == ShadowFilter::nearest) return {asked.nearest(x, y), 0, 0, centres};
     return {asked.filtered(x, y), x.terms * maps.width + y.terms * maps.height,
-            x.slope * maps.width + y.slope * maps.height};
+            x.slope * maps.width + y.slope * maps.height,
+            model.shadow_filter == ShadowFilter::bilinear ? centres : 0};
 }
 
 /// A face of the cube: the axis that it lies on, and along which of the ray's components its sides run
@@ -189,6 +192,7 @@ void cast_shadows(const Model& model, const Scene& scene, const glm::dvec3& posi
             light.is_shadowed = true;
             light.shadow_per_rounding = visible.per_rounding;
             light.shadow_per_length = visible.per_length;
+            light.shadow_per_place = visible.per_place;
         }
     };
     cast(0, 0, model.directional_shadows, visibility_in_map);

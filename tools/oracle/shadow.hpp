@@ -16,6 +16,8 @@ struct Visibility {
     double per_rounding = 0;  ///< bound of the share's change if each product and sum on the way changes by
                               ///< a relative amount, divided by that amount
     double per_length = 0;    ///< bound of its change if the point moves, divided by the distance
+    double per_place = 0;  ///< bound of its change if texel centres, as a sampler is asked for them, change
+                           ///< by a relative amount, divided by that amount
 };
 
 /// Looks the point up in one map (directional and spot lights) or in the six maps of a cube (point lights).

@@ -66,10 +66,13 @@ double cone_error(oracle::SpotEdge spot_edge, const oracle::Arrival& arrival, do
 /// Error of a shadowed light's share. A product of a matrix and a position rounds each term at most four
 /// times, a cube's spread twice more, the division once, and the place among the texels twice; what lies
 /// before the place in the map is decided. The weights and the product with the light are ten roundings of at
-/// most 1.
+/// most 1. A texel's centre, where a formula asks for that, is rounded once as it is divided by the map's
+/// size.
 double shadow_error(const oracle::Arrival& arrival, double position_error) {
-    if (arrival.shadow_per_rounding == 0) return arrival.is_shadowed ? kU : 0;
-    return arrival.shadow_per_rounding * 9 * kU + arrival.shadow_per_length * position_error + 10 * kU;
+    const double centre = arrival.shadow_per_place * kU;
+    if (arrival.shadow_per_rounding == 0) return arrival.is_shadowed ? centre + kU : 0;
+    return arrival.shadow_per_rounding * 9 * kU + arrival.shadow_per_length * position_error + centre +
+           10 * kU;
 }
 
 /// What becomes of a direction that is an input: it is made unit, or taken as it is.
