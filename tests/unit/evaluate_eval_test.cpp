@@ -49,6 +49,15 @@ const Case kCases[] = {
     {"wrong_counts", "[inputs]\na = [1, 2, 3]\n[samplers]\ntex = []\n",
      "point.toml:2:1: error: 'a' is a vec4: it takes 4 numbers, not 3\n    a = [1, 2, 3]\n    ^\n"
      "point.toml:4:1: error: 'tex' takes one to four numbers\n    tex = []\n    ^\n"},
+    {"unknown_member", "[samplers]\ntex = { colour = [1, 1, 1] }\n",
+     "point.toml:2:9: error: a sampler has no 'colour'\n    tex = { colour = [1, 1, 1] }\n            ^\n"
+     "  remedy: did you mean 'color'?\n"},
+    {"no_size", "[samplers]\ntex = { size = [2, 1.5], depths = [1, 1] }\n",
+     "point.toml:2:9: error: 'tex.size' takes the numbers of columns, rows and, of an array, layers\n"
+     "    tex = { size = [2, 1.5], depths = [1, 1] }\n            ^\n"},
+    {"too_few_depths", "[samplers]\ntex = { size = [2, 2], depths = [1, 1] }\n",
+     "point.toml:2:24: error: 'tex' has 2 depths where its size asks for 4\n"
+     "    tex = { size = [2, 2], depths = [1, 1] }\n                           ^\n"},
 };
 
 class EvalFile : public ::testing::TestWithParam<Case> {};

@@ -1,13 +1,14 @@
 #include "evaluate/eval_inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "common/text.hpp"
-#include "evaluate/images.hpp"
 #include "evaluate/module.hpp"
+#include "evaluate/texture_content.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -130,20 +131,90 @@ void match(const std::map<std::string, EvalValue>& values, const std::vector<Por
     }
 }
 
-void match_samplers(const EvalInputs& inputs, const Program& program, Invocations& invocations,
-                    Diagnostics& diagnostics) {
-    for (const auto& [name, value] : inputs.samplers) {
-        const bool is_known = std::any_of(program.images.begin(), program.images.end(),
-                                          [&](const ImagePort& port) { return port.name == name; });
-        if (!is_known)
-            diagnostics.push_back(fault(value, fmt::format("the stage has no sampler '{}'", name)));
-        if (value.numbers.empty() || value.numbers.size() > 4)
-            diagnostics.push_back(fault(value, fmt::format("'{}' takes one to four numbers", name)));
-        std::array<double, 4> texel{};
-        std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
-        invocations.images[name] = [texel](const ImageRequest& request) { return answer(texel, request); };
+/// Reads the textures: what the file calls "map", or "map.color" and so on, for each sampler.
+class SamplerMatcher {
+  public:
+    SamplerMatcher(const EvalInputs& inputs, const Program& program, Diagnostics& diagnostics)
+        : inputs_(inputs), program_(program), diagnostics_(diagnostics) {}
+
+    void add_to(Invocations& invocations) {
+        for (const auto& [name, value] : inputs_.samplers) read(name, value);
+        if (diagnostics_.empty())
+            for (const auto& [name, texels] : texels_) check(name, texels);
+        for (const ImagePort& port : program_.images) {
+            if (const auto depth = texels_.find(port.name); depth != texels_.end())
+                invocations.images[port.name] = image_of(depth->second, port.type);
+            else if (const auto color = colors_.find(port.name); color != colors_.end())
+                invocations.images[port.name] = image_of(color->second, port.type);
+        }
     }
-}
+
+  private:
+    void read(const std::string& name, const EvalValue& value) {
+        const auto port = std::find_if(program_.images.begin(), program_.images.end(), [&](const auto& one) {
+            return name == one.name || name.starts_with(one.name + ".");
+        });
+        if (port == program_.images.end()) {
+            diagnostics_.push_back(fault(value, fmt::format("the stage has no sampler '{}'", name)));
+            return;
+        }
+        const std::string member = name.substr(std::min(port->name.size() + 1, name.size()));
+        if (member.empty() || member == "color")
+            read_texel(name, value, colors_[port->name].color);
+        else if (member == "size")
+            read_size(name, value, texels_[port->name]);
+        else if (member == "depths")
+            texels_[port->name].depths = value.numbers;
+        else if (const auto axis = std::find(kAlong.begin(), kAlong.end(), member); axis != kAlong.end())
+            read_texel(name, value,
+                       colors_[port->name].along[static_cast<std::size_t>(axis - kAlong.begin())]);
+        else
+            diagnostics_.push_back(
+                fault(value, fmt::format("a sampler has no '{}'", member),
+                      suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths"})));
+    }
+
+    void read_texel(const std::string& name, const EvalValue& value, std::array<double, 4>& texel) {
+        if (value.numbers.empty() || value.numbers.size() > 4)
+            diagnostics_.push_back(fault(value, fmt::format("'{}' takes one to four numbers", name)));
+        std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
+    }
+
+    void read_size(const std::string& name, const EvalValue& value, DepthTexels& texels) {
+        const std::vector<double>& numbers = value.numbers;
+        const bool are_whole = std::all_of(numbers.begin(), numbers.end(), [](double number) {
+            return number >= 1 && number <= kMostTexels && number == std::floor(number);
+        });
+        if (!are_whole || numbers.size() < 2 || numbers.size() > 3) {
+            diagnostics_.push_back(
+                fault(value,
+                      fmt::format("'{}' takes the numbers of columns, rows and, of an array, layers", name)));
+            return;
+        }
+        texels.width = static_cast<int>(numbers[0]);
+        texels.height = static_cast<int>(numbers[1]);
+        texels.layers = numbers.size() > 2 ? static_cast<int>(numbers[2]) : 1;
+    }
+
+    /// Every depth is there.
+    void check(const std::string& name, const DepthTexels& texels) {
+        const double count = static_cast<double>(texels.width) * texels.height * texels.layers;
+        if (static_cast<double>(texels.depths.size()) == count) return;
+        const auto depths = inputs_.samplers.find(name + ".depths");
+        const auto& at = depths != inputs_.samplers.end() ? depths : inputs_.samplers.find(name + ".size");
+        diagnostics_.push_back(fault(at->second, fmt::format("'{}' has {} depths where its size asks for {}",
+                                                             name, texels.depths.size(), count)));
+    }
+
+    static constexpr std::array<std::string_view, 3> kAlong = {"along_x", "along_y", "along_z"};
+    static constexpr double kMostTexels = 1 << 14;  ///< along a side
+
+    const EvalInputs& inputs_;
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, EvenColor> colors_;
+    std::map<std::string, DepthTexels> texels_;
+};
 
 }  // namespace
 
@@ -156,7 +227,7 @@ Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& prog
     Diagnostics diagnostics;
     match(inputs.inputs, program.inputs, "input", invocations, diagnostics);
     match(inputs.uniforms, program.uniforms, "uniform", invocations, diagnostics);
-    match_samplers(inputs, program, invocations, diagnostics);
+    SamplerMatcher(inputs, program, diagnostics).add_to(invocations);
     if (!diagnostics.empty()) return tl::unexpected(diagnostics);
     return invocations;
 }

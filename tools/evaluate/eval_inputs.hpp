@@ -24,7 +24,7 @@ struct EvalInputs {
     std::string stage = "fragment";             ///< or "vertex"
     std::map<std::string, EvalValue> inputs;    ///< [inputs]
     std::map<std::string, EvalValue> uniforms;  ///< [uniforms]
-    std::map<std::string, EvalValue> samplers;  ///< [samplers]: the one colour, or depth, of each texture
+    std::map<std::string, EvalValue> samplers;  ///< [samplers], as SamplerNumbers
 };
 
 /// Reads
@@ -37,7 +37,7 @@ struct EvalInputs {
 ///     [samplers]
 ///     shadowMap = [1, 1, 1, 1]
 ///
-/// Numbers, booleans and (nested) arrays of them are values; a table inside [uniforms] adds to the name.
+/// Numbers, booleans and (nested) arrays of them are values; a table inside a section adds to the name.
 /// Errors stand at their line of `path`.
 [[nodiscard]] Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path);
 

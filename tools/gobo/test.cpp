@@ -66,15 +66,16 @@ Diagnostics report_failure(const World& world, const TestOptions& options, const
 
 /// Writes one side's worst point as an input of `gobo eval`, and says how to follow it.
 Diagnostics report_side(const World& world, const TestOptions& options, const std::string& key,
-                        const verify::BrokenPoint& broken, const verify::PointInputs& point,
+                        const verify::BrokenPoint& broken, const evaluate::EvalPoint& point,
                         const std::string& file) {
     Diagnostic note;
     note.severity = Severity::note;
     note.place.file = fmt::format("{}/{}", options.folder, file);
     note.message = fmt::format("gobo eval {} '{}' --inputs this file", options.family, key);
     Diagnostics diagnostics = {note};
-    const Result<bool> written =
-        world.disk.write(note.place.file, verify::eval_input(broken.stage, point, "# " + key + "\n"));
+    const Result<bool> written = world.disk.write(
+        note.place.file,
+        evaluate::eval_file(name_of(broken.stage), point, "# " + key + "\n", evaluate::Digits::all));
     if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
     return diagnostics;
 }
@@ -95,7 +96,7 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
     error.remedy = "mend the shaders, or state `when` it holds";
     Diagnostics diagnostics = {std::move(error)};
     if (!report.worst) return diagnostics;
-    const auto add = [&](const std::string& side_key, const verify::PointInputs& point, const char* side) {
+    const auto add = [&](const std::string& side_key, const evaluate::EvalPoint& point, const char* side) {
         const std::string file =
             file_name(one, report.worst->stage, fmt::format("relation_{}.{}", report.relation + 1, side));
         const Diagnostics more = report_side(world, options, side_key, *report.worst, point, file);

@@ -2,23 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "common/diagnostic.hpp"
 #include "compose/composition.hpp"
-#include "evaluate/evaluate.hpp"
+#include "evaluate/eval_point.hpp"
 #include "sanitize/machine.hpp"
 
 namespace gobo::sanitize {
 
-/// What one invocation was given, by reflected name, component by component.
-struct Point {
-    std::map<std::string, std::vector<double>> inputs;
-    std::map<std::string, std::vector<double>> uniforms;
-    std::map<std::string, std::vector<double>> samplers;  ///< the colour that each texture answers
-};
+/// What one invocation was given.
+using Point = evaluate::EvalPoint;
 
 /// An undefined operation at one place of one stage.
 struct Finding {
@@ -31,12 +26,8 @@ struct Finding {
     std::uint64_t points = 0;
 };
 
-/// Invocation `index` of a stage's inputs.
-[[nodiscard]] Point point_of(const evaluate::Program& program, const evaluate::Invocations& invocations,
-                             std::size_t index);
-
-/// The point as an input file of `gobo eval`: `stage`, `[inputs]`, `[uniforms]` and `[samplers]` by
-/// reflected name, numbers that read back as the same floats. `heading` becomes comment lines.
+/// The point as an input file of `gobo eval`, numbers that read back as the same floats. `heading` becomes
+/// comment lines.
 [[nodiscard]] std::string eval_input(const Finding& finding, const std::string& heading);
 
 /// The finding's message with the operation's values.

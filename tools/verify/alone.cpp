@@ -121,7 +121,7 @@ Result<StageReport> check_alone(const evaluate::Program& program, StageKind stag
         figures.largest_fp32_error = std::max(figures.largest_fp32_error, judgement.of_largest);
         if (!judgement.failure) continue;
         judgement.failure->stage = stage;
-        judgement.failure->point = point_inputs(program, all->invocations, i);
+        judgement.failure->point = evaluate::point_of(program, all->invocations, i);
         ++report.failed_points;
         add_failure(report, std::move(*judgement.failure));
     }

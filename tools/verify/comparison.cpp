@@ -90,7 +90,7 @@ std::vector<Expected> Comparison::judge(const Sample& sample, const evaluate::In
     if (least.ratio <= 1) return expected;
     marks.failed[mark] = true;
     add_failure(report_, {stage_, precision_, plain.output, plain.component, plain.expected, plain.actual,
-                          plain.tolerance, plain.ratio, point_inputs(program_, invocations, index)});
+                          plain.tolerance, plain.ratio, evaluate::point_of(program_, invocations, index)});
     return expected;
 }
 

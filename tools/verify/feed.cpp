@@ -9,6 +9,7 @@
 #include "verify/feed_surface.hpp"
 #include "verify/field_access.hpp"
 #include "verify/image_light_feed.hpp"
+#include "verify/sample_textures.hpp"
 #include "verify/shadow_feed.hpp"
 #include "verify/switched_feed.hpp"
 
@@ -152,16 +153,11 @@ Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<c
         for (const evaluate::Port& port : *ports)
             if (const Result<bool> fed = feed_port(port, samples, invocations); !fed)
                 return tl::unexpected(fed.error());
-    for (const evaluate::ImagePort& image : program.images)
-        if (const auto map = image_light_map(image.name, samples)) invocations.images[image.name] = *map;
-    for (const evaluate::ImagePort& image : program.images)
-        if (image.name == "shadowMaps") invocations.images[image.name] = shadow_maps_of(samples);
-    feed_images(program, samples, invocations);
+    feed_textures(program, samples, invocations);
     return invocations;
 }
 
 std::optional<Sample> sample_of(const evaluate::Program& program, const evaluate::Invocations& invocations) {
-    if (!program.images.empty()) return std::nullopt;  // what textures hold is not told
     Sample sample;
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports) {
@@ -172,6 +168,7 @@ std::optional<Sample> sample_of(const evaluate::Program& program, const evaluate
             field->set(sample, given == invocations.values.end() ? std::vector<double>(port.components)
                                                                  : given->second);
         }
+    if (!read_textures(program, invocations, sample)) return std::nullopt;
     return sample;
 }
 

@@ -122,17 +122,4 @@ std::optional<Field> surface_field_of(const std::string& name) {
     return std::nullopt;
 }
 
-void feed_images(const evaluate::Program& program, std::span<const Sample> samples,
-                 evaluate::Invocations& invocations) {
-    for (const evaluate::ImagePort& port : program.images) {
-        if (port.name != "opacityMap") continue;
-        std::vector<double> alphas;
-        alphas.reserve(samples.size());
-        for (const Sample& sample : samples) alphas.push_back(sample.surface.opacity);
-        invocations.images[port.name] = [alphas](const evaluate::ImageRequest& request) {
-            return std::array<double, 4>{0, 0, 0, alphas.at(request.invocation)};
-        };
-    }
-}
-
 }  // namespace gobo::verify

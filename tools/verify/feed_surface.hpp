@@ -8,8 +8,4 @@ namespace gobo::verify {
 /// The field of that reflected name: "Materials.rows[2].diffuse". Nothing where samples have no such field.
 [[nodiscard]] std::optional<Field> surface_field_of(const std::string& name);
 
-/// What the stage's textures answer at each sample.
-void feed_images(const evaluate::Program& program, std::span<const Sample> samples,
-                 evaluate::Invocations& invocations);
-
 }  // namespace gobo::verify

@@ -1,8 +1,6 @@
 #include "verify/image_light_feed.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -66,24 +64,6 @@ std::optional<Field> image_light_field(std::string_view name) {
     if (name == "Reflection.toMap")
         return field(9, [](auto& scene) { return glm::value_ptr(scene.reflection.to_map); });
     return std::nullopt;
-}
-
-std::optional<evaluate::Image> image_light_map(std::string_view sampler, std::span<const Sample> samples) {
-    if (sampler != "diffuseMap" && sampler != "specularMap") return std::nullopt;
-    const auto maps = std::make_shared<std::vector<oracle::CubeMap>>();
-    for (const Sample& sample : samples)
-        maps->push_back(sampler == "diffuseMap" ? sample.scene.image_light.map : sample.scene.reflection.map);
-    return [maps](const evaluate::ImageRequest& request) -> std::array<double, 4> {
-        const auto& at = request.coordinates;
-        const double length = std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-        const oracle::CubeMap& map = (*maps)[request.invocation];
-        std::array<double, 4> texel = {map.mean.r, map.mean.g, map.mean.b, 1};
-        for (int axis = 0; axis < 3; ++axis)
-            for (int channel = 0; channel < 3; ++channel)
-                texel[static_cast<std::size_t>(channel)] +=
-                    map.slope[axis][channel] * at[static_cast<std::size_t>(axis)] / length;
-        return texel;
-    };
 }
 
 }  // namespace gobo::verify

@@ -1,9 +1,7 @@
-// Image-based light of samples: made, rounded, and handed to a stage.
+// Image-based light of samples: made, rounded, and its fields.
 #pragma once
 
-#include <map>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "verify/feed.hpp"
@@ -19,9 +17,5 @@ void round_image_lights(oracle::Scene& scene);
 
 /// The field of that reflected name: "ImageLight.share". Nothing where there is none.
 [[nodiscard]] std::optional<Field> image_light_field(std::string_view name);
-
-/// The map of the sampler `diffuseMap` or `specularMap`; nothing for another name.
-[[nodiscard]] std::optional<evaluate::Image> image_light_map(std::string_view sampler,
-                                                             std::span<const Sample> samples);
 
 }  // namespace gobo::verify

@@ -112,12 +112,12 @@ Result<bool> leave_out_edges(const Pipeline& pipeline, const Evaluated& both, st
 }
 
 /// What the stage that writes `output` is given at a point.
-Result<PointInputs> given(const Pipeline& pipeline, const evaluate::Invocations& points, StageKind stage,
-                          std::size_t index) {
-    if (stage == StageKind::vertex) return point_inputs(pipeline.vertex, points, index);
+Result<evaluate::EvalPoint> given(const Pipeline& pipeline, const evaluate::Invocations& points,
+                                  StageKind stage, std::size_t index) {
+    if (stage == StageKind::vertex) return evaluate::point_of(pipeline.vertex, points, index);
     const auto fragments = fragments_at_points(pipeline, points);
     if (!fragments) return tl::unexpected(fragments.error());
-    return point_inputs(pipeline.fragment, fragments->invocations, index);
+    return evaluate::point_of(pipeline.fragment, fragments->invocations, index);
 }
 
 Result<bool> describe(const Pipeline& one, const Pipeline& other, const Sides& sides,
@@ -134,9 +134,9 @@ Result<bool> describe(const Pipeline& one, const Pipeline& other, const Sides& s
                                difference.output, difference.component, difference.one, difference.other,
                                difference.limit);
     const StageKind stage = difference.output == "gl_Position" ? StageKind::vertex : StageKind::fragment;
-    Result<PointInputs> here = given(one, sides.one, stage, worst);
+    Result<evaluate::EvalPoint> here = given(one, sides.one, stage, worst);
     if (!here) return tl::unexpected(here.error());
-    Result<PointInputs> there = given(other, sides.other, stage, worst);
+    Result<evaluate::EvalPoint> there = given(other, sides.other, stage, worst);
     if (!there) return tl::unexpected(there.error());
     report.worst = BrokenPoint{stage, std::move(*here), std::move(*there)};
     return true;

@@ -17,8 +17,8 @@ namespace gobo::verify {
 /// The worst point at which a relation does not hold: what the stage that shows it was given on either side.
 struct BrokenPoint {
     StageKind stage = StageKind::fragment;
-    PointInputs one;
-    PointInputs other;
+    evaluate::EvalPoint one;
+    evaluate::EvalPoint other;
 };
 
 /// One relation tried on one permutation.

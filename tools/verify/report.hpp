@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "evaluate/evaluate.hpp"
+#include "evaluate/eval_point.hpp"
 
 namespace gobo::verify {
 
@@ -16,12 +15,6 @@ enum class Precision { fp32, fp64 };
 
 /// "fp32" or "fp64".
 [[nodiscard]] std::string_view name_of(Precision precision);
-
-/// What one invocation was given, by reflected name, component by component.
-struct PointInputs {
-    std::map<std::string, std::vector<double>> inputs;
-    std::map<std::string, std::vector<double>> uniforms;
-};
 
 /// A point where an output is out of tolerance: its worst component.
 struct Failure {
@@ -33,7 +26,7 @@ struct Failure {
     double actual = 0;
     double tolerance = 0;
     double ratio = 0;  ///< of the error to the tolerance; infinite for a NaN
-    PointInputs point;
+    evaluate::EvalPoint point;
 };
 
 /// What is counted, of a stage, a permutation or a whole run.
@@ -59,15 +52,9 @@ inline constexpr std::size_t kWorstPoints = 3;
 /// Keeps the failure if it is among the worst.
 void add_failure(StageReport& report, Failure failure);
 
-/// The inputs of invocation `index`.
-[[nodiscard]] PointInputs point_inputs(const evaluate::Program& program,
-                                       const evaluate::Invocations& invocations, std::size_t index);
-
-/// The failing point as an input file of `gobo eval`: `stage`, `[inputs]` and `[uniforms]` by reflected name,
-/// numbers in full precision. `key` is the permutation's text.
+/// The failing point as an input file of `gobo eval`, numbers in full precision. `key` is the permutation's
+/// text.
 [[nodiscard]] std::string eval_input(const Failure& failure, const std::string& key);
-/// Any point as such a file; `comment` stands above it.
-[[nodiscard]] std::string eval_input(StageKind stage, const PointInputs& point, const std::string& comment);
 
 /// "fp32 fragmentColor[0] is 0.25, should be 0.5 within 1e-06".
 [[nodiscard]] std::string to_text(const Failure& failure);

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
 
 #include <glm/gtc/type_ptr.hpp>
-
-#include "evaluate/images.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -46,17 +43,6 @@ std::optional<Field> shadow_field(std::string_view name) {
     if (name == "].depthShift") return number(&Shadow::depth_shift);
     if (name == "].spread") return number(&Shadow::spread);
     return std::nullopt;
-}
-
-evaluate::Image shadow_maps_of(std::span<const Sample> samples) {
-    const auto maps = std::make_shared<std::vector<evaluate::DepthTexels>>();
-    for (const Sample& sample : samples) {
-        const oracle::DepthMaps& own = sample.scene.maps;
-        maps->push_back({own.width, own.height, own.layers, own.depths});
-    }
-    return [maps](const evaluate::ImageRequest& request) {
-        return evaluate::answer((*maps)[request.invocation], request);
-    };
 }
 
 }  // namespace gobo::verify

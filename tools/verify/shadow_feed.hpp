@@ -1,4 +1,4 @@
-// Hands the shadows of samples to a stage: the block `Shadows` and the sampler `shadowMaps`.
+// The shadows of samples, for the block `Shadows`.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,5 @@ namespace gobo::verify {
 
 /// The field of that reflected name: "Shadows.shadows[2].toMap". Nothing where there is none.
 [[nodiscard]] std::optional<Field> shadow_field(std::string_view name);
-
-/// The maps of the samples as the image of a sampler: each invocation sees those of its own sample.
-[[nodiscard]] evaluate::Image shadow_maps_of(std::span<const Sample> samples);
 
 }  // namespace gobo::verify
