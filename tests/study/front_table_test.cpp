@@ -49,6 +49,7 @@ TEST(FrontTable, HasTheCheapestQualityWithinEachPowerOfTen) {
     EXPECT_EQ(front_table(*rows),
               "| quality | largest error | RMS error | cost, additions | time, ns |\n"
               "|---|---|---|---|---|\n"
+              "| most accurate | 2.0e-07 | 1.0e-08 | 1234 |  |\n"
               "| `power=near` | 8.0e-07 | 2.0e-08 | 1200 |  |\n"
               "| `power=rough` | 0.02 | 0.003 | 900 |  |\n"
               "| `shading=vertex` | 0.3 | 0.1 | 20.4 |  |\n");

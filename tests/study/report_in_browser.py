@@ -96,12 +96,23 @@ def pictures_show(driver):
     assert len(widths) >= 3 and all(width > 0 for width in widths), widths
 
 
+def nothing_is_wider_than_the_page(driver):
+    width, shown = driver.execute_script("const page = document.documentElement; return [page.scrollWidth, page.clientWidth]")
+    assert width <= shown, f"the page is {width} wide, the window shows {shown}"
+
+
+def guards_have_their_prices(driver):
+    rows = driver.find_elements("css selector", "#guards ~ table tr")
+    assert len(rows) > 10 and "ratio" in rows[0].text, "no table of the guards' prices"
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         page = make_report(sys.argv[1], folder)
         with opened(page) as driver:
             for check in (hovering_names_the_key, keyboards_reach_points, picking_shows_one_scatter,
-                          picking_a_feature_dims_the_others, nothing_is_fetched, pictures_show):
+                          picking_a_feature_dims_the_others, nothing_is_fetched, pictures_show,
+                          nothing_is_wider_than_the_page, guards_have_their_prices):
                 check(driver)
                 print("ok", check.__name__.replace("_", " "))
             if len(sys.argv) > 2:

@@ -92,7 +92,7 @@ std::vector<double> ticks_of(const Axis& axis) {
 std::string tick_label(double tick) {
     const double exponent = std::log10(std::abs(tick));
     const bool is_power = tick > 0 && std::abs(exponent - std::round(exponent)) < 1e-9;
-    if (!is_power || (exponent > -2.5 && exponent < 4.5)) return short_number(tick);
+    if (!is_power || (exponent > -2.5 && exponent < 3.5)) return short_number(tick);
     return fmt::format(R"(10<tspan dy="-5" font-size="9">{}{:.0f}</tspan>)", exponent < 0 ? "\u2212" : "",
                        std::abs(exponent));
 }

@@ -124,12 +124,13 @@ std::string value_numbers(const Family& family, const Key& key) {
     return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-/// For each power of ten of the error the cheapest row within it.
+/// The most accurate row, then for each power of ten of the error the cheapest row within it.
 std::vector<const StudyRow*> cheapest_by_decade(const std::vector<const StudyRow*>& front) {
-    std::vector<const StudyRow*> chosen;
+    std::vector<const StudyRow*> chosen = {front.front()};
     for (const StudyRow* row : front) {
+        if (row == front.front()) continue;
         const auto decade = [](const StudyRow& one) { return std::ceil(std::log10(one.error.max)); };
-        if (!chosen.empty() && decade(*chosen.back()) == decade(*row))
+        if (chosen.size() > 1 && decade(*chosen.back()) == decade(*row))
             chosen.back() = row;  // less accurate on the front is cheaper
         else
             chosen.push_back(row);
@@ -175,8 +176,9 @@ std::vector<const StudyRow*> front_of(const std::vector<const StudyRow*>& rows) 
 std::string front_table(const std::vector<StudyRow>& rows) {
     std::vector<const StudyRow*> all;
     for (const StudyRow& row : rows) all.push_back(&row);
-    std::vector<const StudyRow*> lines = cheapest_by_decade(front_of(all));
-    if (lines.size() > kFrontLines) lines.erase(lines.begin(), lines.end() - kFrontLines);
+    std::vector<const StudyRow*> lines = front_of(all);
+    if (!lines.empty()) lines = cheapest_by_decade(lines);
+    if (lines.size() > kFrontLines) lines.erase(lines.begin() + 1, lines.end() - (kFrontLines - 1));
     std::string text =
         "| quality | largest error | RMS error | cost, additions | time, ns |\n|---|---|---|---|---|\n";
     for (const StudyRow* row : lines)

@@ -19,8 +19,8 @@ namespace gobo::study {
 /// At most so many lines are enough to see what a budget buys.
 inline constexpr std::size_t kFrontLines = 6;
 
-/// A table in Markdown, most accurate first: for each power of ten of the error the cheapest quality within
-/// it, each once.
+/// A table in Markdown: the most accurate quality on the front, then for each power of ten of the error the
+/// cheapest within it.
 [[nodiscard]] std::string front_table(const std::vector<StudyRow>& rows);
 
 /// Error against cost. `rate` are the features that say where light is computed: the first one colours the

@@ -42,7 +42,7 @@ using GuardColumns = std::map<std::string, std::size_t>;
 std::optional<GuardColumns> guard_columns(const CsvTable& table) {
     GuardColumns columns;
     for (const char* name :
-         {"guard", "piece", "key", "operations_guarded", "operations_plain", "guarded_us_low", "guarded_us",
+         {"guard", "key", "operations_guarded", "operations_plain", "guarded_us_low", "guarded_us",
           "guarded_us_high", "plain_us_low", "plain_us", "plain_us_high", "renderer"}) {
         const auto index = table.column(name);
         if (!index) return std::nullopt;
@@ -60,12 +60,10 @@ std::vector<std::string> guard_row(const std::vector<std::string>& row, const Gu
     const Spread guarded = spread("guarded_us");
     const Spread plain = spread("plain_us");
     const std::string verdict =
-        guarded.overlaps(plain) ? "no measurable difference" : ratio_text(guarded.median / plain.median);
+        guarded.overlaps(plain) ? "\u2014" : ratio_text(guarded.median / plain.median);
     return {cell("guard"),
-            cell("piece"),
             cell("key"),
-            cell("operations_guarded"),
-            cell("operations_plain"),
+            fmt::format("{} ({})", cell("operations_guarded"), cell("operations_plain")),
             spread_text(guarded),
             spread_text(plain),
             verdict};
@@ -135,9 +133,9 @@ std::map<std::string, Chart> curve_charts(const ReportInput& input) {
 Chart time_chart(const CostAndTime& points, bool of_vertices, bool by_processor) {
     const std::string what = of_vertices ? "vertex" : "fragment";
     Chart chart(fmt::format("Cost against time of a {}", what),
-                axis_for(fmt::format("weighted cost of a {}, in additions", what), false, points.cost),
+                axis_for(fmt::format("weighted cost of a {}, in additions", what), true, points.cost, 1),
                 axis_for(fmt::format("{} time of a {}, ns", by_processor ? "processor" : "elapsed", what),
-                         false, points.nanoseconds),
+                         true, points.nanoseconds, 0.1),
                 560, 360);
     for (std::size_t i = 0; i < points.cost.size(); ++i)
         chart.add({points.cost[i], points.nanoseconds[i], 0, true, 4, "",
@@ -196,8 +194,7 @@ std::string guards_section(const ReportInput& input) {
     std::vector<std::vector<std::string>> rows;
     for (const std::vector<std::string>& row : table.rows) rows.push_back(guard_row(row, *columns));
     return text +
-           html_table({"guard", "piece", "in", "operations", "without", "time, \u00b5s", "without", ""},
-                      rows);
+           html_table({"guard", "in", "operations (without)", "time, \u00b5s", "without", "ratio"}, rows);
 }
 
 Result<std::string> map_figures(const ReportInput& input) {

@@ -45,16 +45,24 @@ std::string control_table(const ReportInput& input, const std::string& renderer)
     return html_table({"effects", "A/A, elapsed", "A/A, processor", "fragments"}, rows);
 }
 
+std::string why_not(bool of_vertices) {
+    if (of_vertices)
+        return ", below 0.9: where light is computed per fragment, vertex stages are all but the same, and "
+               "what a "
+               "vertex costs besides its operations (fetching, clipping, setting up) outweighs them; ranks "
+               "among "
+               "such equals are chance. Shading rates, whose vertex stages do differ, are told apart";
+    return ", below 0.9: the kinds that are counted do not tell apart what the renderer's compiler merges or "
+           "leaves out, or the machine was too busy";
+}
+
 std::string correlation_text(const ReportInput& input, bool of_vertices) {
     const CostAndTime points = cost_against_time(input.study, input.weights, of_vertices);
     const bool by_processor = draws_in_calling_thread(any_timing(input.study)->renderer);
     std::string text = time_chart(points, of_vertices, by_processor).svg();
     text += fmt::format("<p>Rank correlation of cost and time of a {}: {:.2f} over {} permutations{}.</p>\n",
                         of_vertices ? "vertex" : "fragment", points.correlation, points.cost.size(),
-                        points.correlation >= kGoodCorrelation
-                            ? ""
-                            : ", below 0.9: the kinds that are counted do not tell apart what the renderer's "
-                              "compiler merges or leaves out, or the machine was too busy");
+                        points.correlation >= kGoodCorrelation ? "" : why_not(of_vertices));
     return text;
 }
 

@@ -76,10 +76,6 @@ const Slopes& ranked_slopes(const Timing& timing) {
     return draws_in_calling_thread(timing.renderer) ? timing.processor : timing.elapsed;
 }
 
-double ranked_control(const Control& control, const std::string& renderer) {
-    return draws_in_calling_thread(renderer) ? control.processor : control.elapsed;
-}
-
 CostAndTime cost_against_time(const Study& study, const Weights& weights, bool of_vertices) {
     CostAndTime result;
     for (const EffectsResult& effects : study.effects) {

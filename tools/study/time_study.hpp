@@ -35,6 +35,5 @@ struct CostAndTime {
 
 /// The slopes to rank by: see cost_against_time().
 [[nodiscard]] const Slopes& ranked_slopes(const Timing& timing);
-[[nodiscard]] double ranked_control(const Control& control, const std::string& renderer);
 
 }  // namespace gobo::study

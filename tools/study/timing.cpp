@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kFewSlices = 32;
 constexpr int kManySlices = 160;
+/// So many times at most all is timed, until the control holds.
+constexpr int kMostAttempts = 3;
 
 /// Nanoseconds by both clocks.
 struct Instant {
@@ -62,6 +64,11 @@ struct Timed {
     std::optional<DrawList> many;
     std::vector<double> fragment_elapsed, fragment_processor;  ///< slopes, one a round
     std::vector<double> vertex_elapsed, vertex_processor;
+
+    void forget() {
+        for (auto* slopes : {&fragment_elapsed, &fragment_processor, &vertex_elapsed, &vertex_processor})
+            slopes->clear();
+    }
 };
 
 ViewedObject viewed(const View& view) {
@@ -152,6 +159,18 @@ Timing timing_of(const Timed& timed, int rounds, const std::string& renderer) {
             renderer};
 }
 
+/// The last one timed is the second copy of the first.
+TimedGroup group_of(const std::vector<Timed>& all, int rounds, const std::string& renderer) {
+    TimedGroup group;
+    for (const Timed& timed : all) group.timings.push_back(timing_of(timed, rounds, renderer));
+    const Timing control = group.timings.back();
+    group.timings.pop_back();
+    const Timing& first = group.timings.front();
+    group.control = {off(control.elapsed.fragment, first.elapsed.fragment),
+                     off(control.processor.fragment, first.processor.fragment)};
+    return group;
+}
+
 /// An order that is another one in every round, and the same in every run.
 std::vector<std::size_t> order_of(std::size_t count, int round) {
     std::vector<std::size_t> order(count);
@@ -187,6 +206,10 @@ double count_fragments(const Context& context, const DrawList& list) {
     return passed;
 }
 
+double ranked_control(const Control& control, const std::string& renderer) {
+    return draws_in_calling_thread(renderer) ? control.processor : control.elapsed;
+}
+
 Result<TimedGroup> time_variants(const Context& context, const Family& family, const Variants& variants,
                                  const std::vector<Key>& keys, const DrawnScene& scene, int rounds) {
     auto targets = make_targets(context);
@@ -209,16 +232,15 @@ Result<TimedGroup> time_variants(const Context& context, const Family& family, c
     }
     std::vector<double> fragments;
     for (const Timed& timed : all) fragments.push_back(stopwatch.fragments_between(timed));
-    for (int round = 0; round < rounds; ++round)
-        for (const std::size_t i : order_of(all.size(), round))
-            stopwatch.round(all[i], fragments[i], vertices);
     TimedGroup group;
-    for (const Timed& timed : all) group.timings.push_back(timing_of(timed, rounds, context.renderer()));
-    const Timing control = group.timings.back();
-    group.timings.pop_back();
-    const Timing& first = group.timings.front();
-    group.control = {off(control.elapsed.fragment, first.elapsed.fragment),
-                     off(control.processor.fragment, first.processor.fragment)};
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        for (int round = 0; round < rounds; ++round)
+            for (const std::size_t i : order_of(all.size(), round))
+                stopwatch.round(all[i], fragments[i], vertices);
+        group = group_of(all, rounds, context.renderer());
+        if (ranked_control(group.control, context.renderer()) <= kLargestControl) break;
+        for (Timed& timed : all) timed.forget();
+    }
     return group;
 }
 

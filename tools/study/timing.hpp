@@ -55,7 +55,11 @@ void make_timings_repeatable();
 /// The fragments that pass the depth test when the list is drawn to the framebuffer that is bound.
 [[nodiscard]] double count_fragments(const Context& context, const DrawList& list);
 
-/// Times the keys in rounds, each in another order, with a second copy of the first key as the control.
+/// The control of the clock to rank by: see cost_against_time().
+[[nodiscard]] double ranked_control(const Control& control, const std::string& renderer);
+
+/// Times the keys in rounds, each in another order, with a second copy of the first key as the control. Where
+/// that fails, something else ran: all is timed anew, up to twice.
 /// `scene` is drawn at 160 x 120 and 480 x 360 for the fragments, spheres of two tessellations at 16 x 12 for
 /// the vertices.
 [[nodiscard]] Result<TimedGroup> time_variants(const Context& context, const Family& family,
