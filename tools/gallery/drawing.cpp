@@ -76,8 +76,8 @@ class Textures {
 
 Camera gallery_camera() {
     Camera camera;
-    camera.position = {0, 2.5, 4.4};
-    camera.target = {0, -0.12, 0};
+    camera.position = {0, 2.8, 4.3};
+    camera.target = {0, -0.14, 0};
     camera.field_of_view = 0.5;
     camera.far_plane = 50;
     return camera;

@@ -1,7 +1,10 @@
 #include "gallery/make_gallery.hpp"
 
-#include <deque>
-#include <future>
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -20,85 +23,58 @@ namespace {
 /// pixels is a fifth of it.
 constexpr float kWhiteError = 1e-4F;
 
-/// Draws one permutation after the other, since a context is one thread's, while others are evaluated.
+/// An entry, and what there is to say about it; no entry where the permutation could not be drawn.
+struct Finished {
+    std::optional<Entry> entry;
+    Diagnostics diagnostics;
+};
+
+/// Makes entries, by any thread.
 class Maker {
   public:
-    Maker(const Context& context, const Scene& scene, const Family& family, const Composition& composition,
+    Maker(const Scene& scene, const Family& family, const Composition& composition,
           const Validated& validated, const GalleryOptions& options, FileSystem& files)
-        : context_(context),
-          scene_(scene),
+        : scene_(scene),
           family_(family),
           composition_(composition),
           validated_(validated),
           options_(options),
-          files_(files),
-          groups_(family) {
-        gallery_.renderer = context.renderer();
-        gallery_.width = scene.view.width;
-        gallery_.height = scene.view.height;
-        gallery_.white_error = kWhiteError;
-    }
+          files_(files) {}
 
-    void make(const Permutation& permutation) {
-        Interface interface = interface_of(validated_, permutation);
-        Result<Drawing> drawing = draw(context_, scene_, family_, composition_, permutation, interface);
-        add(drawing ? drawing->warnings : drawing.error(), permutation.key);
-        if (!drawing) return;
-        while (under_way_.size() >= static_cast<std::size_t>(std::max(options_.jobs, 1))) finish_first();
-        const auto evaluate = [this, &permutation, interface = std::move(interface),
-                               drawing = std::move(*drawing)] {
-            return entry_of(permutation, interface, drawing);
-        };
-        under_way_.push_back({&permutation.key, std::async(std::launch::async, evaluate)});
+    [[nodiscard]] Finished make(const Context& context, const Permutation& permutation) const {
+        const Interface interface = interface_of(validated_, permutation);
+        const Result<Drawing> drawing = draw(context, scene_, family_, composition_, permutation, interface);
+        if (!drawing) return {std::nullopt, drawing.error()};
+        Finished finished{Entry{}, drawing->warnings};
+        Entry& entry = *finished.entry;
+        entry.key = permutation.key;
+        entry.exposure = exposure_of(drawing->color);
+        entry.actual = picture_name(key_text(family_, entry.key)) + ".png";
+        Result<void> written =
+            write(entry.actual, exposed(drawing->color, static_cast<float>(entry.exposure)));
+        const Result<Evaluation> evaluation = evaluate(permutation, interface, *drawing);
+        if (written && evaluation) written = write_evaluation(*evaluation, entry);
+        if (!written) return {std::nullopt, written.error()};
+        if (!evaluation) add_warnings(evaluation.error(), finished.diagnostics);
+        return finished;
     }
-
-    /// What was made, once all is finished.
-    Gallery finish() {
-        while (!under_way_.empty()) finish_first();
-        return std::move(gallery_);
-    }
-    [[nodiscard]] Diagnostics diagnostics() const { return groups_.result(); }
 
   private:
-    /// An entry, and why it has no evaluation.
-    struct Finished {
-        Entry entry;
-        Diagnostics warnings;
-    };
-
-    struct UnderWay {
-        const Key* key;
-        std::future<Result<Finished>> finished;
-    };
-
-    void finish_first() {
-        Result<Finished> finished = under_way_.front().finished.get();
-        add(finished ? finished->warnings : finished.error(), *under_way_.front().key);
-        if (finished) gallery_.entries.push_back(std::move(finished->entry));
-        under_way_.pop_front();
-    }
-
-    [[nodiscard]] Result<Finished> entry_of(const Permutation& permutation, const Interface& interface,
-                                            const Drawing& drawing) const {
+    [[nodiscard]] Result<Evaluation> evaluate(const Permutation& permutation, const Interface& interface,
+                                              const Drawing& drawing) const {
         const auto spirv = [&](int stage) -> const SpirvModule& {
             return validated_.stages[static_cast<std::size_t>(stage)].spirv;
         };
-        Result<Evaluation> evaluation =
-            evaluate_drawing(drawing, scene_, spirv(permutation.vertex), spirv(permutation.fragment),
-                             interface, options_.weights);
-        Finished finished;
-        Entry& entry = finished.entry;
-        entry.key = permutation.key;
-        entry.exposure = exposure_of(drawing.color);
-        entry.actual = picture_name(key_text(family_, entry.key)) + ".png";
-        Result<void> written =
-            write(entry.actual, exposed(drawing.color, static_cast<float>(entry.exposure)));
-        if (written && evaluation) written = write_evaluation(*evaluation, entry);
-        if (!written) return tl::unexpected(written.error());
-        if (evaluation) return finished;
-        finished.warnings = evaluation.error();
-        for (Diagnostic& warning : finished.warnings) warning.severity = Severity::warning;
-        return finished;
+        return evaluate_drawing(drawing, scene_, spirv(permutation.vertex), spirv(permutation.fragment),
+                                interface, options_.weights);
+    }
+
+    /// What cannot be evaluated is shown all the same.
+    static void add_warnings(Diagnostics errors, Diagnostics& diagnostics) {
+        for (Diagnostic& error : errors) {
+            error.severity = Severity::warning;
+            diagnostics.push_back(std::move(error));
+        }
     }
 
     [[nodiscard]] Result<void> write_evaluation(const Evaluation& evaluation, Entry& entry) const {
@@ -124,33 +100,64 @@ class Maker {
         return {};
     }
 
-    void add(const Diagnostics& diagnostics, const Key& key) {
-        for (const Diagnostic& diagnostic : diagnostics) groups_.add(diagnostic, key);
-    }
-
-    const Context& context_;
     const Scene& scene_;
     const Family& family_;
     const Composition& composition_;
     const Validated& validated_;
     const GalleryOptions& options_;
     FileSystem& files_;
-    DiagnosticGroups groups_;
-    Gallery gallery_;
-    std::deque<UnderWay> under_way_;
 };
+
+/// All permutations, in their order, and what drew them.
+struct All {
+    std::vector<Finished> finished;
+    std::string renderer;
+};
+
+All make_all(const Maker& maker, const GalleryOptions& options,
+             const std::vector<Permutation>& permutations) {
+    All all;
+    all.finished.resize(permutations.size());
+    std::atomic<std::size_t> next = 0;
+    std::mutex renderer;
+    const auto work = [&] {
+        const Result<Context> context = open_context(options.backend);
+        for (std::size_t i = next++; i < permutations.size(); i = next++)
+            all.finished[i] =
+                context ? maker.make(*context, permutations[i]) : Finished{std::nullopt, context.error()};
+        const std::lock_guard<std::mutex> lock(renderer);
+        if (context) all.renderer = context->renderer();
+    };
+    std::vector<std::jthread> threads;
+    const std::size_t jobs =
+        std::min(static_cast<std::size_t>(std::max(options.jobs, 1)), permutations.size());
+    for (std::size_t i = 0; i < jobs; ++i) threads.emplace_back(work);
+    threads.clear();  // joins
+    return all;
+}
 
 }  // namespace
 
-MadeGallery make_gallery(const Context& context, const Scene& scene, const Family& family,
-                         const Composition& composition, const Validated& validated,
-                         const GalleryOptions& options, FileSystem& files, const FileSystem& shipped) {
-    Maker maker(context, scene, family, composition, validated, options, files);
-    for (const Permutation& permutation : composition.permutations) maker.make(permutation);
-    Gallery gallery = maker.finish();
+MadeGallery make_gallery(const Scene& scene, const Family& family, const Composition& composition,
+                         const Validated& validated, const GalleryOptions& options, FileSystem& files,
+                         const FileSystem& shipped) {
+    const Maker maker(scene, family, composition, validated, options, files);
+    All all = make_all(maker, options, composition.permutations);
+    Gallery gallery;
+    gallery.renderer = all.renderer;
+    gallery.width = scene.view.width;
+    gallery.height = scene.view.height;
+    gallery.white_error = kWhiteError;
     gallery.cost_renderer = options.weights.renderer;
+    DiagnosticGroups groups(family);
+    std::vector<Finished>& finished = all.finished;
+    for (std::size_t i = 0; i < finished.size(); ++i) {
+        for (const Diagnostic& diagnostic : finished[i].diagnostics)
+            groups.add(diagnostic, composition.permutations[i].key);
+        if (finished[i].entry) gallery.entries.push_back(std::move(*finished[i].entry));
+    }
     MadeGallery made;
-    made.diagnostics = maker.diagnostics();
+    made.diagnostics = groups.result();
     const Result<std::string> text = page(shipped, family, gallery);
     const std::string path = options.folder + "/index.html";
     const Result<bool> written = text ? files.write(path, *text) : tl::unexpected(text.error());

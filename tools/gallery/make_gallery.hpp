@@ -14,7 +14,8 @@ namespace gobo::gallery {
 struct GalleryOptions {
     std::string folder;
     study::Weights weights;
-    int jobs = 1;  ///< pictures evaluated at once; one is drawn meanwhile
+    Backend backend = Backend::osmesa;
+    int jobs = 1;  ///< threads, each with a context of its own: drivers compile long shaders for seconds
 };
 
 /// The files written: the page, then the picture of each key that could be drawn. A permutation that fails
@@ -26,7 +27,7 @@ struct MadeGallery {
 
 /// Writes index.html, and beside it three PNG files for each key, named after it: drawn, expected, and how
 /// they differ. `validated` must hold the SPIR-V of every stage; `shipped` holds the page's template.
-[[nodiscard]] MadeGallery make_gallery(const Context& context, const Scene& scene, const Family& family,
+[[nodiscard]] MadeGallery make_gallery(const Scene& scene, const Family& family,
                                        const Composition& composition, const Validated& validated,
                                        const GalleryOptions& options, FileSystem& files,
                                        const FileSystem& shipped);

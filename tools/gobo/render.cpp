@@ -116,8 +116,8 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     const auto environment = environment_for(world, options.environment, options.common.jobs, interfaces);
     if (!environment) return tl::unexpected(environment.error());
     if (makes_page(options))
-        return render_gallery(world, options.common, context, family.family, *composition, *validated,
-                              {*mesh, pictures.view, pictures.folder, *environment});
+        return render_gallery(world, options.common, family.family, *composition, *validated,
+                              {*mesh, pictures.view, pictures.folder, context.backend(), *environment});
     DepthPass depth_pass;
     if (has_shadows(family.family, *composition)) {
         auto loaded = load_depth_pass(world, options.common);
@@ -169,10 +169,12 @@ Outcome run(const RenderOptions& options, const World& world) {
     const auto rendered = render_both(options, world, *family, *dialect, *context, *pictures);
     if (!rendered) return failed(rendered.error());
     const std::string files = rendered->files.empty() ? "" : join(rendered->files, "\n") + "\n";
+    const auto drawn = std::count_if(rendered->files.begin(), rendered->files.end(),
+                                     [](const std::string& file) { return !file.ends_with("/index.html"); });
     return {files, rendered->diagnostics,
-            fmt::format("{} picture{} of {} x {} by {}", rendered->files.size(),
-                        rendered->files.size() == 1 ? "" : "s", pictures->view.width / pictures->smooth,
-                        pictures->view.height / pictures->smooth, context->renderer())};
+            fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
+                        pictures->view.width / pictures->smooth, pictures->view.height / pictures->smooth,
+                        context->renderer())};
 }
 
 }  // namespace

@@ -13,9 +13,8 @@ constexpr int kShadowSide = 512;
 }  // namespace
 
 Result<RenderedSelection> render_gallery(const World& world, const CommonOptions& options,
-                                         const Context& context, const Family& family,
-                                         const Composition& composition, const Validated& validated,
-                                         GallerySetting setting) {
+                                         const Family& family, const Composition& composition,
+                                         const Validated& validated, GallerySetting setting) {
     gallery::Scene scene;
     scene.objects = demo_objects(std::move(setting.mesh));
     scene.view = setting.view;
@@ -28,12 +27,13 @@ Result<RenderedSelection> render_gallery(const World& world, const CommonOptions
     }
     gallery::GalleryOptions gallery_options;
     gallery_options.folder = setting.folder;
+    gallery_options.backend = setting.backend;
     gallery_options.jobs = options.jobs;
     auto weights = load_weights(world, "");
     if (!weights) return tl::unexpected(weights.error());
     gallery_options.weights = std::move(*weights);
-    auto made = gallery::make_gallery(context, scene, family, composition, validated, gallery_options,
-                                      world.disk, world.shipped);
+    auto made = gallery::make_gallery(scene, family, composition, validated, gallery_options, world.disk,
+                                      world.shipped);
     return RenderedSelection{std::move(made.files), std::move(made.diagnostics)};
 }
 

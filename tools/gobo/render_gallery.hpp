@@ -13,13 +13,13 @@ struct GallerySetting {
     Mesh mesh;
     View view;
     std::string folder;
+    Backend backend = Backend::osmesa;
     CubeImages environment;  ///< empty where no key looks any up
 };
 
 /// Draws and evaluates every permutation. `validated` must hold the SPIR-V of every stage.
 [[nodiscard]] Result<RenderedSelection> render_gallery(const World& world, const CommonOptions& options,
-                                                       const Context& context, const Family& family,
-                                                       const Composition& composition,
+                                                       const Family& family, const Composition& composition,
                                                        const Validated& validated, GallerySetting setting);
 
 }  // namespace gobo
