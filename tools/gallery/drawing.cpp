@@ -1,11 +1,13 @@
 #include "gallery/drawing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "evaluate/color_texels.hpp"
 #include "evaluate/images.hpp"
-#include "evaluate/texel_images.hpp"
 #include "render/cube_maps.hpp"
 #include "render/lit_shadows.hpp"
 
@@ -24,15 +26,27 @@ evaluate::Image depths_of(const ShadowMaps& maps, int side, int layers) {
     return [texels](const evaluate::ImageRequest& request) { return evaluate::answer(*texels, request); };
 }
 
+/// The picture's texels, opaque where it has no alpha.
+std::vector<std::array<float, 4>> colors_of(const Image& image) {
+    std::vector<std::array<float, 4>> colors;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            std::array<float, 4>& color = colors.emplace_back(std::array<float, 4>{0, 0, 0, 1});
+            for (int channel = 0; channel < image.channels; ++channel)
+                color[static_cast<std::size_t>(channel)] = image.at(x, y, channel);
+        }
+    return colors;
+}
+
 evaluate::Image cube_of(const Image& faces) {
-    const auto texels = std::make_shared<evaluate::CubeTexels>(
-        evaluate::CubeTexels{faces.width, faces.channels, faces.values});
+    const auto texels =
+        std::make_shared<evaluate::CubeTexels>(evaluate::CubeTexels{faces.width, colors_of(faces)});
     return [texels](const evaluate::ImageRequest& request) { return evaluate::answer(*texels, request); };
 }
 
 evaluate::Image flat_of(const Image& image) {
     const auto texels = std::make_shared<evaluate::ColorTexels>(
-        evaluate::ColorTexels{image.width, image.height, image.values});
+        evaluate::ColorTexels{image.width, image.height, colors_of(image)});
     return [texels](const evaluate::ImageRequest& request) { return evaluate::answer(*texels, request); };
 }
 
