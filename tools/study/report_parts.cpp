@@ -186,10 +186,10 @@ std::string guards_section(const ReportInput& input) {
     if (!columns || table.rows.empty())
         return text + "<div class=\"wide\">" + html_table(table.columns, table.rows) + "</div>\n";
     text += fmt::format(
-        "<p>What keeps hard inputs from undefined operations, each guard with it and without: operations of "
+        "<p>What keeps hard inputs from undefined operations, with each guard and without it: operations of "
         "an "
-        "invocation, and microseconds of a draw (median, middle half) on {}. Rows of "
-        "docs/data/guard_prices.csv.</p>\n",
+        "invocation, and microseconds of a draw (median, middle half) on {}. A dash: no measurable "
+        "difference. Rows of docs/data/guard_prices.csv.</p>\n",
         escaped(table.rows.front()[columns->at("renderer")]));
     std::vector<std::vector<std::string>> rows;
     for (const std::vector<std::string>& row : table.rows) rows.push_back(guard_row(row, *columns));
