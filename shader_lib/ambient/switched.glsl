@@ -2,6 +2,7 @@
 //
 // Model:  that of the chosen light.
 // Source: as the lights'. Edges: as the lights'; an unknown number is light from everywhere alike.
+// Range:  as the lights'.
 #include "ambient/global.glsl" with ambientLight as globalLight
 #include "ambient/hemisphere.glsl" with ambientLight as hemisphereLight
 #include "ambient/image.glsl" with ambientLight as lightOfImage

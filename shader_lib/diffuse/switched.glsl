@@ -3,6 +3,7 @@
 // Model:  that of the chosen law.
 // Source: as the laws'.
 // Range:  as the laws'; an unknown number is Lambert's law.
+// Edges:  as the laws'.
 #include "diffuse/unlimited.glsl" with beginDiffuse as beginUnlimited, limitedDiffuse as unlimitedDiffuse
 #include "diffuse/lambert.glsl" with diffuseTerm as lambertTerm
 #include "diffuse/toon.glsl" with diffuseTerm as toonTerm

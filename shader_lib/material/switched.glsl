@@ -2,6 +2,7 @@
 //
 // Model:  the table's first row serves a whole draw.
 // Source: as the table's. Edges: as the table's; an unknown number is one material.
+// Range:  as the materials'.
 #include "material/array.glsl" with chooseMaterial as chooseRow
 #include "uber/switches.glsl"
 

@@ -1,6 +1,7 @@
 // Shadows of point lights (S15): the first POINT_SHADOWS of them have six maps each, the faces of a cube.
 //
 // Model, source, edges: cubeVisibility().
+// Range:  eye space; result 0 to 1.
 #include "shadow/parameters.glsl"
 #include "shadow/six_maps.glsl"
 

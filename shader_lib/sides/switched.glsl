@@ -1,5 +1,6 @@
 // One side or two, as a switch has it (L8, S11).
 //
+// Model:  that of the chosen sides.
 // Source, space, edges: as the sides'.
 #include "sides/one.glsl" with visibleNormal as normalOfFront
 #include "sides/two.glsl" with visibleNormal as normalOfSide

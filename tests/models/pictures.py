@@ -8,11 +8,15 @@ import tempfile
 import tomllib
 
 
-def draw(gobo, family, key, picture):
-    with tempfile.TemporaryDirectory() as folder:
-        command = [gobo, "render", family, "--key", key, "--size", "200x150", "--smooth", "4", "-o", folder, "-q"]
-        drawn = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
-        shutil.move(drawn, picture)
+def draw(gobo, family, models, folder):
+    """The pictures of a family's models, by one command. Files are named after keys, long ones by a hash: those are drawn alone."""
+    with tempfile.TemporaryDirectory() as drawn:
+        keys = [option for model in models.values() for option in ("--key", model["key"])]
+        command = [gobo, "render", family, *keys, "--size", "200x150", "--smooth", "4", "-o", drawn, "-q"]
+        files = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.split()
+        for name, model in models.items():
+            picture = files[0] if len(files) == 1 else f"{drawn}/{model['key'].replace('=', '-').replace(' ', '+')}.png"
+            shutil.copy(picture, folder / f"{name}.png")
 
 
 def main():
@@ -20,8 +24,8 @@ def main():
     models = tomllib.loads((root / "docs/models.toml").read_text())
     folder = root / "docs/pictures/models"
     folder.mkdir(parents=True, exist_ok=True)
-    for name, model in models.items():
-        draw(gobo, model.get("family", "lit"), model["key"], folder / f"{name}.png")
+    for family in sorted({model.get("family", "lit") for model in models.values()}):
+        draw(gobo, family, {name: model for name, model in models.items() if model.get("family", "lit") == family}, folder)
 
 
 main()
