@@ -15,7 +15,7 @@ body {{ margin: 0; padding: 10px; background: #14161a; color: #e8eaee; font: 13p
   grid-template-columns: repeat({COLUMNS}, 200px); gap: 10px; width: max-content; }}
 figure {{ margin: 0; }}
 img {{ display: block; width: 200px; height: 150px; border-radius: 5px; }}
-figcaption {{ padding: 4px 2px 0; white-space: nowrap; overflow: hidden; color: #a3abb8; font-size: 11px; }}
+figcaption {{ padding: 4px 2px 0; color: #a3abb8; font-size: 11px; }}
 b {{ color: #fff; font-size: 13px; }}
 """
 
