@@ -30,9 +30,10 @@ std::string page_of(const Model& model) {
 TEST(ModelsPage, GivesTheLargestErrorsOfAllPermutationsThatHaveTheModel) {
     EXPECT_THAT(
         page_of(kFog),
-        HasSubstr(
-            "| F1 | linear fog | `lit: fog=linear` | [fog/linear.glsl](../shader_lib/fog/linear.glsl) | "
-            "![F1](pictures/models/F1.png) | 1.0e-07 | 4.0e-16 | 111 points, 2 permutations |\n"));
+        HasSubstr("| F1 | linear fog | `lit: fog=linear` | [fog/blend.glsl](../shader_lib/fog/blend.glsl), "
+                  "[fog/linear.glsl](../shader_lib/fog/linear.glsl), "
+                  "[fog/parameters.glsl](../shader_lib/fog/parameters.glsl) | "
+                  "![F1](pictures/models/F1.png) | 1.0e-07 | 4.0e-16 | 111 points, 2 permutations |\n"));
 }
 
 TEST(ModelsPage, RefusesWhatItCannotShow) {
