@@ -8,11 +8,21 @@
 #include "lit_library.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
+#include "verify/random.hpp"
 
 namespace gobo {
 namespace {
 
 using verify::PictureReport;
+
+/// A cube map whose every texel is another colour, all mild.
+Image patchwork() {
+    constexpr int kSide = 8;
+    Image faces(kSide, 6 * kSide, 3);
+    verify::Random random(5);
+    for (float& value : faces.values) value = static_cast<float>(random.between(0.3, 0.5));
+    return faces;
+}
 
 verify::WitnessScene scene_of(const Family& family) {
     verify::WitnessScene scene;
@@ -20,6 +30,7 @@ verify::WitnessScene scene_of(const Family& family) {
     scene.values = family.render;
     scene.view.camera = demo_camera();
     scene.view.width = scene.view.height = 64;
+    for (const char* sampler : {"diffuseMap", "specularMap"}) scene.cubes[sampler] = patchwork();
     return scene;
 }
 
@@ -37,7 +48,7 @@ Result<PictureReport> compare(const std::string& key, const Overlay& overlay) {
     const Validated validated = validate(family, *evaluated, options);
     const Result<Context> context = open_context(Backend::osmesa);
     if (!context) return tl::unexpected(context.error());
-    return verify::witness(*context, *drawn, validated, scene_of(family), 1).front();
+    return verify::witness(*context, *drawn, validated, scene_of(family), 1).pictures.front();
 }
 
 struct Disagreement {
@@ -55,6 +66,13 @@ constexpr Disagreement disagreements[] = {
      "-surfacePosition().z"},
     {"a normal not normalised", "directional=1", "surface/normal.frag.glsl", "shadingDirection(eyeNormal)",
      "eyeNormal"},
+    {"an environment turned the wrong way", "ambient=image", "ambient/image.glsl",
+     "imageLight.toMap * visibleNormal()", "visibleNormal() * imageLight.toMap"},
+    {"a mirrored ray turned about", "reflection=image", "reflection/image.glsl", "reflect(-viewer, normal)",
+     "reflect(viewer, normal)"},
+    {"holes of the wrong texels", "cutout=threshold", "cutout/threshold.glsl",
+     "texture(opacityMap, surfaceTextureCoordinate())",
+     "texture(opacityMap, surfaceTextureCoordinate() + 0.125)"},
     {"depth moved the wrong way", "depth=greater directional=1", "depth/greater.glsl",
      "gl_FragCoord.z + away", "1.0 - gl_FragCoord.z"},
 };
@@ -79,7 +97,8 @@ TEST(Witness, FindsDisagreements) {
 TEST(Witness, PassesWhatAgreesAndHasSeenTheScene) {
     for (const std::string key :
          {"directional=1 point=1 specular=blinn", "shading=vertex spot=1 specular=phong",
-          "depth=any diffuse=toon fog=exponential point=2"}) {
+          "depth=any diffuse=toon fog=exponential point=2", "ambient=image reflection=image",
+          "cutout=threshold"}) {
         const Result<PictureReport> report = compare(key, {});
         ASSERT_TRUE(report) << to_text(report.error().front());
         ASSERT_TRUE(report->diagnostics.empty()) << to_text(report->diagnostics.front());

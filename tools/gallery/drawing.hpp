@@ -24,9 +24,9 @@ struct Scene {
 [[nodiscard]] Camera gallery_camera();
 
 struct Drawing {
-    Image color;                                    ///< linear radiance
-    std::vector<RenderValue> values;                ///< of the uniforms, those of the shadow maps among them
-    std::map<std::string, evaluate::Image> images;  ///< what the samplers answer, texel for texel
+    Image color;                      ///< linear radiance
+    std::vector<RenderValue> values;  ///< of the uniforms, those of the shadow maps among them
+    evaluate::Images images;          ///< what the samplers answer, texel for texel
     Diagnostics warnings;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "verify/render_feed.hpp"
 #include "verify/software_picture.hpp"
 
 namespace gobo::gallery {
@@ -25,21 +26,24 @@ Result<void> add_costs(const verify::SoftwareProgram& program, const verify::Sof
 Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, const SpirvModule& vertex,
                                     const SpirvModule& fragment, const Interface& interface,
                                     const study::Weights& weights) {
-    verify::WitnessScene seen;
-    seen.objects = scene.objects;
-    seen.values = drawing.values;
-    seen.view = scene.view;
-    seen.images = drawing.images;
-    seen.keeps_pictures = true;
-    Evaluation evaluation;
-    evaluation.report = verify::compare_picture(drawing.color, vertex, fragment, interface, seen);
-    if (!evaluation.report.diagnostics.empty()) return tl::unexpected(evaluation.report.diagnostics);
-
     const Result<verify::SoftwareProgram> program = verify::software_program(vertex, fragment);
     if (!program) return tl::unexpected(program.error());
-    seen.view.width = kCostWidth;
-    seen.view.height = kCostHeight;
-    const auto objects = verify::rasterise_scene(*program, interface, seen);
+    const auto objects_in = [&](const View& view) {
+        return verify::rasterise_objects(*program, interface, scene.objects,
+                                         verify::with_plain_textures(interface, drawing.values), view,
+                                         drawing.images);
+    };
+    const auto seen = objects_in(scene.view);
+    if (!seen) return tl::unexpected(seen.error());
+    Evaluation evaluation;
+    evaluation.report = verify::compare_picture(drawing.color, *program, *seen, scene.view.background,
+                                                verify::KeptPictures::all);
+    if (!evaluation.report.diagnostics.empty()) return tl::unexpected(evaluation.report.diagnostics);
+
+    View small = scene.view;
+    small.width = kCostWidth;
+    small.height = kCostHeight;
+    const auto objects = objects_in(small);
     if (!objects) return tl::unexpected(objects.error());
     verify::Work work;
     std::size_t fragments = 0;

@@ -4,7 +4,7 @@
 #include "gallery/drawing.hpp"
 #include "study/weights.hpp"
 #include "validate/validated.hpp"
-#include "verify/witness.hpp"
+#include "verify/compare_picture.hpp"
 
 namespace gobo::gallery {
 

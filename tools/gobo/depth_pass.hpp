@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gobo/command.hpp"
-#include "render/shadow_maps.hpp"
+#include "verify/shadow_witness.hpp"
 
 namespace gobo {
 
@@ -11,5 +11,7 @@ namespace gobo {
 
 /// The default key of the family `depth`, from where families and pieces are found.
 [[nodiscard]] Result<DepthPass> load_depth_pass(const World& world, const CommonOptions& options);
+/// The same with what evaluates it.
+[[nodiscard]] Result<verify::ShadowPass> load_shadow_pass(const World& world, const CommonOptions& options);
 
 }  // namespace gobo

@@ -202,7 +202,7 @@ Outcome run(const TestOptions& options, const World& world) {
     const Composition* composition = &subjects->composition;
     if (options.witness.render)
         return run_witness(world, options.witness, family->family, *composition, options.folder,
-                           options.common.jobs);
+                           options.common);
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
     validate_options.keep_spirv = true;

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "family/key.hpp"
+#include "gobo/depth_pass.hpp"
+#include "gobo/environment.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
 #include "verify/witness.hpp"
@@ -18,9 +20,22 @@ constexpr int kSide = 64;
 /// A difference of this much is white in the picture of differences.
 constexpr float kWhiteDifference = 1e-3F;
 
+/// The side of a shadow map: coarse, so that many edges of its texels are seen.
+constexpr int kMapSide = 64;
+
+bool looks_up_environment(const Validated& validated) {
+    return std::any_of(validated.stages.begin(), validated.stages.end(), [](const ValidatedStage& stage) {
+        const auto& samplers = stage.interface.samplers;
+        return std::any_of(samplers.begin(), samplers.end(), [](const Sampler& sampler) {
+            return sampler.name == "diffuseMap" || sampler.name == "specularMap";
+        });
+    });
+}
+
 /// The scene that `gobo render` shows, smaller: at this size interpolation in floats is known to be exact
 /// enough (verify::kInterpolationError).
-Result<verify::WitnessScene> make_scene(const World& world, const Family& family) {
+Result<verify::WitnessScene> make_scene(const World& world, const Family& family, const Validated& validated,
+                                        int jobs) {
     Result<Mesh> teapot = read_obj(world.shipped, "data/meshes/teapot.obj");
     if (!teapot) return tl::unexpected(teapot.error());
     verify::WitnessScene scene;
@@ -29,6 +44,10 @@ Result<verify::WitnessScene> make_scene(const World& world, const Family& family
     scene.family = &family;
     scene.view.camera = demo_camera();
     scene.view.width = scene.view.height = kSide;
+    if (!looks_up_environment(validated)) return scene;
+    auto cubes = load_environment(world, {}, jobs);
+    if (!cubes) return tl::unexpected(cubes.error());
+    scene.cubes = std::move(*cubes);
     return scene;
 }
 
@@ -84,6 +103,31 @@ std::string totals_text(const Totals& totals, std::size_t permutations, const st
         permutations, renderer, totals.largest_error, totals.root_mean_square);
 }
 
+void add(const verify::PictureReport& picture, Totals& totals) {
+    totals.largest_error = std::max(totals.largest_error, picture.largest_error);
+    totals.root_mean_square = std::max(totals.root_mean_square, picture.root_mean_square);
+    totals.largest_ratio = std::max(totals.largest_ratio, picture.largest_ratio);
+    totals.pixels += picture.pixels;
+    totals.drawn += picture.drawn;
+    totals.edges += picture.edges;
+}
+
+/// What became of the shadow maps; nothing where none were drawn.
+std::string maps_text(const std::optional<verify::ShadowMapReport>& report, Diagnostics& diagnostics) {
+    if (!report) return {};
+    diagnostics.insert(diagnostics.end(), report->diagnostics.begin(), report->diagnostics.end());
+    if (report->fails()) {
+        const std::string message =
+            fmt::format("{} of the {} texels of shadow maps are not what the evaluation gives, {} at an edge",
+                        report->wrong, report->texels, report->edges);
+        const Diagnostics failed = fail(Fault::input, message).value();
+        diagnostics.insert(diagnostics.end(), failed.begin(), failed.end());
+    }
+    return fmt::format(
+        "{} shadow maps of {} x {} texels, {} decided at an edge; at most {:.2f} of the limit\n",
+        report->maps, kMapSide, kMapSide, report->edges, report->largest_ratio);
+}
+
 }  // namespace
 
 CLI::Option* add_witness_options(CLI::App& app, WitnessOptions& options) {
@@ -98,35 +142,40 @@ CLI::Option* add_witness_options(CLI::App& app, WitnessOptions& options) {
 }
 
 Outcome run_witness(const World& world, const WitnessOptions& options, const Family& family,
-                    const Composition& composition, const std::string& folder, int jobs) {
+                    const Composition& composition, const std::string& folder, const CommonOptions& common) {
     const Result<Backend> backend = backend_of(options.backend);
     if (!backend) return failed(backend.error());
-    const Result<verify::WitnessScene> scene = make_scene(world, family);
-    if (!scene) return failed(scene.error());
     ValidateOptions validate_options;
-    validate_options.jobs = jobs;
+    validate_options.jobs = common.jobs;
     validate_options.keep_spirv = true;
     Validated validated = validate(family, composition, validate_options);
     if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
+    Result<verify::WitnessScene> scene = make_scene(world, family, validated, common.jobs);
+    if (!scene) return failed(scene.error());
+    verify::ShadowPass shadow_pass;
+    if (has_shadows(family, composition)) {
+        auto loaded = load_shadow_pass(world, common);
+        if (!loaded) return failed(loaded.error());
+        shadow_pass = std::move(*loaded);
+        shadow_pass.pass.side = kMapSide;
+        scene->shadow_pass = &shadow_pass;
+    }
     const Result<Context> context = open_context(*backend);
     if (!context) return failed(context.error());
+    const verify::WitnessReport report =
+        verify::witness(*context, composition, validated, *scene, common.jobs);
     Outcome outcome;
+    outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     Totals totals;
-    for (const verify::PictureReport& report :
-         verify::witness(*context, composition, validated, *scene, jobs)) {
-        const std::string key = key_text(family, report.key);
-        Diagnostics problems = report.diagnostics;
+    for (const verify::PictureReport& picture : report.pictures) {
+        const std::string key = key_text(family, picture.key);
+        Diagnostics problems = picture.diagnostics;
         for (Diagnostic& problem : problems) problem.subject = key;
-        if (report.fails()) problems = report_failure(world, folder, key, report);
+        if (picture.fails()) problems = report_failure(world, folder, key, picture);
         outcome.diagnostics.insert(outcome.diagnostics.end(), problems.begin(), problems.end());
-        totals.largest_error = std::max(totals.largest_error, report.largest_error);
-        totals.root_mean_square = std::max(totals.root_mean_square, report.root_mean_square);
-        totals.largest_ratio = std::max(totals.largest_ratio, report.largest_ratio);
-        totals.pixels += report.pixels;
-        totals.drawn += report.drawn;
-        totals.edges += report.edges;
+        add(picture, totals);
     }
-    outcome.output = totals_text(totals, composition.permutations.size(), context->renderer());
+    outcome.output += totals_text(totals, composition.permutations.size(), context->renderer());
     return outcome;
 }
 

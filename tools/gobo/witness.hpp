@@ -17,6 +17,7 @@ CLI::Option* add_witness_options(CLI::App& app, WitnessOptions& options);
 /// Draws every permutation and holds each picture against its evaluation. A picture that fails is an error
 /// for its key, and three images in `folder`.
 [[nodiscard]] Outcome run_witness(const World& world, const WitnessOptions& options, const Family& family,
-                                  const Composition& composition, const std::string& folder, int jobs);
+                                  const Composition& composition, const std::string& folder,
+                                  const CommonOptions& common);
 
 }  // namespace gobo

@@ -13,13 +13,6 @@
 namespace gobo {
 namespace {
 
-/// The value given last to that name.
-const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
-    const auto found = std::find_if(values.rbegin(), values.rend(),
-                                    [&](const RenderValue& value) { return value.name == name; });
-    return found == values.rend() ? nullptr : &*found;
-}
-
 Diagnostic warning(std::string message, std::string remedy) {
     Diagnostic diagnostic;
     diagnostic.severity = Severity::warning;
@@ -62,6 +55,12 @@ void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::stri
 }
 
 }  // namespace
+
+const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
+    const auto found = std::find_if(values.rbegin(), values.rend(),
+                                    [&](const RenderValue& value) { return value.name == name; });
+    return found == values.rend() ? nullptr : &*found;
+}
 
 bool Object::is_mirrored() const {
     return glm::determinant(glm::dmat3(model)) < 0;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/mesh.hpp"
@@ -23,6 +24,9 @@ struct Object {
     /// Whether the model matrix turns counter-clockwise faces into clockwise ones.
     [[nodiscard]] bool is_mirrored() const;
 };
+
+/// The value given last to that name, or null.
+[[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
 
 /// Textures that are there already, by the name of their sampler; whoever made them deletes them.
 using GivenTextures = std::map<std::string, Texture>;

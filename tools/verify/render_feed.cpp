@@ -11,13 +11,6 @@
 namespace gobo::verify {
 namespace {
 
-/// The value given last to that name.
-const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
-    const auto found = std::find_if(values.rbegin(), values.rend(),
-                                    [&](const RenderValue& value) { return value.name == name; });
-    return found == values.rend() ? nullptr : &*found;
-}
-
 bool has_port(const std::vector<evaluate::Port>& ports, const std::string& name) {
     return std::any_of(ports.begin(), ports.end(),
                        [&](const evaluate::Port& port) { return port.name == name; });

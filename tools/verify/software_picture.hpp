@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "render/render.hpp"
@@ -44,21 +45,24 @@ struct SoftwareObject {
 
 /// Evaluates the vertex stage for one object and rasterises it, without the faces that it culls. `values` are
 /// the family's, the object's own come after them; `view` is the camera's part, the model matrix is the
-/// object's.
+/// object's. Samplers that `images` names ask those, others hold the colour that `values` say.
 [[nodiscard]] Result<SoftwareObject> rasterise_object(const SoftwareProgram& program,
                                                       const Interface& interface, const Object& object,
                                                       const std::vector<RenderValue>& values,
-                                                      ViewedObject view);
+                                                      ViewedObject view, const evaluate::Images& images = {});
 
 /// The same for every object of a picture. `values` and `view` as of render_permutation().
-[[nodiscard]] Result<std::vector<SoftwareObject>> rasterise_objects(const SoftwareProgram& program,
-                                                                    const Interface& interface,
-                                                                    const std::vector<Object>& objects,
-                                                                    const std::vector<RenderValue>& values,
-                                                                    const View& view);
+[[nodiscard]] Result<std::vector<SoftwareObject>> rasterise_objects(
+    const SoftwareProgram& program, const Interface& interface, const std::vector<Object>& objects,
+    const std::vector<RenderValue>& values, const View& view, const evaluate::Images& images = {});
 
-/// The fragment stage's inputs and uniforms, one invocation for each fragment of the object, interpolated from
-/// the vertex stage's outputs in fp64.
+/// The object with only those of its fragments for whose pixel `is_wanted(x, y)` says so, and the vertices of
+/// their triangles.
+[[nodiscard]] SoftwareObject part_of(const SoftwareProgram& program, const SoftwareObject& object,
+                                     const std::function<bool(int, int)>& is_wanted);
+
+/// The fragment stage's inputs and uniforms, one invocation for each fragment of the object, interpolated
+/// from the vertex stage's outputs in fp64.
 [[nodiscard]] Result<evaluate::Invocations> exact_fragment_inputs(const SoftwareProgram& program,
                                                                   const SoftwareObject& object);
 
@@ -68,8 +72,8 @@ struct Work {
     evaluate::Counts fragments{};
 };
 
-/// Shades every fragment of the object, both stages in arithmetic of T: float or double. Adds to `work` unless
-/// it is null.
+/// Shades every fragment of the object, both stages in arithmetic of T: float or double. Adds to `work`
+/// unless it is null.
 template <class T>
 [[nodiscard]] Result<std::vector<Shaded>> shade_in(const SoftwareProgram& program,
                                                    const SoftwareObject& object, Work* work = nullptr);
