@@ -17,8 +17,13 @@ struct Depth {
     bool is_covered = false;
 };
 
-/// How far polygon offset moves a triangle: OpenGL 4.5, 14.6.5, of a depth buffer of floats.
-double offset_of(const SoftwareObject& object, std::uint32_t triangle, const DepthPass& pass) {
+/// How a triangle's depth changes from texel to texel, and how far polygon offset moves it:
+/// OpenGL 4.5, 14.6.5, of a depth buffer of floats.
+struct Slope {
+    double per_texel = 0;
+    double offset = 0;
+};
+Slope slope_of(const SoftwareObject& object, std::uint32_t triangle, const DepthPass& pass) {
     std::array<glm::dvec4, 3> corners;
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -31,7 +36,7 @@ double offset_of(const SoftwareObject& object, std::uint32_t triangle, const Dep
         std::max(std::abs(interpolator.at(1, 0).depth - here), std::abs(interpolator.at(0, 1).depth - here));
     int exponent = 0;
     (void)std::frexp(largest, &exponent);  // of a number in [1/2, 1): one more than that of a float
-    return pass.slope * slope + pass.units * std::ldexp(1, exponent - 1 - 23);
+    return {slope, pass.slope * slope + pass.units * std::ldexp(1, exponent - 1 - 23)};
 }
 
 /// The depths of one map, texel by texel.
@@ -42,11 +47,11 @@ class DepthLayers {
 
     void add(const SoftwareObject& object, const DepthPass& pass) {
         for (const Fragment& fragment : object.fragments) {
-            const double offset = offset_of(object, fragment.triangle, pass);
+            const Slope slope = slope_of(object, fragment.triangle, pass);
             at_[index(fragment.x, fragment.y)].push_back(
-                {std::clamp(fragment.weights.depth + offset, 0.0, 1.0),
-                 kMapDepthError + kMapOffsetError * offset, fragment.is_covered && !fragment.is_near_edge,
-                 fragment.is_covered});
+                {std::clamp(fragment.weights.depth + slope.offset, 0.0, 1.0),
+                 kMapDepthError + kMapPlaceError * slope.per_texel,
+                 fragment.is_covered && !fragment.is_near_edge, fragment.is_covered});
         }
     }
 
@@ -60,7 +65,7 @@ class DepthLayers {
             if (depth.is_certain) certain = std::min(certain, depth.value + depth.error);
         }
         ++report.texels;
-        const double ratio = std::abs(drawn - nearest.value) / (kMapDepthError + nearest.error);
+        const double ratio = std::abs(drawn - nearest.value) / std::max(nearest.error, kMapDepthError);
         if (ratio <= 1) {
             report.largest_ratio = std::max(report.largest_ratio, ratio);
             return;

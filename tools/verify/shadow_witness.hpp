@@ -17,10 +17,10 @@ struct ShadowPass {
 };
 
 /// A texel may be off by this: llvmpipe interpolates depth in floats, a rounding of which is 6e-8 near 1.
-inline constexpr double kMapDepthError = 2e-6;
-/// And by this share of what polygon offset moves it: the slope of a triangle is a quotient of differences,
-/// each known to a rounding of its terms.
-inline constexpr double kMapOffsetError = 1e-3;
+inline constexpr double kMapDepthError = 2e-7;
+/// And by how much the depth changes over this part of a texel: the corners of a triangle that is clipped are
+/// known to 1/256, and polygon offset is twice the slope.
+inline constexpr double kMapPlaceError = 1.5 / 256;
 
 /// How a number of maps came out.
 struct ShadowMapReport {
