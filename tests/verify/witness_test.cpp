@@ -98,7 +98,7 @@ TEST(Witness, PassesWhatAgreesAndHasSeenTheScene) {
     for (const std::string key :
          {"directional=1 point=1 specular=blinn", "shading=vertex spot=1 specular=phong",
           "depth=any diffuse=toon fog=exponential point=2", "ambient=image reflection=image",
-          "cutout=threshold"}) {
+          "cutout=threshold directional=1"}) {
         const Result<PictureReport> report = compare(key, {});
         ASSERT_TRUE(report) << to_text(report.error().front());
         ASSERT_TRUE(report->diagnostics.empty()) << to_text(report->diagnostics.front());
