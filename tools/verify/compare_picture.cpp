@@ -147,6 +147,7 @@ bool PictureReport::fails() const {
 PixelLimit limit_of(const evaluate::Program& vertex, const evaluate::Program& fragment) {
     using evaluate::Kind;
     PixelLimit limit{kInterpolationError, kArithmeticError};
+    if (!vertex.images.empty() || !fragment.images.empty()) limit.absolute += kFilteringError;
     for (const evaluate::Program* program : {&vertex, &fragment})
         if (computes(*program, {Kind::pow, Kind::exp, Kind::log, Kind::trig}))
             limit.relative = kArithmeticError + kPowerError;
