@@ -80,28 +80,6 @@ struct Everything {
     std::vector<Object> objects;
 };
 
-bool has_shadows(const Family& family, const Key& key) {
-    for (const char* feature : {"directional_shadows", "point_shadows", "spot_shadows"}) {
-        const auto index = family.index_of(feature);
-        if (index && key[static_cast<std::size_t>(*index)] > 0) return true;
-    }
-    return false;
-}
-
-/// By the permutations of lit: where shadows fall, which the ubershader has none of.
-Result<Everything> everything_by_lit(const ShippedFamily& lit, const Scene& scene,
-                                     const std::vector<Draw>& draws,
-                                     const std::vector<std::optional<DrawKey>>& lit_keys) {
-    Everything everything;
-    std::vector<std::optional<Key>> keys;
-    for (const auto& key : lit_keys) keys.push_back(key ? std::optional(key->key) : std::nullopt);
-    auto shaders = shaders_of(lit.family, lit.search, draws, keys, Dialect::own, 1);
-    if (!shaders) return tl::unexpected(shaders.error());
-    everything.shaders = std::move(*shaders);
-    everything.objects = objects_of(scene, everything.shaders);
-    return everything;
-}
-
 /// By the ubershader, its lights in one array with switches.
 Result<Everything> everything_by_uber(const ShippedFamily& lit, const ShippedFamily& uber, const Scene& scene,
                                       const std::vector<Draw>& draws,
@@ -140,11 +118,7 @@ TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
     for (const Draw& draw : draws) full.push_back(draw.excluded.empty() ? everything_on(scene, draw) : draw);
     const auto full_keys = keys_called_for(lit.family, full, {}, "450");
     ASSERT_TRUE(full_keys) << text_of(full_keys.error());
-    const bool are_shadows = std::any_of(full_keys->begin(), full_keys->end(), [&](const auto& key) {
-        return key && has_shadows(lit.family, key->key);
-    });
-    auto everything = are_shadows ? everything_by_lit(lit, scene, full, *full_keys)
-                                  : everything_by_uber(lit, uber, scene, full, *full_keys);
+    auto everything = everything_by_uber(lit, uber, scene, full, *full_keys);
     ASSERT_TRUE(everything) << text_of(everything.error());
 
     const auto chosen_programs = software_programs(*chosen);
@@ -153,7 +127,11 @@ TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
     const std::vector<Object> objects = objects_of(scene, *chosen);
     const auto values = values_beside_scene(lit.family.render);
     const SoftwareImages images = software_images(images_of(scene, draws), objects);
-    const SoftwareImages uber_images = software_images(images_of(scene, full), everything->objects);
+    SoftwareImages uber_images = software_images(images_of(scene, full), everything->objects);
+    uber_images.renamed = [&](std::size_t draw, const std::vector<RenderValue>& shadows) {
+        const auto& key = (*full_keys)[draw];
+        return key ? uber_shadow_values(lit.family, key->key, shadows) : std::vector<RenderValue>{};
+    };
     std::size_t seen = 0;
     for (const Vantage& vantage : from) {
         const auto actual =

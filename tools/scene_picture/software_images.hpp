@@ -2,6 +2,7 @@
 // precision.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "evaluate/evaluate.hpp"
@@ -16,6 +17,9 @@ struct SoftwareImages {
     std::vector<Object> casters;                        ///< shadow cameras are fitted to them
     int side = 0;                                       ///< texels along each side of a shadow map
     std::shared_ptr<const evaluate::DepthTexels> maps;  ///< null: no draw receives shadows
+    /// The values of a draw's shadows under the names that its shader has for them; none: those of `lit`.
+    std::function<std::vector<RenderValue>(std::size_t draw, const std::vector<RenderValue>& shadows)>
+        renamed = nullptr;
 };
 
 /// Draws the shadow maps of all lights that `images` names, as the depth pass of a renderer does. What a map

@@ -123,7 +123,10 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
         Object with_shadows = objects[i];
-        if (images.maps) add(shadow_values(plan, images.images.shadows[i]), with_shadows.values);
+        if (images.maps) {
+            const std::vector<RenderValue> shadows = shadow_values(plan, images.images.shadows[i]);
+            add(images.renamed ? images.renamed(i, shadows) : shadows, with_shadows.values);
+        }
         auto object = verify::rasterise_object(
             programs[*permutation], shaders.interfaces[*permutation], with_shadows,
             verify::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));

@@ -63,12 +63,17 @@ void add_light(const std::vector<RenderValue>& given, const LightFeature& kind, 
                const std::string& to, std::vector<RenderValue>& values) {
     rename(given, fmt::format("{}.lights[{}].", kind.block, place.of_kind), to, values);
     rename(given, fmt::format("LightAmbients.colors[{}]", place.of_all), to + "ambient", values);
-    rename(given, fmt::format("Shadows.shadows[{}].", place.shadow), to + "shadow.", values);
     set(values, to + "isEnabled", 1);
     set(values, to + "isLocal", kind.is_local ? 1 : 0);
     set(values, to + "isSpot", kind.is_spot ? 1 : 0);
     set(values, to + "isHomogeneous", kind.shadows == nullptr ? 1 : 0);
     set(values, to + "isShadowed", place.shadow >= 0 ? 1 : 0);
+}
+
+/// The shadow of a light under the names that the ubershader has for it.
+void add_shadow(const std::vector<RenderValue>& given, const Place& place, const std::string& to,
+                std::vector<RenderValue>& values) {
+    rename(given, fmt::format("Shadows.shadows[{}].", place.shadow), to + "shadow.", values);
 }
 
 /// How many shadows stand before those of a kind in the block `Shadows`.
@@ -81,25 +86,34 @@ int shadows_before(const Family& lit, const Key& key, std::size_t kind) {
     return count;
 }
 
-void add_lights(const Family& lit, const Key& key, const std::vector<RenderValue>& given,
-                std::vector<RenderValue>& values) {
+/// Calls visit(kind, place, names) for each light that the key counts, with the names of its members among
+/// the looped and, as far as it has room, the switched lights.
+template <class Visit>
+void for_each_light(const Family& lit, const Key& key, Visit visit) {
     Place place;
-    for (int i = 0; i < kSwitchedLights; ++i)
-        set(values, fmt::format("SwitchedLights.lights[{}].isEnabled", i), 0);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
         const LightFeature& kind = kinds[k];
         const int count = value_of(lit, key, kind.feature);
         const int shadowed = kind.shadows == nullptr ? 0 : value_of(lit, key, kind.shadows);
-        set(values, fmt::format("Switches.{}", kind.feature), count);
         for (place.of_kind = 0; place.of_kind < count; ++place.of_kind, ++place.of_all) {
             place.shadow = place.of_kind < shadowed ? shadows_before(lit, key, k) + place.of_kind : -1;
-            add_light(given, kind, place, fmt::format("LoopedLights.{}[{}].", kind.feature, place.of_kind),
-                      values);
+            visit(kind, place, fmt::format("LoopedLights.{}[{}].", kind.feature, place.of_kind));
             if (place.of_all < kSwitchedLights)
-                add_light(given, kind, place, fmt::format("SwitchedLights.lights[{}].", place.of_all),
-                          values);
+                visit(kind, place, fmt::format("SwitchedLights.lights[{}].", place.of_all));
         }
     }
+}
+
+void add_lights(const Family& lit, const Key& key, const std::vector<RenderValue>& given,
+                std::vector<RenderValue>& values) {
+    for (int i = 0; i < kSwitchedLights; ++i)
+        set(values, fmt::format("SwitchedLights.lights[{}].isEnabled", i), 0);
+    for (const LightFeature& kind : kinds)
+        set(values, fmt::format("Switches.{}", kind.feature), value_of(lit, key, kind.feature));
+    for_each_light(lit, key, [&](const LightFeature& kind, const Place& place, const std::string& to) {
+        add_light(given, kind, place, to, values);
+        add_shadow(given, place, to, values);
+    });
 }
 
 /// What the ubershader has in another block than `lit`.
@@ -144,6 +158,15 @@ std::vector<RenderValue> uber_values(const Family& uber, const Family& lit, cons
     }
     add_moved(lit, key, given, values);
     add_lights(lit, key, given, values);
+    return values;
+}
+
+std::vector<RenderValue> uber_shadow_values(const Family& lit, const Key& key,
+                                            const std::vector<RenderValue>& shadows) {
+    std::vector<RenderValue> values;
+    for_each_light(lit, key, [&](const LightFeature&, const Place& place, const std::string& to) {
+        add_shadow(shadows, place, to, values);
+    });
     return values;
 }
 

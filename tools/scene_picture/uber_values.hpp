@@ -21,6 +21,11 @@ enum class UberLights { switched, looped };
 [[nodiscard]] std::vector<RenderValue> uber_values(const Family& uber, const Family& lit, const Key& key,
                                                    std::vector<RenderValue> values);
 
+/// The values of the block `Shadows` alone, as they are found once a view is known, under the ubershader's
+/// names.
+[[nodiscard]] std::vector<RenderValue> uber_shadow_values(const Family& lit, const Key& key,
+                                                          const std::vector<RenderValue>& shadows);
+
 /// The lights that the key counts, in all.
 [[nodiscard]] int lights_of(const Family& lit, const Key& key);
 
