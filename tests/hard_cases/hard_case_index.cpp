@@ -1,6 +1,11 @@
 #include "hard_case_index.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/text.hpp"
 
 namespace gobo {
 namespace {
@@ -60,6 +65,12 @@ const std::vector<HardCase> kHardCases = {
      {}},
 };
 
+/// "H", "N1", "S15".
+bool is_id(const std::string& word) {
+    return !word.empty() && word.front() >= 'A' && word.front() <= 'Z' &&
+           std::all_of(word.begin() + 1, word.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 }  // namespace
 
 const std::vector<HardCase>& hard_cases() {
@@ -67,13 +78,13 @@ const std::vector<HardCase>& hard_cases() {
 }
 
 CaseName case_name(const std::string& name) {
-    std::string text = name;
-    for (char& character : text)
-        if (character == '_') character = ' ';
-    if (name.starts_with("H_D1_H_D2_")) return {"H-D1, H-D2", text.substr(10)};
-    if (name.starts_with("H_")) return {fmt::format("H-{}", text.substr(2, 2)), text.substr(5)};
-    const auto space = text.find(' ');  // a model's case: "S15_in_the_shadow"
-    return {text.substr(0, space), text.substr(space + 1)};
+    std::vector<std::string> words = split(name, '_');
+    std::vector<std::string> ids;
+    std::size_t at = 0;
+    for (; at < words.size() && is_id(words[at]); ++at)
+        if (words[at] != "H") ids.push_back(words.front() == "H" ? "H-" + words[at] : words[at]);
+    words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(at));
+    return {fmt::format("{}", fmt::join(ids, ", ")), fmt::format("{}", fmt::join(words, " "))};
 }
 
 }  // namespace gobo

@@ -17,9 +17,39 @@
 namespace gobo {
 namespace {
 
-/// What a reader sees of a shaded point: the depth where the case is about it, otherwise the red channel.
-std::string outcome(const Shaded& shaded, bool is_of_depth) {
-    return number_text(is_of_depth && shaded.depth ? *shaded.depth : shaded.color[0]);
+/// A table's cell: bars would end it.
+std::string cell(const std::string& text) {
+    std::string escaped;
+    for (const char character : text) escaped += character == '|' ? "\\|" : std::string(1, character);
+    return escaped;
+}
+
+/// The same within backticks; nothing where there is no text.
+std::string code(const std::string& text) {
+    return text.empty() ? "" : fmt::format("`{}`", cell(text));
+}
+
+/// What a reader sees of a point, shaded without a guard and with it.
+struct Outcomes {
+    std::string plain;
+    std::string ours;
+};
+
+/// In as many digits as tell the two apart.
+Outcomes texts_of(double plain, double ours) {
+    if (number_text(plain) != number_text(ours) || plain == ours || std::isnan(plain))
+        return {number_text(plain), number_text(ours)};
+    return {fmt::format("{:.9g}", plain), fmt::format("{:.9g}", ours)};
+}
+
+/// The depth where the case is about it, otherwise the colour's channel that differs most.
+Outcomes outcomes(const Shaded& plain, const Shaded& ours, bool is_of_depth) {
+    if (is_of_depth && plain.depth && ours.depth) return texts_of(*plain.depth, *ours.depth);
+    std::size_t channel = 0;
+    for (std::size_t i = 1; i < plain.color.size(); ++i)
+        if (std::abs(plain.color[i] - ours.color[i]) > std::abs(plain.color[channel] - ours.color[channel]))
+            channel = i;
+    return texts_of(plain.color[channel], ours.color[channel]);
 }
 
 /// The part of a trap behind its place: "division by zero" of "shader_lib/a.glsl:3: division by zero: FDiv
@@ -58,10 +88,10 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     const bool is_of_depth = tested->name.starts_with("H_D");
     const std::string trap = without.traps.empty() ? "" : ": " + trap_text(without.traps.front());
     const CaseName name = case_name(tested->name);
-    return fmt::format("| {} | {} | `{}` | {}{} | {} | {} | {} | {} |\n", name.id, name.what, guard.guarded,
-                       outcome(without, is_of_depth), trap, outcome(with, is_of_depth),
-                       tested->check.tolerance, added_text(operations_of(guard)),
-                       time_text(times, guard.name));
+    const Outcomes seen = outcomes(without, with, is_of_depth);
+    return fmt::format("| {} | {} | {} | {}{} | {} | {} | {} | {} |\n", name.id, name.what,
+                       code(guard.guarded), seen.plain, trap, seen.ours, cell(tested->check.tolerance),
+                       added_text(operations_of(guard)), time_text(times, guard.name));
 }
 
 std::string guard_rows(const GuardTimes& times) {
@@ -94,7 +124,7 @@ std::string case_row(const Case& tested) {
     const std::size_t permutations = LitUnderTest(tested.where, tested.features, {}).size();
     const LitUnderTest cover(tested.where, tested.features, {}, 2);
     return fmt::format("| {} | {} | {} | {} | {} | {:.0e} |\n", name.id, name.what, permutations,
-                       tested.points.size(), tested.check.tolerance, largest_error(tested, cover));
+                       tested.points.size(), cell(tested.check.tolerance), largest_error(tested, cover));
 }
 
 std::string case_rows() {
@@ -117,8 +147,8 @@ std::string trap_rows() {
         const std::string subject = subject_of(source_text(path));
         for (const sanitize::SharedFinding& shared : report_of(path).findings) {
             const sanitize::Finding& finding = shared.finding;
-            rows += fmt::format("| {} | `{}:{}` | {} | `{}` |\n", subject, file_name(path),
-                                finding.place.line, finding.message, finding.operation);
+            rows += fmt::format("| {} | `{}:{}` | {} | {} |\n", cell(subject), file_name(path),
+                                finding.place.line, cell(finding.message), code(finding.operation));
         }
     }
     return rows;
@@ -130,10 +160,10 @@ std::string wrong_rows() {
     for (const std::string& path : shaders_in("plain")) {
         const std::string source = source_text(path);
         for (const WrongMark& mark : wrong_marks(source))
-            rows +=
-                fmt::format("| {} | `{}:{}` | `{}` | {} | {} | {} |\n", subject_of(source), file_name(path),
-                            mark.line, mark.at, number_text(result_of(path, mark.inputs, false)), mark.right,
-                            mark.is_inexact ? "rounding" : "formula");
+            rows += fmt::format("| {} | `{}:{}` | `{}` | {} | {} | {} |\n", cell(subject_of(source)),
+                                file_name(path), mark.line, mark.at,
+                                number_text(result_of(path, mark.inputs, false)), mark.right,
+                                mark.is_inexact ? "rounding" : "formula");
     }
     return rows;
 }

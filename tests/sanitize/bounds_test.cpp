@@ -54,6 +54,16 @@ TEST(DeclaredBounds, AreNotAskedWhereATrapMadeTheOutput) {
               Lines{"5: division by zero"});
 }
 
+/// gl_FragCoord.z is 0 to a machine that flushes, and what is written then is no broken promise.
+TEST(DepthPromise, IsKeptWhereDenormalNumbersAreFlushed) {
+    const std::string unchanged =
+        "#version 450\n"
+        "layout(depth_unchanged) out float gl_FragDepth;\n"
+        "void main() { gl_FragDepth = gl_FragCoord.z; }\n";
+    const Domain denormal = domain_of("gl_FragCoord", 0, 1e-40);
+    EXPECT_EQ(found_lines(sanitized_text("depth.frag", unchanged, {}, {denormal})), Lines{});
+}
+
 /// A piece of `lit` with a fault that traps nowhere.
 struct Fault {
     std::string name;
@@ -79,6 +89,9 @@ const Fault kFaults[] = {
      "return 1.1 * ", "'litRadiance' is above what its inputs allow"},
     {"depth_beyond_one", "depth=any", "depth/any.glsl", "min(moved, 1.0)", "min(moved, 1.5)",
      "'gl_FragDepth' is above what its inputs allow"},
+    {"depth_promise_broken", "depth=greater", "depth/greater.glsl",
+     "depthOffset.offset > 0.0 ? depthOffset.offset : 0.0", "depthOffset.offset",
+     "'gl_FragDepth' is below what its inputs allow"},
 };
 
 class FaultyLit : public testing::TestWithParam<Fault> {};

@@ -1,6 +1,7 @@
 #include "sanitize/output_bounds.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "sanitize/lit_bounds.hpp"
 
@@ -40,7 +41,9 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
 }
 
 void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
-    if (promise_ == DepthPromise::greater || promise_ == DepthPromise::unchanged) depth.low = own_depth;
+    // A machine that flushes denormal numbers reads 0 for one.
+    const double seen = own_depth < std::numeric_limits<float>::min() ? 0 : own_depth;
+    if (promise_ == DepthPromise::greater || promise_ == DepthPromise::unchanged) depth.low = seen;
     if (promise_ == DepthPromise::less || promise_ == DepthPromise::unchanged) depth.high = own_depth;
 }
 
