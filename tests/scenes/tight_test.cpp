@@ -80,14 +80,23 @@ SoftwarePicture picture(const Variants& variants, const std::vector<std::size_t>
     return std::move(*drawn);
 }
 
+bool pixel_differs(const SoftwarePicture& a, const SoftwarePicture& b, std::size_t pixel) {
+    for (std::size_t c = 0; c < 4; ++c)
+        if (std::abs(a.color.values[4 * pixel + c] - b.color.values[4 * pixel + c]) > visible) return true;
+    return false;
+}
+
 /// Whether the draw's visible pixels differ.
 bool differ(const SoftwarePicture& whole, const SoftwarePicture& alone, std::size_t draw) {
-    for (std::size_t i = 0; i < whole.draw.size(); ++i) {
-        if (whole.draw[i] != static_cast<int>(draw)) continue;
-        for (std::size_t c = 0; c < 4; ++c)
-            if (std::abs(whole.color.values[4 * i + c] - alone.color.values[4 * i + c]) > visible)
-                return true;
-    }
+    for (std::size_t i = 0; i < whole.draw.size(); ++i)
+        if (whole.draw[i] == static_cast<int>(draw) && pixel_differs(whole, alone, i)) return true;
+    return false;
+}
+
+/// Whether any pixel differs: what cuts holes changes those that the draw leaves to others.
+bool differ(const SoftwarePicture& a, const SoftwarePicture& b) {
+    for (std::size_t i = 0; i < a.draw.size(); ++i)
+        if (pixel_differs(a, b, i)) return true;
     return false;
 }
 
@@ -99,7 +108,10 @@ void try_from(const Vantage& vantage, const Variants& variants, const std::vecto
     for (std::size_t i = 0; i < removals.size(); ++i) {
         if (removals[i].matters) continue;
         const SoftwarePicture alone = picture(variants, {draws + i}, values, vantage.view);
-        removals[i].matters = differ(whole, alone, removals[i].draw);
+        std::vector<std::size_t> without = everything;
+        without[removals[i].draw] = draws + i;
+        removals[i].matters = differ(whole, alone, removals[i].draw) ||
+                              differ(whole, picture(variants, without, values, vantage.view));
     }
 }
 
