@@ -41,6 +41,17 @@ int last_order(Harmonics order) {
     return order == Harmonics::second ? 2 : order == Harmonics::first ? 1 : 0;
 }
 
+/// How much longer a matrix makes a vector at most: 1 for rotations. The 16th root of the Frobenius norm of
+/// (A^T A)^8 is at least that, and at most 3^(1/32) = 1.035 times as much.
+double largest_stretch(const glm::dmat3& matrix) {
+    glm::dmat3 power = glm::transpose(matrix) * matrix;
+    for (int squaring = 0; squaring < 3; ++squaring) power = power * power;
+    double squares = 0;
+    for (int column = 0; column < 3; ++column) squares += glm::dot(power[column], power[column]);
+    const double stretch = std::pow(squares, 1.0 / 32);
+    return stretch < 1.04 ? 1 : stretch;
+}
+
 }  // namespace
 
 double sky_share(Hemisphere kind, double angle, double length) {
@@ -65,13 +76,15 @@ glm::dvec3 irradiance(Harmonics order, const std::array<glm::dvec3, 9>& coeffici
 
 AmbientLight harmonics_light(Harmonics order, const HarmonicsLight& light, const glm::dvec3& normal) {
     const glm::dvec3 n = light.to_probe * normal;
+    const double stretch = largest_stretch(light.to_probe);
     AmbientLight result;
     result.value = glm::max(light.scale * irradiance(order, light.coefficients, n), glm::dvec3(0));
     for (const Term& term : terms_at(n)) {
         if (term.order > last_order(order)) continue;
         const glm::dvec3 size = light.scale * glm::abs(light.coefficients[term.coefficient]);
-        // Factors above 1 come from matrices that are no rotation; the 1.03 of others the roundings count.
-        result.largest += size * std::max(std::abs(term.factor), 1.0);
+        // Of whatever unit normal rounding gives: its factors reach 1.03, which the roundings count, and more
+        // where the matrix is no rotation.
+        result.largest += size * std::max(1.0, std::pow(stretch, term.order));
         result.slope += term.slope * size;
     }
     return result;
