@@ -4,7 +4,6 @@
 #include <atomic>
 #include <thread>
 
-#include "evaluate/images.hpp"
 #include "render/lit_shadows.hpp"
 #include "render/render_selection.hpp"
 #include "validate/validate.hpp"
@@ -29,25 +28,6 @@ Result<ShadowMaps> draw_maps(const Context& context, const WitnessScene& scene,
                              const std::vector<ShadowLight>& lights) {
     return draw_shadow_maps(context, scene.shadow_pass->pass, lights, scene.objects,
                             scene.view.camera.view());
-}
-
-/// Every layer's texels, as the renderer's own lookups see them.
-evaluate::DepthTexels texels_of(const ShadowMaps& maps, int layers) {
-    evaluate::DepthTexels texels;
-    texels.layers = layers;
-    for (int i = 0; i < layers; ++i) {
-        const Image layer = maps.layer(i);
-        texels.width = layer.width;
-        texels.height = layer.height;
-        texels.depths.insert(texels.depths.end(), layer.values.begin(), layer.values.end());
-    }
-    return texels;
-}
-
-int layers_of(const std::vector<ShadowLight>& lights) {
-    int layers = 0;
-    for (const ShadowLight& light : lights) layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
-    return layers;
 }
 
 /// Draws one permutation after the other, as a context wants it: by one thread.
@@ -80,10 +60,7 @@ class Drawer {
             }
             given["shadowMaps"] = (*maps)->texture();
             drawn.values.insert(drawn.values.end(), (*maps)->values().begin(), (*maps)->values().end());
-            drawn.images["shadowMaps"] =
-                [texels = texels_of(**maps, layers_of(lights))](const evaluate::ImageRequest& request) {
-                    return evaluate::answer(texels, request);
-                };
+            drawn.images["shadowMaps"] = depths_of(**maps, lights);
         }
         drawn.values = with_plain_textures(drawn.interface, std::move(drawn.values));
         drawn.color = picture(permutation, drawn, given);

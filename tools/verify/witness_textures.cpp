@@ -1,6 +1,7 @@
 #include "verify/witness_textures.hpp"
 
 #include "evaluate/color_texels.hpp"
+#include "evaluate/images.hpp"
 #include "render/texture.hpp"
 
 namespace gobo::verify {
@@ -23,6 +24,12 @@ evaluate::Image image_of(Texels texels) {
     return [texels = std::move(texels)](const evaluate::ImageRequest& request) {
         return answer(texels, request);
     };
+}
+
+int layers_of(const std::vector<ShadowLight>& lights) {
+    int layers = 0;
+    for (const ShadowLight& light : lights) layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
+    return layers;
 }
 
 }  // namespace
@@ -50,6 +57,18 @@ Result<void> WitnessTextures::add(const Interface& interface, const std::vector<
         }
     }
     return {};
+}
+
+evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
+    evaluate::DepthTexels texels;
+    texels.layers = layers_of(lights);
+    for (int i = 0; i < texels.layers; ++i) {
+        const Image layer = maps.layer(i);
+        texels.width = layer.width;
+        texels.height = layer.height;
+        texels.depths.insert(texels.depths.end(), layer.values.begin(), layer.values.end());
+    }
+    return image_of(std::move(texels));
 }
 
 }  // namespace gobo::verify

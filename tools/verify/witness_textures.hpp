@@ -7,6 +7,7 @@
 
 #include "evaluate/evaluate.hpp"
 #include "render/cube_maps.hpp"
+#include "render/shadow_maps.hpp"
 
 namespace gobo::verify {
 
@@ -33,5 +34,9 @@ class WitnessTextures {
     GivenTextures given_;
     evaluate::Images images_;
 };
+
+/// What the sampler of the lights' maps answers: the depths of every layer, read back, as the renderer's own
+/// lookups see them.
+[[nodiscard]] evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
 
 }  // namespace gobo::verify
