@@ -12,6 +12,6 @@
 /// The share of the sky.
 float skyShare(vec3 normal, vec3 up) {
     vec3 across = cross(normal, up);
-    float sine = sqrt(dot(across, across));  // not length(): of vectors nearly along one another 0 will do
-    return clamp(0.5 + 0.5 * sign(dot(normal, up)) * (normalLength(normal) - sine), 0.0, 1.0);
+    float sine = sqrt(dot(across, across));  // H-N2: unlike length() it may underflow, 0 will do
+    return clamp(0.5 + 0.5 * sign(dot(normal, up)) * (normalLength(normal) - sine), 0.0, 1.0);  // H-I1
 }

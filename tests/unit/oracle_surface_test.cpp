@@ -322,5 +322,21 @@ TEST(OracleSurface, KnowsTheLargestOfAProbeThatIsStretched) {
     EXPECT_GE(seen.largest.r, seen.value.r);
 }
 
+/// Rounding may give any unit normal where a matrix cancels: what is said at one holds at all others.
+TEST(OracleSurface, KnowsTheLargestOfEveryNormal) {
+    HarmonicsLight light;
+    light.coefficients[1] = glm::dvec3(-1);
+    light.to_probe = glm::dmat3(0, 1, 0, 0, 0, 0, 0, -1, 0);  // y is n.x - n.z: up to the root of 2
+    const glm::dvec3 largest = harmonics_light(Harmonics::first, light, {0, 1, 0}).largest;
+    double brightest = 0;
+    for (int degrees = 0; degrees < 360; degrees += 5) {
+        const double angle = degrees * kDegree;
+        const glm::dvec3 n(std::cos(angle), 0, std::sin(angle));
+        brightest = std::max(brightest, harmonics_light(Harmonics::first, light, n).value.r);
+    }
+    EXPECT_GT(brightest, 1.4);
+    EXPECT_GE(1.03 * largest.r, brightest);  // the factors reach 1.03, which the roundings count
+}
+
 }  // namespace
 }  // namespace gobo::oracle
