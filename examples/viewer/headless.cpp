@@ -12,7 +12,7 @@ gobo::Result<void> run_headless(const Options& options, const Stage& stage, gobo
     Renderer renderer(context->gl(), stage, options.size, record);
     Displayed displayed(options, context->renderer());
     Settings settings;
-    Orbit orbit{stage.center, stage.radius};
+    Orbit orbit = orbit_of(stage, options.size.width, options.size.height);
     const double turn = options.turn < 0 ? 360.0 / options.frames : options.turn;
     for (int i = 0; i < options.frames; ++i) {
         const std::size_t pressed = static_cast<std::size_t>(i) - 1;

@@ -4,21 +4,24 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene_picture/scene_view.hpp"
+#include "stage.hpp"
+
 namespace viewer {
 
+/// Circles about a vertical axis, starting from a view.
 struct Orbit {
-    glm::dvec3 center{0};
-    double radius = 1;     ///< of the sphere that is to be seen
-    double angle = 0;      ///< about the vertical axis, radians; 0: from +z
-    double height = 0.35;  ///< above the horizon, radians
+    gobo::scene::SceneView start;
+    glm::dvec3 center{0};  ///< a point of the axis, in world space
+    double angle = 0;      ///< radians, from +z towards +x
 
     /// World to eye space.
     [[nodiscard]] glm::dmat4 view() const;
-    /// Eye to clip space; `aspect` is width over height.
-    [[nodiscard]] glm::dmat4 projection(double aspect) const;
-
-  private:
-    [[nodiscard]] double distance() const;
 };
+
+/// Starts from the scene's first camera and circles the point before it that is nearest to the scene's
+/// middle; where the scene has none, circles everything from a little above. The size is that of the
+/// pictures, in pixels.
+[[nodiscard]] Orbit orbit_of(const Stage& stage, int width, int height);
 
 }  // namespace viewer

@@ -157,11 +157,12 @@ void Renderer::draw(const Settings& settings, const Orbit& orbit) {
     keys_.clear();
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.Viewport(0, 0, size_.width, size_.height);
-    gl_.ClearColor(0.05F, 0.06F, 0.08F, 1);
+    const auto& background = orbit.start.background;
+    gl_.ClearColor(background[0], background[1], background[2], background[3]);
     gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl_.Enable(GL_DEPTH_TEST);
-    const glm::dmat4 projection = orbit.projection(static_cast<double>(size_.width) / size_.height);
-    for (std::size_t i = 0; i < stage_.draws.size(); ++i) draw(i, settings, orbit.view(), projection);
+    for (std::size_t i = 0; i < stage_.draws.size(); ++i)
+        draw(i, settings, orbit.view(), orbit.start.projection);
 }
 
 double Renderer::frame_time(const Settings& settings, const Orbit& orbit) {

@@ -67,7 +67,7 @@ gobo::Result<void> look(GLFWwindow* window, const GladGLContext& gl, const Optio
     Renderer renderer(gl, stage, options.size, record);
     Displayed displayed(options, reinterpret_cast<const char*>(gl.GetString(GL_RENDERER)));
     Settings settings;
-    Orbit orbit{stage.center, stage.radius};
+    Orbit orbit = orbit_of(stage, options.size.width, options.size.height);
     gobo::Result<void> shown = displayed.frame(renderer, settings, orbit, "");
     while (shown && glfwWindowShouldClose(window) == GLFW_FALSE) {
         show(window, renderer);

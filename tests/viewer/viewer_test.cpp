@@ -68,6 +68,20 @@ TEST(Viewer, ShowsInAWindowWhatItDrawsWithoutOne) {
     }
 }
 
+TEST(Viewer, StartsAtTheScenesCamera) {
+    const std::string folder = fresh_folder("start");
+    ASSERT_EQ(draw_headless("", folder), 0) << text_of(folder + "/log");
+    ASSERT_EQ(run(fmt::format("'{}' render --scene '{}' --size 320x200 -o '{}' 2> '{}/render.log'",
+                              GOBO_PROGRAM, kScene, folder, folder)),
+              0)
+        << text_of(folder + "/render.log");
+    const Result<Image> rendered = read_image(DiskFileSystem(), folder + "/teapot.png");
+    ASSERT_TRUE(rendered);
+    const Result<Comparison> comparison = compare(frame(folder, 0), *rendered);
+    ASSERT_TRUE(comparison);
+    EXPECT_LE(comparison->percentile_999, kOneLevel) << to_text(*comparison);
+}
+
 TEST(Viewer, EveryKeyChangesThePicture) {
     const std::string keys = "ft123s";
     const std::string folder = fresh_folder("keys");
