@@ -20,6 +20,7 @@ stop() {
     [ -f "$folder/parts/measurements.jsonl" ] && [ "$(wc -l <"$folder/parts/measurements.jsonl")" -ge "$at_least" ] && break
     sleep 0.02
   done
+  # Where it has ended already there is nothing to signal: the status that wait finds below decides.
   kill "-$signal" $process 2>/dev/null || true
   wait $process && echo "ended before it could be interrupted" || [ $? -eq "$status" ]
 }

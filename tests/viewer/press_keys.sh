@@ -7,6 +7,7 @@ mkdir -p "$folder"
 display=$(mktemp) 
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>"$display" 2>"$folder/xvfb.log" &
 server=$!
+# The server may have gone with the window: cleaning up must not change the status.
 trap 'kill $server 2>/dev/null || true; rm -f "$display"' EXIT
 for _ in $(seq 100); do [ -s "$display" ] && break; sleep 0.1; done
 export DISPLAY=":$(cat "$display")" LIBGL_ALWAYS_SOFTWARE=1
