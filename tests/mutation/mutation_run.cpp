@@ -1,6 +1,7 @@
 // Mutation run: can `gobo test` fail? Each mutant of each piece must be caught on a few permutations that use
 // the piece, or stand in docs/mutants.md with the reason why it cannot matter.
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <thread>
@@ -13,12 +14,13 @@
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "mutants.hpp"
+#include "verify/parallel.hpp"
 #include "verify/test_meshes.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr std::size_t kKeysPerMutant = 8;
+constexpr std::size_t kKeysPerMutant = 24;
 
 /// A line of the table: piece and mutated line.
 using Row = std::pair<std::string, std::string>;
@@ -81,30 +83,33 @@ std::vector<Key> some_of(const std::vector<Key>& keys) {
 
 enum class Fate { refused, caught, survived };
 
-/// What becomes of a mutant: glslang may refuse it, which proves nothing.
+/// Does verification of one permutation find anything amiss?
+bool is_caught(const verify::PermutationReport& report) {
+    const auto has_failed = [](const verify::RelationReport& relation) { return relation.failed > 0; };
+    return report.failed_points > 0 || !report.diagnostics.empty() ||
+           std::any_of(report.relations.begin(), report.relations.end(), has_failed);
+}
+
+/// What becomes of a mutant, with the first permutation that shows it; glslang may refuse it, which proves
+/// nothing.
 Fate fate_of(const Family& family, const std::vector<Key>& keys, const Mutant& mutant,
-             const std::vector<Mesh>& meshes) {
-    verify::VerifyOptions options;
-    options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    options.meshes = meshes;
-    const Result<verify::VerifyReport> report =
-        verify_lit(family, keys, {{mutant.piece, mutant.text}}, options);
-    if (!report) return Fate::refused;
-    const auto is_caught = [](const verify::PermutationReport& one) {
-        return !one.diagnostics.empty() ||
-               std::any_of(one.relations.begin(), one.relations.end(),
-                           [](const verify::RelationReport& relation) { return relation.failed > 0; });
-    };
-    const bool caught = std::any_of(report->permutations.begin(), report->permutations.end(), is_caught);
-    return caught || failed_points(*report) > 0 ? Fate::caught : Fate::survived;
+             const verify::VerifyOptions& options) {
+    for (const Key& key : keys) {
+        const auto report = verify_lit(family, {key}, {{mutant.piece, mutant.text}}, options);
+        if (!report) return Fate::refused;
+        if (is_caught(report->permutations.front())) return Fate::caught;
+    }
+    return Fate::survived;
 }
 
 /// Points first, since they are the quickest; then all that `gobo test` does.
-Fate fate_of(const Family& family, const std::vector<Key>& keys, const Mutant& mutant) {
-    static const std::vector<Mesh> meshes = verify::test_meshes(
-        read_obj(DiskFileSystem(), std::string(GOBO_SOURCE_DIR) + "/data/meshes/teapot.obj").value());
-    const Fate fate = fate_of(family, keys, mutant, {});
-    return fate == Fate::survived ? fate_of(family, keys, mutant, meshes) : fate;
+Fate fate_of(const Family& family, const std::vector<Key>& keys, const Mutant& mutant,
+             const std::vector<Mesh>& meshes) {
+    verify::VerifyOptions options;
+    const Fate fate = fate_of(family, keys, mutant, options);
+    if (fate != Fate::survived) return fate;
+    options.meshes = meshes;
+    return fate_of(family, keys, mutant, options);
 }
 
 /// Counts of a run, and what is wrong with it.
@@ -114,9 +119,7 @@ struct Tally {
     int unexcused = 0;
 };
 
-void judge(const Family& family, const std::vector<Key>& keys, const Mutant& mutant,
-           const std::set<Row>& excused, Tally& tally) {
-    const Fate fate = fate_of(family, keys, mutant);
+void count(const Mutant& mutant, Fate fate, const std::set<Row>& excused, Tally& tally) {
     ++tally.count[fate];
     if (fate != Fate::survived) return;
     const Row row{mutant.piece, mutant.mutated_line};
@@ -125,29 +128,44 @@ void judge(const Family& family, const std::vector<Key>& keys, const Mutant& mut
     ++tally.unexcused;
     fmt::print("survived: shader_lib/{}:{}: {}: `{}`\n", mutant.piece, mutant.line, mutant.change,
                mutant.mutated_line);
+    std::fflush(stdout);  // a run takes minutes, and may be broken off
+}
+
+/// The excused mutants of these pieces that do not survive.
+int print_stale(const std::set<Row>& excused, const std::set<Row>& survivors, const std::string& only) {
+    int stale = 0;
+    for (const auto& [piece, line] : excused) {
+        if (survivors.contains({piece, line}) || !piece.starts_with(only)) continue;
+        fmt::print("docs/mutants.md excuses a mutant that does not survive: {}: `{}`\n", piece, line);
+        ++stale;
+    }
+    return stale;
 }
 
 int run(const std::string& only) {
     const DiskFileSystem disk;
+    const std::string source = GOBO_SOURCE_DIR;
     const Family family = lit_family();
     const std::set<Row> excused = excused_mutants();
     const auto keys = keys_by_piece(family);
+    const auto meshes = verify::test_meshes(read_obj(disk, source + "/data/meshes/teapot.obj").value());
+    const int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Tally tally;
-    std::set<Row> stale;
-    for (const std::string& piece : disk.files_below(std::string(GOBO_SOURCE_DIR) + "/shader_lib")) {
+    for (const std::string& piece : disk.files_below(source + "/shader_lib")) {
         const auto users = keys.find("shader_lib/" + piece);
         if (users == keys.end() || !piece.starts_with(only)) continue;
-        for (const Mutant& mutant : mutants_of(piece, piece_text(piece)))
-            judge(family, some_of(users->second), mutant, excused, tally);
+        const std::vector<Mutant> mutants = mutants_of(piece, piece_text(piece));
+        const std::vector<Key> some = some_of(users->second);
+        std::vector<Fate> fates(mutants.size());
+        verify::for_each_index(mutants.size(), jobs,
+                               [&](std::size_t i) { fates[i] = fate_of(family, some, mutants[i], meshes); });
+        for (std::size_t i = 0; i < mutants.size(); ++i) count(mutants[i], fates[i], excused, tally);
     }
-    for (const Row& row : excused)
-        if (!tally.survivors.contains(row) && row.first.starts_with(only)) stale.insert(row);
-    for (const auto& [piece, line] : stale)
-        fmt::print("docs/mutants.md excuses a mutant that does not survive: {}: `{}`\n", piece, line);
+    const int stale = print_stale(excused, tally.survivors, only);
     fmt::print("{} mutants: {} caught, {} excused, {} survived; {} more are no valid GLSL\n",
                tally.count[Fate::caught] + tally.count[Fate::survived], tally.count[Fate::caught],
                tally.count[Fate::survived] - tally.unexcused, tally.unexcused, tally.count[Fate::refused]);
-    return tally.unexcused > 0 || !stale.empty() ? 1 : 0;
+    return tally.unexcused > 0 || stale > 0 ? 1 : 0;
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST(Witness, FindsDisagreements) {
         ASSERT_TRUE(report->diagnostics.empty()) << to_text(report->diagnostics.front());
         EXPECT_TRUE(report->fails()) << row.name;
         EXPECT_GT(report->wrong, 0U) << row.name;
-        EXPECT_GT(report->largest_error, verify::kInterpolationError)
+        EXPECT_GT(report->largest_error, verify::kArithmeticError)
             << row.name << ": wrong pixels are measured";
         EXPECT_EQ(report->actual.width, 64) << row.name << ": the pictures are kept";
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "verify/render_feed.hpp"
-#include "verify/software_picture.hpp"
+#include "verify/shade.hpp"
 
 namespace gobo::gallery {
 namespace {

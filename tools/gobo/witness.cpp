@@ -32,8 +32,7 @@ bool looks_up_environment(const Validated& validated) {
     });
 }
 
-/// The scene that `gobo render` shows, smaller: at this size interpolation in floats is known to be exact
-/// enough (verify::kInterpolationError).
+/// The scene that `gobo render` shows, smaller.
 Result<verify::WitnessScene> make_scene(const World& world, const Family& family, const Validated& validated,
                                         int jobs) {
     Result<Mesh> teapot = read_obj(world.shipped, "data/meshes/teapot.obj");

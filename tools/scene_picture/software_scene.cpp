@@ -141,7 +141,7 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         const SoftwareProgram& program = programs[*permutation];
         if (is_plain(program)) canvas.cull(rasterised[i]);
         const auto shaded =
-            verify::shade(program, rasterised[i], 0, 0, counts ? &canvas.operations() : nullptr);
+            verify::shade(program, rasterised[i], {}, counts ? &canvas.operations() : nullptr);
         if (!shaded) return tl::unexpected(shaded.error());
         canvas.draw(rasterised[i], *shaded, static_cast<int>(i));
     }

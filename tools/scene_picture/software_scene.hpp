@@ -5,7 +5,7 @@
 #include "scene_picture/scene_shaders.hpp"
 #include "scene_picture/scene_view.hpp"
 #include "scene_picture/software_images.hpp"
-#include "verify/software_picture.hpp"
+#include "verify/shade.hpp"
 
 namespace gobo::scene {
 

@@ -8,7 +8,7 @@
 #include "compose/composition.hpp"
 #include "study/study_scene.hpp"
 #include "validate/validated.hpp"
-#include "verify/software_picture.hpp"
+#include "verify/shade.hpp"
 
 namespace gobo::study {
 

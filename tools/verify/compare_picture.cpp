@@ -11,16 +11,19 @@ namespace {
 
 /// As far as inputs are moved to find what lies at a discontinuity, as for the oracle's edges.
 constexpr double kNudge = 1e-5;
+/// Errors above this share of the limit without spread are looked at again with it.
+constexpr double kDoubtfulRatio = 0.5;
 /// Each nudged evaluation decides a question at its edge at random: 16 miss an answer once in 65,536.
 constexpr std::uint64_t kNudges = 16;
 
 /// The largest channel's error over its limit; infinite for a NaN on one side only.
-double ratio_of(const Color& actual, const Color& expected, const PixelLimit& limit) {
+double ratio_of(const Color& actual, const Seen& expected, const PixelLimit& limit) {
     double largest = 0;
     for (std::size_t c = 0; c < 4; ++c) {
-        if (actual[c] == expected[c] || (std::isnan(actual[c]) && std::isnan(expected[c]))) continue;
-        const double ratio =
-            std::abs(actual[c] - expected[c]) / (limit.absolute + limit.relative * std::abs(expected[c]));
+        const double color = expected.color[c];
+        if (actual[c] == color || (std::isnan(actual[c]) && std::isnan(color))) continue;
+        const double ratio = std::abs(actual[c] - color) /
+                             (limit.absolute + limit.relative * std::abs(color) + expected.spread[c]);
         largest = std::max(largest, std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio);
     }
     return largest;
@@ -46,10 +49,23 @@ class Judge {
         report_.pixels = static_cast<std::size_t>(drawn.width) * static_cast<std::size_t>(drawn.height);
     }
 
-    /// Compares each pixel with its plain evaluation. Those out of limit stay in doubt.
+    /// Compares each pixel with its plain evaluation. Those not well within their limit stay in doubt.
     void compare(const Layers& layers) {
         for (int y = 0; y < drawn_.height; ++y)
             for (int x = 0; x < drawn_.width; ++x) compare(layers, x, y);
+    }
+
+    /// Compares those in doubt with their evaluation and its spread. Those out of limit stay in doubt.
+    void compare_closer(const Layers& layers) {
+        std::erase_if(doubts_, [&](WrongPixel& pixel) {
+            const auto& candidates = layers.at(pixel.x, drawn_.height - 1 - pixel.y);
+            const Seen seen = visible(candidates).value_or(Seen{background_, {}});
+            pixel.ratio = ratio_of(pixel.actual, seen, limit_);
+            if (pixel.ratio > 1) return false;
+            report_.largest_ratio = std::max(report_.largest_ratio, nearest_ratio(pixel, candidates));
+            measure(pixel.actual, pixel.expected);
+            return true;
+        });
     }
 
     [[nodiscard]] bool has_doubts() const { return !doubts_.empty(); }
@@ -63,13 +79,11 @@ class Judge {
     /// Clears the doubts that this evaluation explains.
     void explain(const Layers& layers) {
         std::erase_if(doubts_, [&](const WrongPixel& pixel) {
-            const int y = drawn_.height - 1 - pixel.y;
-            for (const Color& color : possible(layers.at(pixel.x, y), background_)) {
-                if (ratio_of(pixel.actual, color, limit_) > 1) continue;
-                ++report_.edges;
-                return true;
-            }
-            return false;
+            const double ratio = nearest_ratio(pixel, layers.at(pixel.x, drawn_.height - 1 - pixel.y));
+            if (ratio > 1) return false;
+            report_.largest_ratio = std::max(report_.largest_ratio, ratio);
+            ++report_.edges;
+            return true;
         });
     }
 
@@ -88,16 +102,26 @@ class Judge {
     }
 
   private:
+    /// The ratio to whichever of the pixel's possible colours is nearest.
+    [[nodiscard]] double nearest_ratio(const WrongPixel& pixel,
+                                       const std::vector<Candidate>& candidates) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Seen& seen : possible(candidates, background_))
+            nearest = std::min(nearest, ratio_of(pixel.actual, seen, limit_));
+        return nearest;
+    }
+
     void compare(const Layers& layers, int x, int y) {
-        const std::optional<Color> found = visible(layers.at(x, y));
+        const std::optional<Seen> found = visible(layers.at(x, y));
         if (found) ++report_.drawn;
-        const Color expected = found.value_or(background_);
+        const Seen seen = found.value_or(Seen{background_, {}});
+        const Color& expected = seen.color;
         const Color actual = color_at(drawn_, x, y);
         const int row = drawn_.height - 1 - y;
         for (int c = 0; c < 4; ++c)
             report_.expected.at(x, row, c) = static_cast<float>(expected[static_cast<std::size_t>(c)]);
-        const double ratio = ratio_of(actual, expected, limit_);
-        if (ratio > 1) {
+        const double ratio = ratio_of(actual, seen, limit_);
+        if (ratio > kDoubtfulRatio) {
             doubts_.push_back({x, row, actual, expected, ratio});
             return;
         }
@@ -146,7 +170,7 @@ bool PictureReport::fails() const {
 
 PixelLimit limit_of(const evaluate::Program& vertex, const evaluate::Program& fragment) {
     using evaluate::Kind;
-    PixelLimit limit{kInterpolationError, kArithmeticError};
+    PixelLimit limit{kSmallestError, kArithmeticError};
     if (!vertex.images.empty() || !fragment.images.empty()) limit.absolute += kFilteringError;
     for (const evaluate::Program* program : {&vertex, &fragment})
         if (computes(*program, {Kind::pow, Kind::exp, Kind::log, Kind::trig}))
@@ -158,16 +182,25 @@ PictureReport compare_picture(const Image& drawn, const SoftwareProgram& program
                               const std::vector<SoftwareObject>& objects,
                               const std::array<float, 4>& background, KeptPictures kept) {
     Judge judge(drawn, background, limit_of(program.vertex, program.fragment), kept);
-    const Result<Layers> plain = shade_all(program, objects, 0, 0);
+    const Result<Layers> plain = shade_all(program, objects);
     if (!plain) return without_picture(plain.error());
     judge.compare(*plain);
-    judge.explain(*plain);
-    std::vector<SoftwareObject> in_doubt;
-    if (judge.has_doubts())
+    const auto in_doubt = [&] {
+        std::vector<SoftwareObject> parts;
         for (const SoftwareObject& object : objects)
-            in_doubt.push_back(part_of(program, object, [&](int x, int y) { return judge.doubts(x, y); }));
+            parts.push_back(part_of(program, object, [&](int x, int y) { return judge.doubts(x, y); }));
+        return parts;
+    };
+    if (judge.has_doubts()) {
+        const std::vector<SoftwareObject> parts = in_doubt();
+        const Result<Layers> closer = shade_with_spread(program, parts);
+        if (!closer) return without_picture(closer.error());
+        judge.compare_closer(*closer);
+        judge.explain(*closer);
+    }
+    const std::vector<SoftwareObject> parts = judge.has_doubts() ? in_doubt() : std::vector<SoftwareObject>{};
     for (std::uint64_t seed = 1; seed <= kNudges && judge.has_doubts(); ++seed) {
-        const Result<Layers> nudged = shade_all(program, in_doubt, kNudge, seed);
+        const Result<Layers> nudged = shade_all(program, parts, {kNudge, seed});
         if (!nudged) return without_picture(nudged.error());
         judge.explain(*nudged);
     }

@@ -12,28 +12,29 @@
 
 namespace gobo::verify {
 
-/// How far a pixel may be off: `absolute` plus `relative` of the expected channel.
+/// How far a pixel may be off: `absolute`, plus `relative` of the expected channel, plus what the errors of
+/// interpolation make of it (interpolation_spread()).
 struct PixelLimit {
     double absolute = 0;
     double relative = 0;
 };
 
-/// llvmpipe interpolates in floats: at 64 x 64 a normal's components come out within 4e-6 of exact
-/// interpolation, and what is computed from them follows. Five times that for the slope of the light.
-inline constexpr double kInterpolationError = 2e-5;
+/// Of powers and exponentials below a thousandth, llvmpipe's approximations leave more of themselves wrong:
+/// so much of a light whose colour is about 1.
+inline constexpr double kSmallestError = 1e-6;
 /// llvmpipe's pow, exp and log are approximations, off by up to 8e-5 of a power whose exponent is large (1e-5
 /// at 90), and so is its atan (2e-5).
 inline constexpr double kPowerError = 8e-5;
 /// Its inversesqrt and division are off by 1.5 ulp where the evaluator's are exact; a hundred of each.
 inline constexpr double kArithmeticError = 2e-5;
-/// Its filter's weights are floats of a place that is a coordinate times the number of texels, on a cube after
-/// a division: off by up to 1.4e-6 of the contrast between two texels, which here is 1.
+/// Its filter's weights are floats of a place that is a coordinate times the number of texels, on a cube
+/// after a division: off by up to 1.4e-6 of the contrast between two texels, which here is 1.
 inline constexpr double kFilteringError = 2e-6;
 
 /// Of a picture's pixels, at most this share may be decided differently at a discontinuity or an edge.
 inline constexpr double kLargestEdgePixelShare = 0.01;
 
-/// Root mean square over a picture's channels: what is off by kInterpolationError is so in few pixels.
+/// Root mean square over a picture's channels: what is off by much is so in few pixels.
 inline constexpr double kRmsLimit = 1e-5;
 
 /// A pixel with what was drawn and what should have been. Counted from the upper left.

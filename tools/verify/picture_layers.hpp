@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "verify/software_picture.hpp"
+#include "verify/shade.hpp"
 
 namespace gobo::verify {
 
@@ -19,6 +19,13 @@ inline constexpr double kDepthError = 2e-6;
 struct Candidate {
     const Fragment* fragment = nullptr;
     Shaded shaded;
+    Color spread{};  ///< of its colour: interpolation_spread()
+};
+
+/// What a pixel may show.
+struct Seen {
+    Color color{};
+    Color spread{};
 };
 
 /// The candidates of each pixel. Refers to the objects' fragments, which must outlive it.
@@ -27,7 +34,8 @@ class Layers {
     Layers(int width, int height)
         : width_(width), at_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-    void add(const SoftwareObject& object, const std::vector<Shaded>& shaded);
+    void add(const SoftwareObject& object, const std::vector<Shaded>& shaded,
+             const std::vector<Color>& spread = {});
     /// Pixels are counted from the lower left.
     [[nodiscard]] const std::vector<Candidate>& at(int x, int y) const { return at_[index(x, y)]; }
 
@@ -39,16 +47,19 @@ class Layers {
     std::vector<std::vector<Candidate>> at_;
 };
 
-/// Shades every object. `nudge` and `seed` as of shade().
+/// Shades every object, nudged.
 [[nodiscard]] Result<Layers> shade_all(const SoftwareProgram& program,
-                                       const std::vector<SoftwareObject>& objects, double nudge,
-                                       std::uint64_t seed);
+                                       const std::vector<SoftwareObject>& objects, const Nudge& nudge = {});
+
+/// Shades every object, and finds how far its colours may be off by errors of interpolation.
+[[nodiscard]] Result<Layers> shade_with_spread(const SoftwareProgram& program,
+                                               const std::vector<SoftwareObject>& objects);
 
 /// What the depth test leaves; nothing is the background.
-[[nodiscard]] std::optional<Color> visible(const std::vector<Candidate>& candidates);
+[[nodiscard]] std::optional<Seen> visible(const std::vector<Candidate>& candidates);
 
 /// All that the pixel may show where each fragment near an edge may be covered or not, and depths that are
 /// almost the same may be ordered either way.
-[[nodiscard]] std::vector<Color> possible(const std::vector<Candidate>& candidates, const Color& background);
+[[nodiscard]] std::vector<Seen> possible(const std::vector<Candidate>& candidates, const Color& background);
 
 }  // namespace gobo::verify

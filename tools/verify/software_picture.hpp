@@ -25,13 +25,6 @@ struct SoftwareProgram {
 [[nodiscard]] Result<SoftwareProgram> software_program(const SpirvModule& vertex,
                                                        const SpirvModule& fragment);
 
-/// What the fragment stage made of a fragment.
-struct Shaded {
-    std::array<double, 4> color = {0, 0, 0, 1};
-    double depth = 0;
-    bool is_discarded = false;
-};
-
 /// One object, rasterised, ready to be shaded.
 struct SoftwareObject {
     evaluate::Invocations vertices;  ///< of the vertex stage
@@ -60,29 +53,5 @@ struct SoftwareObject {
 /// their triangles.
 [[nodiscard]] SoftwareObject part_of(const SoftwareProgram& program, const SoftwareObject& object,
                                      const std::function<bool(int, int)>& is_wanted);
-
-/// The fragment stage's inputs and uniforms, one invocation for each fragment of the object, interpolated
-/// from the vertex stage's outputs in fp64.
-[[nodiscard]] Result<evaluate::Invocations> exact_fragment_inputs(const SoftwareProgram& program,
-                                                                  const SoftwareObject& object);
-
-/// The operations executed, by kind: by all vertices together, and by all fragments.
-struct Work {
-    evaluate::Counts vertices{};
-    evaluate::Counts fragments{};
-};
-
-/// Shades every fragment of the object, both stages in arithmetic of T: float or double. Adds to `work`
-/// unless it is null.
-template <class T>
-[[nodiscard]] Result<std::vector<Shaded>> shade_in(const SoftwareProgram& program,
-                                                   const SoftwareObject& object, Work* work = nullptr);
-
-/// Shades every fragment of the object. `nudge` moves each attribute and each varying at random by up to that
-/// much of the largest component of its vector, to see what hangs on a rounding; coverage stays. 0: none.
-/// `operations`, where given, grows by what the fragment stage executes.
-[[nodiscard]] Result<std::vector<Shaded>> shade(const SoftwareProgram& program, const SoftwareObject& object,
-                                                double nudge, std::uint64_t seed,
-                                                evaluate::Counts* operations = nullptr);
 
 }  // namespace gobo::verify
