@@ -16,4 +16,7 @@ int nextLightNumber;
 void beginIntensities() { nextLightNumber = 0; }
 
 /// The cosine between the normal and the direction to the next light.
-float nextIntensity(vec3 normal, vec3 toLight) { return cosineOfSide(lightIntensities[nextLightNumber++]); }
+float nextIntensity(vec3 normal, vec3 toLight) {
+    int number = nextLightNumber++;
+    return cosineOfSide(lightIntensities[number / 4][number % 4]);
+}

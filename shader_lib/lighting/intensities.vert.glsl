@@ -9,9 +9,14 @@
 #include <spot/ray>
 #include "surface/normal.glsl"
 
-/// The cosine of each light: directional lights, point lights, spot lights, homogeneous lights.
-float[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS] intensitiesOfLights() {
-    float cosines[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS];
+/// So many vectors hold the cosines of all lights, four each.
+const int intensityVectors =
+    (DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS + 3) / 4;
+
+/// The cosine of each light, four to a vector and 0 behind the last: directional lights, point lights, spot lights,
+/// homogeneous lights.
+vec4[intensityVectors] intensitiesOfLights() {
+    float cosines[4 * intensityVectors];
     vec3 normal = surfaceNormal();
     int next = 0;
 #if DIRECTIONAL_LIGHTS > 0
@@ -26,5 +31,9 @@ float[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS] inte
 #if HOMOGENEOUS_LIGHTS > 0
     for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) cosines[next++] = dot(normal, homogeneousRay(i).toLight);
 #endif
-    return cosines;
+    while (next < 4 * intensityVectors) cosines[next++] = 0.0;
+    vec4 packed[intensityVectors];
+    for (int i = 0; i < intensityVectors; ++i)
+        packed[i] = vec4(cosines[4 * i], cosines[4 * i + 1], cosines[4 * i + 2], cosines[4 * i + 3]);
+    return packed;
 }

@@ -1,10 +1,14 @@
 // The front of a finished study as readers see it: a short table, a chart, and which keys are on it by time.
 #include "study/front_table.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "study/front_chart.hpp"
+#include "study/read_study.hpp"
 
 namespace gobo::study {
 namespace {
@@ -53,6 +57,21 @@ TEST(FrontTable, HasTheCheapestQualityWithinEachPowerOfTen) {
               "| `power=near` | 8.0e-07 | 2.0e-08 | 1200 |  |\n"
               "| `power=rough` | 0.02 | 0.003 | 900 |  |\n"
               "| `shading=vertex` | 0.3 | 0.1 | 20.4 |  |\n");
+}
+
+TEST(FrontTable, FillsItsLinesWithWhatLiesFurthestBetween) {
+    std::string study = kStudy;
+    for (const char* row : {"light=1,light=1 power=rough shading=vertex,*,0.1,0.01,600,yes\n",
+                            "light=1,light=1 power=near shading=vertex,*,0.2,0.02,25,yes\n",
+                            "light=1,light=1 power=exact shading=vertex,*,0.25,0.02,22,yes\n"})
+        study += row;
+    const auto rows = read_rows(study, "study.csv", small_family(), key_of("light=1"));
+    ASSERT_TRUE(rows) << to_text(rows.error().front());
+    const std::string table = front_table(*rows);
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + 6);
+    EXPECT_NE(table.find("| 600 |"), std::string::npos) << table;
+    EXPECT_NE(table.find("| 25 |"), std::string::npos) << table;
+    EXPECT_EQ(table.find("| 22 |"), std::string::npos) << table;
 }
 
 TEST(FrontTable, NumbersTheFrontInItsChart) {

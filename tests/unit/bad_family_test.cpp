@@ -103,6 +103,19 @@ const BadRow bad_rows[] = {
      "    location = 1\n"
      "               ^\n"
      "  remedy: leave the location out: counted varyings lie behind the others\n"},
+    {"varying_with_too_many_values_in_an_element",
+     "[features.point]\n"
+     "count = [0, 4]\n"
+     "constant = \"N\"\n"
+     "[varyings.rays]\n"
+     "count = \"point\"\n"
+     "values_per_element = 5\n"
+     "type = \"vec4\"\n"
+     "value = \"v\"\n",
+     "tiny.toml:9:22: error: varying 'rays' has no valid values_per_element\n"
+     "    values_per_element = 5\n"
+     "                         ^\n"
+     "  remedy: write a number from 1 to 4 beside a count\n"},
     {"domain_last_is_no_range",
      "[domain]\n"
      "\"rays[]\" = { length = [0, 1], last = [2] }\n",

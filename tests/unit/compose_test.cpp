@@ -225,6 +225,12 @@ TEST_F(Compose, LaysCountedVaryingsBehindTheOthers) {
                 testing::HasSubstr("vec4 rays[2]; void writeVaryingRays() { rays = allRays(); }"));
     files["tiny.frag"] = "void main() { rays; }\n";
     EXPECT_EQ(declarations("point=1"), "VARYING(0) vec4 rays[2];");
+    body = std::string(features) +
+           "[varyings.cosines]\ncount = \"point + point\"\nvalues_per_element = 4\ntype = \"vec4\"\n"
+           "value = \"allCosines()\"\n";
+    files["tiny.frag"] = "void main() { cosines; }\n";
+    EXPECT_EQ(declarations("point=2"), "VARYING(0) vec4 cosines[1];");
+    EXPECT_EQ(declarations("point=3"), "VARYING(0) vec4 cosines[2];");
 }
 
 TEST_F(Compose, PrintsTheWholeCycle) {

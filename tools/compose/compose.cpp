@@ -236,9 +236,9 @@ class Composer {
 
     /// How many elements a counted varying has.
     static int size_of(const Varying& varying, const Key& key) {
-        int size = 0;
-        for (const int feature : varying.counts) size += key[static_cast<std::size_t>(feature)];
-        return size;
+        int values = 0;
+        for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
+        return (values + varying.values_per_element - 1) / varying.values_per_element;
     }
 
     /// eyePosition -> writeVaryingEyePosition

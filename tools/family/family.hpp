@@ -67,9 +67,10 @@ struct Varying {
     std::string name;  ///< the GLSL identifier
     std::string type;  ///< the GLSL type
     int location = 0;  ///< of a single varying
-    /// Of a counted one, an array, the counts whose sum is its size; it lies behind all single ones that are
-    /// read, and `location` is 0. Empty: it is single.
+    /// Of a counted one, an array, the counts whose sum is how many values it holds; it lies behind all single
+    /// ones that are read, and `location` is 0. Empty: it is single.
     std::vector<int> counts;
+    int values_per_element = 1;  ///< of a counted one: a vec4 may hold the values of four
     std::string interpolation;  ///< "flat", "noperspective", "smooth", or empty
     std::string piece;          ///< the piece that the vertex stage includes for it
     std::string value;          ///< the GLSL expression that the vertex stage writes

@@ -63,7 +63,8 @@ class Builder {
           value_counts_(value_counts),
           levels_(levels),
           dead_(dead),
-          known_(value_counts.size()) {}
+          known_(value_counts.size()),
+          made_(value_counts.size()) {}
 
     /// The node of `level` for these open conditions (their conjunction as one), or dead.
     int build(std::size_t level, Id open) {
@@ -76,8 +77,10 @@ class Builder {
         }
         int index = dead_;
         if (std::any_of(node.next.begin(), node.next.end(), [&](int next) { return next != dead_; })) {
-            index = static_cast<int>(levels_[level].size());
-            levels_[level].push_back(std::move(node));
+            const auto [same, is_new] =
+                made_[level].try_emplace(node.next, static_cast<int>(levels_[level].size()));
+            index = same->second;
+            if (is_new) levels_[level].push_back(std::move(node));
         }
         known_[level].emplace(open, index);
         return index;
@@ -88,7 +91,8 @@ class Builder {
     const std::vector<int>& value_counts_;
     std::vector<std::vector<Node>>& levels_;
     int dead_;
-    std::vector<std::map<Id, int>> known_;
+    std::vector<std::map<Id, int>> known_;               ///< per level: nodes by their open conditions
+    std::vector<std::map<std::vector<int>, int>> made_;  ///< per level: nodes by where they lead
 };
 
 }  // namespace

@@ -23,9 +23,9 @@ using PartialKey = std::vector<int>;
 
 /// All canonical valid keys of a family within some limits.
 ///
-/// A reduced multi-valued decision diagram: level i decides feature i, a node is the set of conditions still
-/// open once the features before it are decided, and two ways to the same open conditions share a node. No
-/// node is a dead end.
+/// A reduced multi-valued decision diagram: level i decides feature i, and a node stands for what may still
+/// follow. Two ways after which the same may follow share a node: those that leave the same conditions open,
+/// and those whose conditions differ only in how they are written. No node is a dead end.
 class KeySpace {
   public:
     KeySpace(const Family& family, std::string_view dialect, const KeySpaceLimits& limits);

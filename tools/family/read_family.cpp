@@ -24,6 +24,7 @@ std::string folder_of(const std::string& path) {
 
 /// Beyond any driver's: OpenGL guarantees 15 vectors between the stages.
 constexpr std::int64_t largest_location = 255;
+constexpr std::int64_t largest_vector = 4;
 
 void read_location(TomlReader& reader, const toml::table& row, const std::string& what, Varying& varying) {
     const std::int64_t location = reader.integer(row, "location").value_or(-1);
@@ -68,6 +69,18 @@ void read_counts(TomlReader& reader, const toml::table& row, const std::string& 
     }
 }
 
+/// `values_per_element = 4`: a counted varying whose elements are vectors of so many values.
+void read_values_per_element(TomlReader& reader, const toml::table& row, const std::string& what,
+                             Varying& varying) {
+    if (!row.contains("values_per_element")) return;
+    const std::int64_t values = reader.integer(row, "values_per_element").value_or(0);
+    if (row.contains("count") && values >= 1 && values <= largest_vector)
+        varying.values_per_element = static_cast<int>(values);
+    else
+        reader.error(*row.get("values_per_element"), what + " has no valid values_per_element",
+                     fmt::format("write a number from 1 to {} beside a count", largest_vector));
+}
+
 /// `varyings` are sorted by location.
 void refuse_shared_locations(TomlReader& reader, const std::vector<Varying>& varyings) {
     for (std::size_t i = 1; i < varyings.size(); ++i) {
@@ -101,7 +114,7 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
                          "write [varyings.NAME] with location, type, piece and value");
             break;
         }
-        reader.only(*row, what, {"location", "count", "type", "interpolation", "piece", "value"});
+        reader.only(*row, what, {"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
         if (row->contains("count") && !row->contains("location"))
             read_counts(reader, *row, what, features, varying);
         else
@@ -110,6 +123,7 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
             reader.error(*row->get("location"), what + " has a location and a count",
                          "leave the location out: counted varyings lie behind the others");
         }
+        read_values_per_element(reader, *row, what, varying);
         varying.type = reader.required_string(*row, what, "type");
         varying.value = reader.required_string(*row, what, "value");
         varying.piece = reader.string(*row, "piece").value_or("");

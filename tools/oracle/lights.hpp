@@ -39,10 +39,10 @@ struct Arrival {
     bool is_given = false;   ///< `to_light` is an input, made unit by the application
     double place_size = 0;   ///< |P| of a position that is divided by its w, and so rounded
     double cone_angle = 0;   ///< between the ray and a spot light's axis
-    const SpotLight* spot = nullptr;
-    bool is_interpolated = false;    ///< direction and share are what hybrid shading hands on, not computed
-    bool is_shadowed = false;        ///< a shadow map was asked
-    double shadow_per_rounding = 0;  ///< as of Visibility
+    const SpotLight* spot = nullptr;  ///< of the scene that was asked, which must outlive this
+    bool is_interpolated = false;     ///< direction and share are what hybrid shading hands on, not computed
+    bool is_shadowed = false;         ///< a shadow map was asked
+    double shadow_per_rounding = 0;   ///< as of Visibility
     double shadow_per_length = 0;
     double shadow_per_place = 0;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "family/key.hpp"
+#include "study/front_chart.hpp"
 #include "study/front_table.hpp"
 #include "study/report_parts.hpp"
 

@@ -53,7 +53,7 @@ void make_timings_repeatable();
 [[nodiscard]] bool draws_in_calling_thread(const std::string& renderer);
 
 /// The fragments that pass the depth test when the list is drawn to the framebuffer that is bound.
-[[nodiscard]] double count_fragments(const Context& context, const DrawList& list);
+double count_fragments(const Context& context, const DrawList& list);
 
 /// The control of the clock to rank by: see cost_against_time().
 [[nodiscard]] double ranked_control(const Control& control, const std::string& renderer);

@@ -9,6 +9,7 @@
 #include "verify/feed_surface.hpp"
 #include "verify/field_access.hpp"
 #include "verify/image_light_feed.hpp"
+#include "verify/intensities.hpp"
 #include "verify/sample_textures.hpp"
 #include "verify/shadow_feed.hpp"
 #include "verify/switched_feed.hpp"
@@ -134,8 +135,7 @@ std::optional<Field> field_of(const std::string& name) {
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
     if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
     if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
-    if (auto cosine = handed_on_field(name, "lightIntensities", &oracle::SurfacePoint::intensities))
-        return cosine;
+    if (auto cosines = intensities_field(name)) return cosines;
     if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
     if (const auto light = element_name(name, "PointLights.lights"))
         return point_field(&oracle::Scene::point, *light);

@@ -9,12 +9,12 @@
 namespace gobo::verify {
 namespace {
 
-/// All lights as they arrive, and by how much of it: the radiance of a light that is white and 1 bright.
-std::vector<oracle::Arrival> shares(const oracle::Model& model, oracle::Scene scene,
-                                    const glm::dvec3& position, oracle::Decisions& decisions) {
+/// The scene with local lights that are white and 1 bright: what arrives of them is their share. Arrivals refer
+/// to the lights of their scene.
+oracle::Scene with_white_lights(oracle::Scene scene) {
     for (oracle::PointLight& light : scene.point) light.color = glm::dvec3(1);
     for (oracle::SpotLight& light : scene.spot) light.color = glm::dvec3(1);
-    return oracle::arrivals(model, scene, position, decisions);
+    return scene;
 }
 
 Expected expect_ray(std::size_t index, const oracle::Arrival& arrival, const ArrivalErrors& errors) {
@@ -55,8 +55,9 @@ std::vector<Expected> expect_handed_on(const oracle::Model& model, const oracle:
     std::vector<Expected> outputs;
     const glm::dvec3 to_viewer = oracle::to_viewer(model, position);
     const double viewer = viewer_error(model, position, position_error);
+    const oracle::Scene white = with_white_lights(scene);
     std::size_t number = 0;
-    for (const oracle::Arrival& arrival : shares(model, scene, position, decisions)) {
+    for (const oracle::Arrival& arrival : oracle::arrivals(model, white, position, decisions)) {
         const ArrivalErrors errors = arrival_errors(model, arrival, position_error);
         if (number >= scene.directional.size())
             outputs.push_back(expect_ray(number - scene.directional.size(), arrival, errors));
@@ -72,8 +73,9 @@ void hand_on(const oracle::Model& model, const oracle::Scene& scene, Random& ran
              oracle::SurfacePoint& point) {
     oracle::Decisions decisions;
     const glm::dvec3 to_viewer = oracle::to_viewer(model, point.position);
+    const oracle::Scene white = with_white_lights(scene);
     std::size_t number = 0;
-    for (const oracle::Arrival& arrival : shares(model, scene, point.position, decisions)) {
+    for (const oracle::Arrival& arrival : oracle::arrivals(model, white, point.position, decisions)) {
         if (number++ >= scene.directional.size()) {
             const double share = arrival.radiance.x * random.between(0.9, 1.1);
             point.rays.emplace_back(shortened(arrival.to_light, random),

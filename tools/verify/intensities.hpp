@@ -2,22 +2,28 @@
 // given.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "oracle/decisions.hpp"
 #include "oracle/model.hpp"
 #include "oracle/scene.hpp"
 #include "verify/expectation.hpp"
+#include "verify/feed.hpp"
 #include "verify/random.hpp"
 
 namespace gobo::verify {
 
-/// The cosine of each light as the vertex stage writes it, at a position and a unit normal that are off by so
+/// The cosines of all lights as the vertex stage writes them, four to a vector and 0 behind the last, at a position and a unit normal that are off by so
 /// much.
 [[nodiscard]] std::vector<Expected> expect_intensities(const oracle::Model& model, const oracle::Scene& scene,
                                                        const oracle::SurfacePoint& vertex,
                                                        double position_error, double normal_error,
                                                        oracle::Decisions& decisions);
+
+/// The field of that reflected name: "lightIntensities[1]" holds the lights 4 to 7. Nothing where there is none.
+[[nodiscard]] std::optional<Field> intensities_field(const std::string& name);
 
 /// Gives the surface point cosines such as interpolation makes of its lights': nearer to 0.
 void hand_on_intensities(const oracle::Model& model, const oracle::Scene& scene, Random& random,
