@@ -32,8 +32,8 @@ vec4[intensityVectors] intensitiesOfLights() {
     for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) cosines[next++] = dot(normal, homogeneousRay(i).toLight);
 #endif
     while (next < 4 * intensityVectors) cosines[next++] = 0.0;
-    vec4 packed[intensityVectors];
+    vec4 vectors[intensityVectors];
     for (int i = 0; i < intensityVectors; ++i)
-        packed[i] = vec4(cosines[4 * i], cosines[4 * i + 1], cosines[4 * i + 2], cosines[4 * i + 3]);
-    return packed;
+        vectors[i] = vec4(cosines[4 * i], cosines[4 * i + 1], cosines[4 * i + 2], cosines[4 * i + 3]);
+    return vectors;
 }
