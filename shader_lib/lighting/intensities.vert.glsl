@@ -16,24 +16,25 @@ const int intensityVectors =
 /// The cosine of each light, four to a vector and 0 behind the last: directional lights, point lights, spot lights,
 /// homogeneous lights.
 vec4[intensityVectors] intensitiesOfLights() {
-    float cosines[4 * intensityVectors];
+    vec4 cosines[intensityVectors];
+    for (int i = 0; i < intensityVectors; ++i) cosines[i] = vec4(0.0);
     vec3 normal = surfaceNormal();
     int next = 0;
 #if DIRECTIONAL_LIGHTS > 0
-    for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i) cosines[next++] = dot(normal, directionalRay(i));
+    for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i, ++next)
+        cosines[next / 4][next % 4] = dot(normal, directionalRay(i));
 #endif
 #if POINT_LIGHTS > 0
-    for (int i = 0; i < POINT_LIGHTS; ++i) cosines[next++] = dot(normal, pointRay(i).toLight);
+    for (int i = 0; i < POINT_LIGHTS; ++i, ++next)
+        cosines[next / 4][next % 4] = dot(normal, pointRay(i).toLight);
 #endif
 #if SPOT_LIGHTS > 0
-    for (int i = 0; i < SPOT_LIGHTS; ++i) cosines[next++] = dot(normal, spotRay(i).toLight);
+    for (int i = 0; i < SPOT_LIGHTS; ++i, ++next)
+        cosines[next / 4][next % 4] = dot(normal, spotRay(i).toLight);
 #endif
 #if HOMOGENEOUS_LIGHTS > 0
-    for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) cosines[next++] = dot(normal, homogeneousRay(i).toLight);
+    for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i, ++next)
+        cosines[next / 4][next % 4] = dot(normal, homogeneousRay(i).toLight);
 #endif
-    while (next < 4 * intensityVectors) cosines[next++] = 0.0;
-    vec4 vectors[intensityVectors];
-    for (int i = 0; i < intensityVectors; ++i)
-        vectors[i] = vec4(cosines[4 * i], cosines[4 * i + 1], cosines[4 * i + 2], cosines[4 * i + 3]);
-    return vectors;
+    return cosines;
 }

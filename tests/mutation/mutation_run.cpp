@@ -51,15 +51,25 @@ int lights(const Family& family, const Key& key) {
     return count;
 }
 
-/// The keys of a cover that use each piece: few lights first, since among many an error drowns.
-std::map<std::string, std::vector<Key>> keys_by_piece(const Family& family) {
+/// A cover by threes of up to three lights, since among many an error drowns, and one by twos of any number;
+/// retired values too, whose pieces are shipped. Few lights first.
+std::vector<Key> keys_to_try(const Family& family) {
     Selection selection;
-    selection.cover = 3;
-    selection.retired = true;  // their pieces are shipped, too
-    selection.where = "directional + point + spot <= 3";
+    selection.retired = true;
+    selection.cover = 2;
     std::vector<Key> keys = select(family, selection, "450").value();
+    selection.cover = 3;
+    selection.where = "directional + point + spot <= 3";
+    const std::vector<Key> dim = select(family, selection, "450").value();
+    keys.insert(keys.end(), dim.begin(), dim.end());
     std::stable_sort(keys.begin(), keys.end(),
                      [&](const Key& a, const Key& b) { return lights(family, a) < lights(family, b); });
+    return keys;
+}
+
+/// The keys that use each piece.
+std::map<std::string, std::vector<Key>> keys_by_piece(const Family& family) {
+    const std::vector<Key> keys = keys_to_try(family);
     const Composition composition = compose_lit(family, keys, {}).value();
     std::map<std::string, std::vector<Key>> result;
     for (const Permutation& permutation : composition.permutations) {
@@ -72,12 +82,12 @@ std::map<std::string, std::vector<Key>> keys_by_piece(const Family& family) {
     return result;
 }
 
-/// At most kKeysPerMutant of them, spread over the whole list.
+/// At most kKeysPerMutant of them, spread over the whole list, the last among them.
 std::vector<Key> some_of(const std::vector<Key>& keys) {
+    const std::size_t count = std::min(kKeysPerMutant, keys.size());
     std::vector<Key> result;
-    const std::size_t step = std::max<std::size_t>(1, keys.size() / kKeysPerMutant);
-    for (std::size_t i = 0; i < keys.size() && result.size() < kKeysPerMutant; i += step)
-        result.push_back(keys[i]);
+    for (std::size_t i = 0; i < count; ++i)
+        result.push_back(keys[count == 1 ? 0 : i * (keys.size() - 1) / (count - 1)]);
     return result;
 }
 

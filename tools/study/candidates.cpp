@@ -90,7 +90,9 @@ Result<Candidates> find_candidates(const Family& family, const SearchPath& searc
     candidates.keys = {accurate};
     for (const Choice& choice : single_choices(family, effects)) candidates.keys.push_back(choice.key);
     std::vector<Key> all = all_qualities(family, effects, kMostScreened);
-    candidates.considered = std::max(all.size(), candidates.keys.size());
+    std::set<Key> considered(all.begin(), all.end());
+    considered.insert(candidates.keys.begin(), candidates.keys.end());  // retired values are single choices only
+    candidates.considered = considered.size();
     if (all.size() > kMeasuredWithoutScreening) {
         Result<std::vector<Key>> kept = screen(family, search, accurate, all, scenes, weights, jobs);
         if (!kept) return tl::unexpected(kept.error());
