@@ -22,7 +22,7 @@ constexpr const char* kHeading = R"(# The lighting models
 Every model of the classic texts by its id, an example of a permutation that has it, the pieces that say so in their first lines, and the
 largest errors that `gobo test` met over all permutations that have it: in single precision and, of the same shader, in double precision, both
 relative to the largest term of the light ([verification](verification.md)). What is measured in the tests are the permutations of `gobo test lit
---cover 2` and `gobo test uber`; they mix models and qualities, and the largest errors are those of `spot_edge=cosine`, which tells narrow cones apart no better than a cosine in single
+--cover 3` and `gobo test uber`; they mix models and qualities, and the largest errors are those of `spot_edge=cosine`, which tells narrow cones apart no better than a cosine in single
 precision does ([quality](quality.md)). One command writes this page, its pictures and its figures; a test fails
 where it is stale:
 
