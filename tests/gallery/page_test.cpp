@@ -32,6 +32,7 @@ Gallery small_gallery() {
     entry.key = {0, 3};
     entry.actual = "lights-3.png";
     entry.fragment_cost = 1234.5;
+    entry.vertex_cost = 56.87;
     entry.largest_error = 0.1;
     gallery.entries.push_back(entry);
     entry.key = {0, 1};
@@ -55,6 +56,7 @@ TEST(GalleryPage, HoldsEachKeyItsValuesAndItsFigures) {
     EXPECT_THAT(entry["values"], ElementsAre("none", "3"));
     EXPECT_EQ(entry["actual"], "lights-3.png");
     EXPECT_EQ(entry["fragment_cost"], 1230) << "three digits";
+    EXPECT_EQ(entry["vertex_cost"].dump(), "56.9") << "and no more";
     EXPECT_EQ(entry["largest_error"], 0.1);
 }
 

@@ -91,8 +91,7 @@ class Composer {
         }
         if (placement.open.size() > deepest_include) return too_deep(*from);
         placement.open.push_back(piece);
-        for (std::size_t i = 0; i < library_.entry(piece).includes.size(); ++i) {
-            const Include include = library_.entry(piece).includes[i];  // a copy: loading moves the entries
+        for (const Include& include : library_.entry(piece).includes) {
             Diagnostics errors = follow(placement, include);
             if (!errors.empty()) return errors;
         }

@@ -1,6 +1,7 @@
 // The pieces read so far, each scanned once, and the resolution of includes to them.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,7 +53,7 @@ class PieceLibrary {
     const Family& family_;
     const SearchPath& search_;
     std::vector<std::string> interest_;
-    std::vector<Entry> entries_;
+    std::deque<Entry> entries_;  ///< not a vector: who holds an entry may load more of them
     std::map<std::string, int> stated_bindings_;
     Diagnostics warnings_;
     std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,9 +22,11 @@ std::string value_text(const Feature& feature, int value) {
 
 /// Three digits tell costs apart; more would suggest an exactness that an average has not.
 double to_three_digits(double number) {
-    if (number == 0) return 0;
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(number))) - 2);
-    return std::round(number / unit) * unit;
+    const std::string text =
+        fmt::format("{:.3g}", number);  // of the doubles nearby the one that is shown as this
+    double rounded = 0;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    return rounded;
 }
 
 /// Each feature with those of its values that occur, in the family's order.

@@ -187,6 +187,7 @@ PictureReport compare_picture(const Image& drawn, const SoftwareProgram& program
     judge.compare(*plain);
     const auto in_doubt = [&] {
         std::vector<SoftwareObject> parts;
+        parts.reserve(objects.size());
         for (const SoftwareObject& object : objects)
             parts.push_back(part_of(program, object, [&](int x, int y) { return judge.doubts(x, y); }));
         return parts;

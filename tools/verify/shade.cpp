@@ -99,7 +99,8 @@ Result<std::vector<Shaded>> shade_fragments(const SoftwareProgram& program, cons
     options.count = operations != nullptr;
     const Result<evaluate::Outputs> outputs = evaluate::run<float>(program.fragment, inputs, options);
     if (!outputs) return tl::unexpected(outputs.error());
-    for (const evaluate::Counts& counts : outputs->counts) add(counts, *operations);
+    if (operations != nullptr)
+        for (const evaluate::Counts& counts : outputs->counts) add(counts, *operations);
     std::vector<Shaded> result;
     for (std::size_t i = 0; i < object.fragments.size(); ++i)
         result.push_back(shaded(program, *outputs,
