@@ -18,6 +18,7 @@ target_compile_options(gobo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(gobo_options INTERFACE -Werror)
 endif()
+
 if(GOBO_SANITIZE)
   # Not vptr: it wants type information of glslang's classes, which distributions build without.
   target_compile_options(gobo_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined)
@@ -26,18 +27,50 @@ if(GOBO_SANITIZE)
   target_link_options(gobo_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# gobo_keep_roundings(TARGET): for code that rounds doubles to floats and goes on with doubles. Where g++ 12.2 makes one vector
-# instruction of two such neighbours, as of a dvec2, from -O2 on, it leaves the rounding out.
-function(gobo_keep_roundings target)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
+# gobo_folder(FOLDER USES folder ... LINK lib ...): a folder of tools/ as a static library, lab/study as gobo_lab_study. Its files
+# find what every folder includes in precompiled headers. main.cpp is left to gobo_program().
+function(gobo_folder folder)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "USES;LINK;PRECOMPILE;OPTIONS")
+  gobo_library_name(name ${folder})
+  file(GLOB sources CONFIGURE_DEPENDS "${folder}/*.cpp")
+  list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/main.cpp")
+  add_library(${name} STATIC ${sources})
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/tools" "${PROJECT_SOURCE_DIR}/include")
+  foreach(used IN LISTS arg_USES)
+    gobo_library_name(library ${used})
+    target_link_libraries(${name} PUBLIC ${library})
+  endforeach()
+  target_link_libraries(${name} PUBLIC gobo_options gobo_headers_of_libraries ${arg_LINK})
+  if(arg_OPTIONS)
+    target_compile_options(${name} PRIVATE ${arg_OPTIONS})
   endif()
+  gobo_precompile(${name} "${arg_PRECOMPILE}" ${arg_OPTIONS})
 endfunction()
 
-# gobo_library(NAME SOURCES a.cpp ... LINK lib ...): one folder of tools/ as a static library.
-function(gobo_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
-  add_library(${name} STATIC ${arg_SOURCES})
-  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/tools" "${PROJECT_SOURCE_DIR}/include")
-  target_link_libraries(${name} PUBLIC gobo_options ${arg_LINK})
+# What is precompiled once and used by every target of the same options: the standard library's headers, fmt, expected and `headers`.
+set(GOBO_PRECOMPILED <algorithm> <array> <charconv> <cmath> <cstddef> <cstdint> <cstdio> <functional> <limits> <map> <memory> <numeric> <optional>
+  <set> <string> <string_view> <tuple> <utility> <variant> <vector> <fmt/format.h> <tl/expected.hpp>)
+function(gobo_precompile target headers)
+  string(MAKE_C_IDENTIFIER "gobo_precompiled${headers}${ARGN}" owner)
+  if(NOT TARGET ${owner})
+    file(WRITE "${PROJECT_BINARY_DIR}/precompiled.cpp" "")
+    add_library(${owner} OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
+    target_link_libraries(${owner} PRIVATE gobo_options gobo_headers_of_libraries fmt::fmt $<TARGET_NAME_IF_EXISTS:GTest::gmock>)
+    target_compile_options(${owner} PRIVATE ${ARGN})
+    target_precompile_headers(${owner} PRIVATE ${GOBO_PRECOMPILED} ${headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${owner})
+endfunction()
+
+# gobo_program(NAME FOLDER): the executable of a folder that holds main.cpp.
+function(gobo_program name folder)
+  gobo_library_name(library ${folder})
+  add_executable(${name} ${folder}/main.cpp)
+  target_link_libraries(${name} PRIVATE ${library})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+endfunction()
+
+function(gobo_library_name variable folder)
+  string(REPLACE "/" "_" name ${folder})
+  set(${variable} gobo_${name} PARENT_SCOPE)
 endfunction()

@@ -10,6 +10,16 @@ find_path(GOBO_JSON_INCLUDE nlohmann/json.hpp REQUIRED)
 find_path(GOBO_CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 find_path(GOBO_XXHASH_INCLUDE xxhash.h REQUIRED)
 find_path(GOBO_GLM_INCLUDE glm/glm.hpp REQUIRED)
+find_package(OpenEXR REQUIRED CONFIG)
+find_package(tinyobjloader REQUIRED CONFIG)
+find_path(GOBO_LODEPNG_INCLUDE lodepng.h REQUIRED)
+find_library(GOBO_LODEPNG_LIBRARY lodepng REQUIRED)
+set(GOBO_SPIRV_TOOLS $<IF:$<TARGET_EXISTS:SPIRV-Tools-static>,SPIRV-Tools-static,SPIRV-Tools>)
+
+# Libraries that are headers only.
+add_library(gobo_headers_of_libraries INTERFACE)
+target_include_directories(gobo_headers_of_libraries SYSTEM INTERFACE "${GOBO_EXPECTED_INCLUDE}" "${GOBO_SPIRV_INCLUDE}" "${GOBO_JSON_INCLUDE}"
+  "${GOBO_CLI11_INCLUDE}" "${GOBO_XXHASH_INCLUDE}" "${GOBO_GLM_INCLUDE}" "${GOBO_LODEPNG_INCLUDE}")
 
 # glslang 14 and later hold everything in fewer libraries: link those of the old names that exist.
 add_library(gobo_glslang INTERFACE)

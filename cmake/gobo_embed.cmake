@@ -33,7 +33,7 @@ foreach(file IN LISTS files)
   string(APPEND rows "    {\"${file}\",${literals}},\n")
 endforeach()
 set(content "// Written by cmake/gobo_embed.cmake.
-#include \"library/shipped_files.hpp\"
+#include \"core/shipped_files.hpp\"
 
 namespace gobo {
 

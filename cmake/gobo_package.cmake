@@ -12,6 +12,7 @@ target_link_libraries(gobo_headers INTERFACE glm::glm)
 target_include_directories(gobo_headers SYSTEM INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 add_executable(gobo::gobo ALIAS gobo)
+add_executable(gobo::lab ALIAS gobo-lab)
 
 # Projects that take gobo in as a subdirectory call the function from their own folders.
 set_property(GLOBAL PROPERTY GOBO_LIBRARY_FOLDER "${PROJECT_SOURCE_DIR}")
@@ -27,7 +28,7 @@ set(gobo_module "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutation_tests.cmake")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" "${PROJECT_BINARY_DIR}/cmake/goboConfig.cmake"
   INSTALL_DESTINATION "${PROJECT_BINARY_DIR}/cmake" INSTALL_PREFIX "${PROJECT_BINARY_DIR}"
   PATH_VARS GOBO_LIBRARY_FOLDER gobo_module)
-export(TARGETS gobo gobo_headers NAMESPACE gobo:: FILE "${PROJECT_BINARY_DIR}/cmake/goboTargets.cmake")
+export(TARGETS gobo gobo-lab gobo_headers NAMESPACE gobo:: FILE "${PROJECT_BINARY_DIR}/cmake/goboTargets.cmake")
 
 # Installed.
 if(NOT GOBO_INSTALL)
@@ -37,7 +38,7 @@ set(GOBO_LIBRARY_FOLDER "${CMAKE_INSTALL_DATADIR}/gobo")
 set(gobo_module "${gobo_package_folder}/gobo_add_permutation_tests.cmake")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/goboConfig.cmake.in" "${PROJECT_BINARY_DIR}/installed/goboConfig.cmake"
   INSTALL_DESTINATION "${gobo_package_folder}" PATH_VARS GOBO_LIBRARY_FOLDER gobo_module)
-install(TARGETS gobo gobo_headers EXPORT goboTargets RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(TARGETS gobo gobo-lab gobo_headers EXPORT goboTargets RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(EXPORT goboTargets NAMESPACE gobo:: DESTINATION "${gobo_package_folder}")
 install(FILES "${PROJECT_BINARY_DIR}/installed/goboConfig.cmake" "${gobo_version_file}"
               "${PROJECT_SOURCE_DIR}/cmake/gobo_add_permutations.cmake"

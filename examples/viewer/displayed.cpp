@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "render/image_file.hpp"
+#include "lab/render/image_file.hpp"
 
 namespace viewer {
 

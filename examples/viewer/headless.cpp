@@ -2,7 +2,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "render/context.hpp"
+#include "lab/render/context.hpp"
 
 namespace viewer {
 

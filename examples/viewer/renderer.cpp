@@ -10,7 +10,7 @@
 #include <gobo/gl.hpp>
 
 #include "light_blocks.hpp"
-#include "render/transform.hpp"
+#include "lab/render/transform.hpp"
 
 namespace viewer {
 namespace {

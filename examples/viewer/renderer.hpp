@@ -10,7 +10,7 @@
 #include <gobo/record.hpp>
 
 #include "orbit.hpp"
-#include "render/image.hpp"
+#include "lab/render/image.hpp"
 #include "stage.hpp"
 
 namespace viewer {

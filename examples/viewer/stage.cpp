@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/read_scene.hpp"
-#include "scene_picture/posed_mesh.hpp"
+#include "lab/scene_picture/posed_mesh.hpp"
 
 namespace viewer {
 namespace {

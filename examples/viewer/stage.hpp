@@ -6,10 +6,10 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "common/diagnostic.hpp"
-#include "common/file_system.hpp"
+#include "core/diagnostic.hpp"
+#include "core/file_system.hpp"
 #include "lit.hpp"
-#include "render/mesh.hpp"
+#include "lab/render/mesh.hpp"
 #include "scene/effects.hpp"
 #include "settings.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "emit/header.hpp"
 #include "emit/manifest.hpp"
 #include "sample_family.hpp"

@@ -17,13 +17,13 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "render/framebuffer.hpp"
+#include "lab/render/framebuffer.hpp"
 #include "scene/read_scene.hpp"
-#include "scene_picture/draw_scene.hpp"
-#include "scene_picture/scene_object.hpp"
-#include "scene_picture/software_scene.hpp"
-#include "scene_picture/uber_values.hpp"
-#include "study/weights.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
+#include "lab/scene_picture/scene_object.hpp"
+#include "lab/scene_picture/software_scene.hpp"
+#include "lab/scene_picture/uber_values.hpp"
+#include "lab/study/weights.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "library/shipped_files.hpp"
+#include "core/shipped_files.hpp"
 
 namespace gobo {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <regex>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 
 #include "case_file.hpp"
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 
 namespace gobo {
 namespace {

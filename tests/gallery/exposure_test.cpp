@@ -1,5 +1,5 @@
 // What is too bright for a display is shown darker; what is not stays as it is.
-#include "gallery/exposure.hpp"
+#include "lab/gallery/exposure.hpp"
 
 #include <limits>
 

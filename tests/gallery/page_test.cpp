@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "family/read_family.hpp"
-#include "gallery/gallery.hpp"
+#include "lab/gallery/gallery.hpp"
 
 namespace gobo::gallery {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "evaluate/color_texels.hpp"
-#include "probe/cube_map.hpp"
+#include "lab/evaluate/color_texels.hpp"
+#include "lab/probe/cube_map.hpp"
 
 namespace gobo::evaluate {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "render/framebuffer.hpp"
-#include "render/program.hpp"
+#include "core/file_system.hpp"
+#include "lab/render/framebuffer.hpp"
+#include "lab/render/program.hpp"
 
 namespace gobo {
 namespace {

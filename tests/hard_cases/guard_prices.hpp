@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/kinds.hpp"
+#include "lab/evaluate/kinds.hpp"
 #include "lit_guards.hpp"
-#include "render/context.hpp"
+#include "lab/render/context.hpp"
 
 namespace gobo {
 

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "evaluate_support.hpp"
-#include "sanitize/machine.hpp"
+#include "lab/sanitize/machine.hpp"
 
 namespace gobo {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lit_under_test.hpp"
-#include "render/framebuffer.hpp"
-#include "render/program.hpp"
+#include "lab/render/framebuffer.hpp"
+#include "lab/render/program.hpp"
 
 namespace gobo {
 

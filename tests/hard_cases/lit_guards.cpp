@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "common/text.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
-#include "evaluate/images.hpp"
+#include "lab/evaluate/images.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "sanitize/sanitize.hpp"
+#include "lab/sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

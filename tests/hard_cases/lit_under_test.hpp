@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "evaluate/evaluate.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
-#include "sanitize/machine.hpp"
+#include "lab/sanitize/machine.hpp"
 #include "validate/glslang_stage.hpp"
 
 namespace gobo {

@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gobo/normal_matrix.hpp>
 
-#include "sanitize/random.hpp"
+#include "lab/sanitize/random.hpp"
 
 namespace gobo {
 namespace {

@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "common/text.hpp"
-#include "common/text_template.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
+#include "core/text_template.hpp"
 #include "hard_case_index.hpp"
 #include "normal_errors.hpp"
 #include "plain_shaders.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "hard_case_index.hpp"
 #include "normal_errors.hpp"
 #include "plain_shaders.hpp"

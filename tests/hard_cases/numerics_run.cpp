@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "numerics_page.hpp"
 
 namespace {

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "common/text.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
-#include "evaluate/images.hpp"
+#include "lab/evaluate/images.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

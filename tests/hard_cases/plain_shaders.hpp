@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lit_under_test.hpp"
-#include "sanitize/sanitize.hpp"
+#include "lab/sanitize/sanitize.hpp"
 
 namespace gobo {
 

@@ -11,12 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
-#include "evaluate/eval_inputs.hpp"
-#include "sanitize/output_bounds.hpp"
-#include "sanitize/sanitize.hpp"
+#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/sanitize/output_bounds.hpp"
+#include "lab/sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

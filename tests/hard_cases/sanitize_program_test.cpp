@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "plain_shaders.hpp"
 
 namespace gobo {

@@ -6,18 +6,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
-#include "evaluate/images.hpp"
+#include "lab/evaluate/images.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lit_cases.hpp"
-#include "oracle/model.hpp"
-#include "sanitize/sanitize.hpp"
-#include "scene_picture/uber_values.hpp"
+#include "lab/oracle/model.hpp"
+#include "lab/sanitize/sanitize.hpp"
+#include "lab/scene_picture/uber_values.hpp"
 #include "validate/validate.hpp"
-#include "verify/uber_ports.hpp"
+#include "lab/verify/uber_ports.hpp"
 
 namespace gobo {
 namespace {

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"

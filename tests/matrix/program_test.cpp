@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

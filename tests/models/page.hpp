@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catalogue.hpp"
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "figures.hpp"
 
 namespace gobo::models {

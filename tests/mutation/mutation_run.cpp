@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 
 #include "../verify/lit_library.hpp"
-#include "common/file_system.hpp"
-#include "common/text.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "mutants.hpp"
-#include "verify/parallel.hpp"
-#include "verify/test_meshes.hpp"
+#include "lab/verify/parallel.hpp"
+#include "lab/verify/test_meshes.hpp"
 
 namespace gobo {
 namespace {

@@ -1,5 +1,5 @@
 // The measure of lost precision names the operation that loses it.
-#include "sanitize/precision.hpp"
+#include "lab/sanitize/precision.hpp"
 
 #include <ostream>
 

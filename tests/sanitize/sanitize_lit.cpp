@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
 #include "family/key.hpp"

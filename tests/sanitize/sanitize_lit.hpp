@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sanitize/sanitize.hpp"
+#include "lab/sanitize/sanitize.hpp"
 
 namespace gobo {
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "common/file_system.hpp"
-#include "common/text.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/loose_files.hpp"
-#include "evaluate/program.hpp"
+#include "lab/evaluate/program.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

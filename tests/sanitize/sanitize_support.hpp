@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sanitize/sanitize.hpp"
+#include "lab/sanitize/sanitize.hpp"
 
 namespace gobo {
 

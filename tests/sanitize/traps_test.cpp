@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "sanitize_support.hpp"
 
 namespace gobo {

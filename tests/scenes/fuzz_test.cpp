@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "scene/effects.hpp"
 #include "scene/read_scene.hpp"
-#include "scene_picture/posed_mesh.hpp"
+#include "lab/scene_picture/posed_mesh.hpp"
 
 namespace gobo::scene {
 namespace {

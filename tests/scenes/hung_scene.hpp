@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_picture/scene_view.hpp"
+#include "lab/scene_picture/scene_view.hpp"
 
 namespace gobo::scene {
 

@@ -1,5 +1,5 @@
 // Meshes at rest: morphed, and bent by their skins.
-#include "scene_picture/posed_mesh.hpp"
+#include "lab/scene_picture/posed_mesh.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/search_path.hpp"
 #include "family/family.hpp"
-#include "render/shadow_maps.hpp"
-#include "scene_picture/scene_shaders.hpp"
-#include "scene_picture/scene_view.hpp"
+#include "lab/render/shadow_maps.hpp"
+#include "lab/scene_picture/scene_shaders.hpp"
+#include "lab/scene_picture/scene_view.hpp"
 
 namespace gobo::scene {
 

@@ -1,11 +1,11 @@
 // Scenes drawn by OpenGL and by the evaluator are the same picture.
 #include <gtest/gtest.h>
 
-#include "render/image.hpp"
+#include "lab/render/image.hpp"
 #include "scene_library.hpp"
-#include "scene_picture/draw_scene.hpp"
-#include "scene_picture/scene_object.hpp"
-#include "scene_picture/software_scene.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
+#include "lab/scene_picture/scene_object.hpp"
+#include "lab/scene_picture/software_scene.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -6,10 +6,10 @@
 #include "family/key.hpp"
 #include "hung_scene.hpp"
 #include "scene_library.hpp"
-#include "scene_picture/draw_scene.hpp"
-#include "scene_picture/scene_object.hpp"
-#include "scene_picture/software_scene.hpp"
-#include "scene_picture/uber_values.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
+#include "lab/scene_picture/scene_object.hpp"
+#include "lab/scene_picture/software_scene.hpp"
+#include "lab/scene_picture/uber_values.hpp"
 
 namespace gobo::scene {
 namespace {

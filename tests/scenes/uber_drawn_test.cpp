@@ -3,10 +3,10 @@
 
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
-#include "render/lit_shadows.hpp"
-#include "render/render_selection.hpp"
+#include "lab/render/lit_shadows.hpp"
+#include "lab/render/render_selection.hpp"
 #include "scene_library.hpp"
-#include "scene_picture/uber_values.hpp"
+#include "lab/scene_picture/uber_values.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -1,11 +1,11 @@
 // What a budget buys, of studies written down here.
-#include "study/budget.hpp"
+#include "lab/study/studied_keys.hpp"
 
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "study/qualities.hpp"
+#include "budget/qualities.hpp"
 
 namespace gobo::study {
 namespace {

@@ -1,5 +1,5 @@
 // Charts: axes that hold their values, and marks where they belong.
-#include "study/chart.hpp"
+#include "lab/study/chart.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Tables of text, out and in again.
-#include "study/csv.hpp"
+#include "core/csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

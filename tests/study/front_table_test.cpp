@@ -1,5 +1,5 @@
 // The front of a finished study as readers see it: a short table, a chart, and which keys are on it by time.
-#include "study/front_table.hpp"
+#include "lab/study/front_table.hpp"
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "study/front_chart.hpp"
-#include "study/read_study.hpp"
+#include "lab/study/front_chart.hpp"
+#include "lab/study/read_study.hpp"
 
 namespace gobo::study {
 namespace {

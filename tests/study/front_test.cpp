@@ -1,5 +1,5 @@
 // Which of some points lie on the Pareto front, and by which the others are dominated.
-#include "study/front.hpp"
+#include "lab/study/front.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "held_out_scenes.hpp"
 
 #include "study_support.hpp"
-#include "verify/random.hpp"
+#include "lab/verify/random.hpp"
 
 namespace gobo::study {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "study/study_scene.hpp"
+#include "lab/study/study_scene.hpp"
 
 namespace gobo::study {
 

@@ -1,5 +1,5 @@
 // Finished measurements outlive whoever took them.
-#include "study/journal.hpp"
+#include "lab/study/journal.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

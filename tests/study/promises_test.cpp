@@ -4,7 +4,7 @@
 
 #include "family/key.hpp"
 #include "held_out_scenes.hpp"
-#include "study/qualities.hpp"
+#include "budget/qualities.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {

@@ -1,5 +1,5 @@
 // Medians, quartiles and rank correlations of known lists.
-#include "study/statistics.hpp"
+#include "lab/study/statistics.hpp"
 
 #include <gtest/gtest.h>
 

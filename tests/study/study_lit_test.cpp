@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
-#include "study/choices.hpp"
-#include "study/qualities.hpp"
-#include "study/study_csv.hpp"
+#include "lab/study/choices.hpp"
+#include "budget/qualities.hpp"
+#include "lab/study/study_csv.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "study/budget.hpp"
-#include "study/study.hpp"
+#include "lab/study/studied_keys.hpp"
+#include "lab/study/study.hpp"
 
 namespace gobo::study {
 

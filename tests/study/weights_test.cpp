@@ -1,7 +1,7 @@
 // Prices of operations: solved for, written, read, and summed up.
 #include <gtest/gtest.h>
 
-#include "study/weigh.hpp"
+#include "lab/study/weigh.hpp"
 
 namespace gobo::study {
 namespace {

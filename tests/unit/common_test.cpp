@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "common/diagnostic.hpp"
-#include "common/file_system.hpp"
-#include "common/text.hpp"
-#include "common/text_template.hpp"
+#include "core/diagnostic.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
+#include "core/text_template.hpp"
 
 namespace gobo {
 namespace {

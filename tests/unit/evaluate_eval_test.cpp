@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "evaluate/eval_inputs.hpp"
-#include "evaluate/eval_report.hpp"
+#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/evaluate/eval_report.hpp"
 #include "evaluate_support.hpp"
 
 namespace gobo::evaluate {

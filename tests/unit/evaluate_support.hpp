@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluate.hpp"
+#include "lab/evaluate/evaluate.hpp"
 
 namespace gobo::evaluate {
 

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "evaluate/color_texels.hpp"
-#include "evaluate/eval_inputs.hpp"
-#include "evaluate/eval_point.hpp"
+#include "lab/evaluate/color_texels.hpp"
+#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/evaluate/eval_point.hpp"
 #include "evaluate_support.hpp"
 
 namespace gobo::evaluate {

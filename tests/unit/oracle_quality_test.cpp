@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "oracle/oracle.hpp"
-#include "oracle/power.hpp"
+#include "lab/oracle/oracle.hpp"
+#include "lab/oracle/power.hpp"
 
 namespace gobo::oracle {
 namespace {

@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "oracle/oracle.hpp"
+#include "lab/oracle/oracle.hpp"
 
 namespace gobo::oracle {
 namespace {

@@ -1,5 +1,5 @@
 // The oracle tested by itself: closed forms, edges, limits, symmetries.
-#include "oracle/oracle.hpp"
+#include "lab/oracle/oracle.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -12,7 +12,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "oracle/power.hpp"
+#include "lab/oracle/power.hpp"
 
 namespace gobo::oracle {
 namespace {

@@ -1,7 +1,7 @@
 // Keys that were written when lit had lights, highlights, toon, fog and depth only still mean the same.
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"

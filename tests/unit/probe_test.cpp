@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "probe/convolution.hpp"
-#include "probe/cube_map.hpp"
-#include "probe/harmonics.hpp"
-#include "render/image_file.hpp"
+#include "core/file_system.hpp"
+#include "lab/probe/convolution.hpp"
+#include "lab/probe/cube_map.hpp"
+#include "lab/probe/harmonics.hpp"
+#include "lab/render/image_file.hpp"
 
 namespace gobo::probe {
 namespace {

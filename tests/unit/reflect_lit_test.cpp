@@ -12,7 +12,7 @@
 #include "reflect/unused.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_witness.hpp"
-#include "render/program_interface.hpp"
+#include "lab/render/program_interface.hpp"
 
 namespace gobo {
 namespace {

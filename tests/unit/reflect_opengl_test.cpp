@@ -6,7 +6,7 @@
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_shaders.hpp"
-#include "render/program_interface.hpp"
+#include "lab/render/program_interface.hpp"
 
 namespace gobo {
 namespace {

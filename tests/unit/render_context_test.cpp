@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/context.hpp"
-#include "render/driver_log.hpp"
-#include "render/framebuffer.hpp"
-#include "render/program.hpp"
+#include "lab/render/context.hpp"
+#include "lab/render/driver_log.hpp"
+#include "lab/render/framebuffer.hpp"
+#include "lab/render/program.hpp"
 
 namespace gobo {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/image.hpp"
-#include "render/image_file.hpp"
+#include "lab/render/image.hpp"
+#include "lab/render/image_file.hpp"
 
 namespace gobo {
 namespace {

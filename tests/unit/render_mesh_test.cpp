@@ -6,8 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "render/mesh.hpp"
-#include "render/transform.hpp"
+#include "lab/render/mesh.hpp"
+#include "lab/render/transform.hpp"
 
 namespace gobo {
 namespace {

@@ -8,7 +8,7 @@
 #include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
-#include "render/render.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo {
 namespace {

@@ -1,5 +1,5 @@
 // Pictures of a whole selection: the family lit, in every dialect and on both backends.
-#include "render/render_selection.hpp"
+#include "lab/render/render_selection.hpp"
 
 #include <set>
 

@@ -5,7 +5,7 @@
 #include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
-#include "render/program_interface.hpp"
+#include "lab/render/program_interface.hpp"
 
 namespace gobo {
 namespace {

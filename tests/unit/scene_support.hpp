@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "scene/scene.hpp"
 
 namespace gobo::scene {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "family/family.hpp"
 #include "family/key_space.hpp"
 

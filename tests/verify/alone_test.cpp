@@ -4,7 +4,7 @@
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
 #include "validate/validate.hpp"
-#include "verify/verify.hpp"
+#include "lab/verify/verify.hpp"
 
 namespace gobo {
 namespace {

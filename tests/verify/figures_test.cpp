@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "lit_library.hpp"
-#include "verify/expectation.hpp"
-#include "verify/figures_json.hpp"
+#include "lab/verify/expectation.hpp"
+#include "lab/verify/figures_json.hpp"
 
 namespace gobo {
 namespace {

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "lit_library.hpp"
-#include "render/mesh.hpp"
-#include "render/render_selection.hpp"
+#include "lab/render/mesh.hpp"
+#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
-#include "verify/interpolation_spread.hpp"
+#include "lab/verify/interpolation_spread.hpp"
 
 namespace gobo {
 namespace {

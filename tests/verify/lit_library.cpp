@@ -1,6 +1,6 @@
 #include "lit_library.hpp"
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"

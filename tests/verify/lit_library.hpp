@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/verify.hpp"
+#include "lab/verify/verify.hpp"
 
 namespace gobo {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lit_library.hpp"
-#include "verify/test_meshes.hpp"
+#include "lab/verify/test_meshes.hpp"
 
 namespace gobo {
 namespace {

@@ -1,5 +1,5 @@
 // The software rasteriser against what can be said of triangles without one.
-#include "verify/rasterise.hpp"
+#include "lab/verify/rasterise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,12 +6,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "evaluate/evaluate.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lit_library.hpp"
-#include "oracle/model.hpp"
-#include "render/mesh.hpp"
+#include "lab/oracle/model.hpp"
+#include "lab/render/mesh.hpp"
 #include "validate/validate.hpp"
-#include "verify/feed.hpp"
+#include "lab/verify/feed.hpp"
 
 namespace gobo {
 namespace {

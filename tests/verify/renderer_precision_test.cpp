@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "evaluate/color_texels.hpp"
-#include "render/cube_maps.hpp"
-#include "render/render.hpp"
-#include "render/texture.hpp"
-#include "verify/compare_picture.hpp"
-#include "verify/random.hpp"
+#include "lab/evaluate/color_texels.hpp"
+#include "lab/render/cube_maps.hpp"
+#include "lab/render/render.hpp"
+#include "lab/render/texture.hpp"
+#include "lab/verify/compare_picture.hpp"
+#include "lab/verify/random.hpp"
 
 namespace gobo {
 namespace {

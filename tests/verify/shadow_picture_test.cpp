@@ -11,8 +11,8 @@
 
 #include "family/read_family.hpp"
 #include "lit_library.hpp"
-#include "render/lit_shadows.hpp"
-#include "render/render_selection.hpp"
+#include "lab/render/lit_shadows.hpp"
+#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

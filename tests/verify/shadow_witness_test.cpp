@@ -1,12 +1,12 @@
 // That shadow maps are witnessed: texel by texel those that are right pass, and those that are not do not.
-#include "verify/shadow_witness.hpp"
+#include "lab/verify/shadow_witness.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "family/read_family.hpp"
 #include "lit_library.hpp"
-#include "render/render_selection.hpp"
+#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

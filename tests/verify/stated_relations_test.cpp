@@ -11,7 +11,7 @@
 #include "family/selection.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
-#include "verify/verify.hpp"
+#include "lab/verify/verify.hpp"
 
 namespace gobo {
 namespace {

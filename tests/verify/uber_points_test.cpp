@@ -6,11 +6,11 @@
 
 #include "family/key.hpp"
 #include "lit_library.hpp"
-#include "oracle/settings.hpp"
+#include "lab/oracle/settings.hpp"
 #include "validate/validate.hpp"
-#include "verify/decoded.hpp"
-#include "verify/feed.hpp"
-#include "verify/sample.hpp"
+#include "lab/verify/decoded.hpp"
+#include "lab/verify/feed.hpp"
+#include "lab/verify/sample.hpp"
 
 namespace gobo {
 namespace {

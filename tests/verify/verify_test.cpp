@@ -1,15 +1,15 @@
 // That verification passes what is right, finds what is wrong, and says so in a way one can work with.
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "evaluate/evaluate.hpp"
+#include "core/file_system.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
-#include "verify/ask_oracle.hpp"
-#include "verify/feed.hpp"
-#include "verify/random.hpp"
-#include "verify/sample.hpp"
-#include "verify/test_meshes.hpp"
+#include "lab/verify/ask_oracle.hpp"
+#include "lab/verify/feed.hpp"
+#include "lab/verify/random.hpp"
+#include "lab/verify/sample.hpp"
+#include "lab/verify/test_meshes.hpp"
 
 namespace gobo {
 namespace {

@@ -1,14 +1,14 @@
 // That the witness passes what agrees and finds what does not.
-#include "verify/witness.hpp"
+#include "lab/verify/witness.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "lit_library.hpp"
-#include "render/render_selection.hpp"
+#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
-#include "verify/random.hpp"
+#include "lab/verify/random.hpp"
 
 namespace gobo {
 namespace {

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
-#include "render/image_file.hpp"
+#include "core/file_system.hpp"
+#include "lab/render/image_file.hpp"
 
 namespace gobo {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "compose/dialect.hpp"
 #include "compose/piece_library.hpp"
 

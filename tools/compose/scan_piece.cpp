@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 

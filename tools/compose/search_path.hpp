@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "compose/composition.hpp"
 
 namespace gobo {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "compose/dialect.hpp"
 #include "emit/check_section.hpp"
 #include "emit/interface_section.hpp"

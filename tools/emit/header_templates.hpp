@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "common/file_system.hpp"
-#include "common/text_template.hpp"
+#include "core/file_system.hpp"
+#include "core/text_template.hpp"
 
 namespace gobo {
 

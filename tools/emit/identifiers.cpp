@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "family/family.hpp"
 
 namespace gobo {

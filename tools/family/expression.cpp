@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "family/family.hpp"
 
 namespace gobo {

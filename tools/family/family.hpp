@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "family/expression.hpp"
 
 namespace gobo {

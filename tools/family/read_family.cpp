@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_domains.hpp"
 #include "family/read_features.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "family/read_features.hpp"
 
 namespace gobo {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/key_space.hpp"

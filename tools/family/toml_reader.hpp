@@ -10,7 +10,7 @@
 
 #include <toml++/toml.h>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 
 namespace gobo {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "emit/depfile.hpp"
 #include "emit/header.hpp"
 #include "emit/manifest.hpp"

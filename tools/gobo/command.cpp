@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/read_family.hpp"
+#include "gobo/hand_over.hpp"
 #include "gobo/scene_selection.hpp"
 
 namespace gobo {
@@ -124,7 +125,10 @@ void add_dialect_option(CLI::App& app, std::string& dialect) {
 }
 
 Result<std::string> read_input(const World& world, const std::string& path) {
-    return world.disk.read(path == "-" ? "/dev/stdin" : path);
+    if (path != "-") return world.disk.read(path);
+    Result<std::string> text = world.disk.read("/dev/stdin");
+    if (text) keep_standard_input(*text);
+    return text;
 }
 
 Result<Dialect> read_dialect(const std::string& name) {

@@ -10,19 +10,29 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/diagnostic.hpp"
-#include "common/file_system.hpp"
+#include "budget/budget.hpp"
 #include "compose/composition.hpp"
 #include "compose/search_path.hpp"
+#include "core/diagnostic.hpp"
+#include "core/file_system.hpp"
 #include "family/family.hpp"
 #include "family/selection.hpp"
 
 namespace gobo {
 
+struct World;
+struct LoadedFamily;
+
+/// Measures error and cost of a combination of effects that the study does not hold, on `jobs` threads.
+/// Fault::needs_lab where this program cannot.
+using MeasureQualities = std::function<Result<std::vector<StudiedKey>>(
+    const World&, const LoadedFamily&, const StudiedEffects&, const Key& effects, int jobs)>;
+
 /// The world that a command runs in.
 struct World {
     FileSystem& disk;
     FileSystem& shipped;  ///< paths as in the source tree: "shader_lib/fog/linear.glsl"
+    MeasureQualities measure;
 };
 
 /// What a command leaves: its data for standard output, and messages for standard error.

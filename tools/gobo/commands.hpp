@@ -7,16 +7,10 @@ namespace gobo {
 
 [[nodiscard]] Command list_command(CLI::App& gobo);
 [[nodiscard]] Command show_command(CLI::App& gobo);
-[[nodiscard]] Command test_command(CLI::App& gobo);
 [[nodiscard]] Command check_command(CLI::App& gobo);
 [[nodiscard]] Command reflect_command(CLI::App& gobo);
-[[nodiscard]] Command eval_command(CLI::App& gobo);
 [[nodiscard]] Command build_command(CLI::App& gobo);
-[[nodiscard]] Command probe_command(CLI::App& gobo);
-[[nodiscard]] Command render_command(CLI::App& gobo);
-[[nodiscard]] Command sanitize_command(CLI::App& gobo);
 [[nodiscard]] Command scene_command(CLI::App& gobo);
-[[nodiscard]] Command study_command(CLI::App& gobo);
 [[nodiscard]] Command library_command(CLI::App& gobo);
 
 }  // namespace gobo

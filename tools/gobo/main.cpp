@@ -1,162 +1,30 @@
-// gobo: reads the command line, runs one command, prints its outcome.
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <exception>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include "common/text.hpp"
+// gobo, the compiler: what a build needs. What proves, draws and measures is gobo-lab's (tools/lab/commands).
 #include "gobo/commands.hpp"
-#include "library/shipped_files.hpp"
+#include "gobo/program.hpp"
 
-namespace gobo {
-namespace {
-
-constexpr std::string_view version = GOBO_VERSION;
-
-constexpr int usage_status = 2;
-
-bool wants_color(const std::vector<std::string>& arguments) {
-    bool color = isatty(STDERR_FILENO) != 0;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const bool next = arguments[i] == "--color" && i + 1 < arguments.size();
-        const std::string& value = next ? arguments[i + 1] : arguments[i];
-        if (next && value == "always") color = true;
-        if (next && value == "never") color = false;
-        if (value == "--color=always") color = true;
-        if (value == "--color=never") color = false;
-    }
-    return color;
-}
-
-void print(const Diagnostics& diagnostics, bool color) {
-    for (const Diagnostic& diagnostic : diagnostics) std::fputs(to_text(diagnostic, color).c_str(), stderr);
-}
-
-/// A full disk shows when the stream is flushed.
-Diagnostics write_output(const std::string& text) {
-    const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    if (is_written && std::fflush(stdout) == 0) return {};
-    return fail(Fault::file, fmt::format("standard output cannot be written: {}", std::strerror(errno)))
-        .value();
-}
-
-/// An unknown command is answered with the nearest one; CLI11 would only say that a subcommand is required.
-std::optional<Diagnostics> unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
-    if (arguments.empty() || arguments.front().starts_with('-')) return std::nullopt;
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) {
-        if (command->get_name() == arguments.front()) return std::nullopt;
-        names.push_back(command->get_name());
-    }
-    return fail(Fault::usage, fmt::format("there is no command '{}'", arguments.front()),
-                suggestion(arguments.front(), names))
-        .value();
-}
-
-/// The first option that the command does not have; nothing where all are known.
-std::optional<std::string> unknown_option(const CLI::App& command,
-                                          const std::vector<std::string>& arguments) {
-    for (const std::string& argument : arguments) {
-        const std::string name = argument.substr(0, argument.find('='));
-        if (name == "--") return std::nullopt;
-        if (name.size() > 1 && name.starts_with('-') && command.get_option_no_throw(name) == nullptr)
-            return name;
-    }
-    return std::nullopt;
-}
-
-std::vector<std::string> long_options(const CLI::App& command) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-    return names;
-}
-
-/// CLI11 lists unexpected arguments in any order and suggests nothing, so unknown options are named here.
-int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments,
-           bool color) {
-    const auto chosen = app.get_subcommands();
-    const CLI::App& command = chosen.empty() ? app : *chosen.front();
-    const std::string name = chosen.empty() ? "gobo" : "gobo " + command.get_name();
-    const auto unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr
-                             ? unknown_option(command, arguments)
-                             : std::nullopt;
-    if (unknown) {
-        const auto near = nearest(*unknown, long_options(command));
-        print(fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, *unknown),
-                   near ? fmt::format("did you mean '{}'?", *near) : fmt::format("see '{} --help'", name))
-                  .value(),
-              color);
-    } else {
-        print(fail(Fault::usage, error.what(), fmt::format("see '{} --help'", name)).value(), color);
-    }
-    return usage_status;
-}
-
-int run_chosen(const std::vector<Command>& commands, bool color) {
-    DiskFileSystem disk;
-    MemoryFileSystem shipped(shipped_files());
-    for (const Command& command : commands) {
-        if (!command.app->parsed()) continue;
-        Outcome outcome = command.run({disk, shipped});
-        Diagnostics written = write_output(outcome.output);
-        outcome.diagnostics.insert(outcome.diagnostics.end(), written.begin(), written.end());
-        print(outcome.diagnostics, color);
-        if (!outcome.summary.empty() && command.app->count("--quiet") == 0)
-            std::fputs((outcome.summary + "\n").c_str(), stderr);
-        return exit_status(outcome.diagnostics);
-    }
-    return usage_status;
-}
-
-int run(const std::vector<std::string>& arguments) {
-    const bool color = wants_color(arguments);
-    CLI::App app(
-        "gobo composes lighting shaders from pieces, validates every permutation and emits a C++ header.",
-        "gobo");
-    app.set_version_flag("--version", fmt::format("gobo {}", version));
-    app.require_subcommand(1);
-    app.footer(
+int main(int argc, char** argv) {
+    using namespace gobo;
+    Program program;
+    program.name = "gobo";
+    program.description =
+        "gobo composes lighting shaders from pieces, validates every permutation and emits a C++ header.";
+    program.footer =
         "Exit status: 0 fine, 1 the input has errors or a check failed, 2 wrong usage, 3 a file could not be "
         "read or written, 4 a fault of gobo's own.\n\n"
         "Examples:\n  gobo list lit --all --where 'point <= 1' --count\n  gobo build lit --key 'fog=linear "
-        "point=3' -o generated\n  gobo COMMAND --help");
-    const std::vector<Command> commands = {list_command(app),   show_command(app),     check_command(app),
-                                           build_command(app),  reflect_command(app),  eval_command(app),
-                                           test_command(app),   sanitize_command(app), probe_command(app),
-                                           render_command(app), scene_command(app),    study_command(app),
-                                           library_command(app)};
-    if (const auto unknown = unknown_command(app, arguments)) {
-        print(*unknown, color);
-        return usage_status;
-    }
-    try {
-        app.parse(
-            std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // reversed, as CLI11 has it
-    } catch (const CLI::Success& asked) {
-        return app.exit(asked);  // --help, --version
-    } catch (const CLI::ParseError& error) {
-        return refuse(app, error, arguments, color);
-    }
-    return run_chosen(commands, color);
-}
-
-}  // namespace
-}  // namespace gobo
-
-int main(int argc, char** argv) {
-    try {
-        return gobo::run({argv + 1, argv + argc});
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "gobo: error: internal fault: {}\n", error.what());
-        return 4;
-    }
+        "point=3' -o generated\n  gobo COMMAND --help";
+    program.add_commands = [](CLI::App& app) {
+        return std::vector{list_command(app),    show_command(app),  check_command(app),  build_command(app),
+                           reflect_command(app), scene_command(app), library_command(app)};
+    };
+    program.elsewhere = {{"eval", "Run one invocation of a stage, in fp32 and fp64 (gobo-lab)"},
+                         {"test", "Hold every permutation against the oracle (gobo-lab)"},
+                         {"sanitize", "Look for undefined operations on hard inputs (gobo-lab)"},
+                         {"probe", "Light-probe maps and coefficients from an HDR map (gobo-lab)"},
+                         {"render", "Draw pictures without a window (gobo-lab)"},
+                         {"study", "Measure error against cost (gobo-lab)"}};
+    program.measure = [](const World&, const LoadedFamily&, const StudiedEffects&, const Key&, int) {
+        return fail(Fault::needs_lab, "measuring effects that the study does not hold");
+    };
+    return run_program(program, argc, argv);
 }

@@ -1,7 +1,7 @@
 // gobo show: the composed source of one key.
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "gobo/commands.hpp"
 
 namespace gobo {

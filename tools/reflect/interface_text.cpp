@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "reflect/interface_format.hpp"
 
 namespace gobo {

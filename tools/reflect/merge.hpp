@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "reflect/interface.hpp"
 
 namespace gobo {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "reflect/interface.hpp"
 #include "reflect/spirv_module.hpp"
 

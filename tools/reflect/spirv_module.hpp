@@ -12,7 +12,7 @@
 
 #include <spirv/unified1/spirv.hpp11>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 
 namespace gobo::spirv {
 

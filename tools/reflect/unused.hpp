@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "reflect/spirv_module.hpp"
 
 namespace gobo {

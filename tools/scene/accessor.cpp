@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo::scene {
 namespace {

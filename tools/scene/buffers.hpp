@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "scene/document.hpp"
 
 namespace gobo::scene {

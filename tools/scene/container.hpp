@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 
 namespace gobo::scene {
 

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 
 namespace gobo::scene {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "scene/buffers.hpp"
 #include "scene/container.hpp"
 #include "scene/read_parts.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "scene/scene.hpp"
 
 namespace gobo::scene {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 
 namespace gobo::scene {

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "common/text.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "compose/composition.hpp"
 
 namespace gobo {

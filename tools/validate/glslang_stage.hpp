@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "compose/composition.hpp"
 #include "reflect/interface.hpp"
 #include "validate/validated.hpp"

@@ -1,7 +1,7 @@
 // SPIRV-Tools' validator as a second opinion on what glslang made.
 #pragma once
 
-#include "common/diagnostic.hpp"
+#include "core/diagnostic.hpp"
 #include "validate/validated.hpp"
 
 namespace gobo {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "emit/header.hpp"
 #include "sample_family.hpp"
 

@@ -5,7 +5,7 @@
 #include <gobo/gl.hpp>
 
 #include "drawn.hpp"
-#include "render/context.hpp"
+#include "lab/render/context.hpp"
 
 namespace gobo {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "emit/cpp_text.hpp"
 #include "emit/header.hpp"
 #include "emit/identifiers.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/file_system.hpp"
+#include "core/file_system.hpp"
 #include "emit/header.hpp"
 #include "sample_family.hpp"
 

@@ -1,0 +1,50 @@
+// Chooses qualities by budget: the cheapest within an error, or the most accurate within a cost.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "family/family.hpp"
+
+namespace gobo {
+
+/// The scene of a study that stands for all of them: the worst error, the mean cost.
+inline constexpr const char* kAllScenes = "*";
+
+/// What a permutation may err by and cost. Both may be given: then the error decides among what the cost
+/// allows.
+struct Budget {
+    std::optional<double> max_error;  ///< linear radiance
+    std::optional<double> max_cost;   ///< additions a fragment, as the study's column `cost`
+
+    [[nodiscard]] bool is_set() const { return max_error || max_cost; }
+};
+
+/// The error that a budget promises is this many times the worst one of the study: other scenes have other
+/// meshes and lights. docs/study.md says what that was tried on.
+inline constexpr double kSafety = 2;
+
+/// One key of a combination of effects, over all scenes of a study.
+struct StudiedKey {
+    Key key;
+    double error = 0;  ///< the worst
+    double cost = 0;   ///< the mean
+    bool on_front = false;
+};
+
+/// By effects.
+using StudiedEffects = std::map<Key, std::vector<StudiedKey>>;
+
+/// The rows of all scenes of a study.csv. Errors, at `path` and the line: a missing column, a key that the
+/// family does not have (a study of another version of it).
+[[nodiscard]] Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path,
+                                                  const Family& family);
+
+/// The key that the budget buys. Fault::input, for `subject`, where there is none; it says what is nearest.
+[[nodiscard]] Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& budget,
+                                        const std::string& subject);
+
+}  // namespace gobo

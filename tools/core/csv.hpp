@@ -1,0 +1,26 @@
+// Tables of text: RFC 4180, a header line, '\n'.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gobo {
+
+struct CsvTable {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;  ///< as many cells as there are columns
+
+    /// Nothing where there is no such column.
+    [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
+};
+
+/// Rows with fewer cells are filled up with empty ones, further cells left out.
+[[nodiscard]] CsvTable read_csv(std::string_view text);
+[[nodiscard]] std::string csv_text(const CsvTable& table);
+
+/// Six significant digits: more than any measurement here has; empty for none.
+[[nodiscard]] std::string csv_number(double number);
+
+}  // namespace gobo

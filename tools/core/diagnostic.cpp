@@ -1,0 +1,115 @@
+#include "core/diagnostic.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace gobo {
+namespace {
+
+std::string_view name_of(Severity severity) {
+    switch (severity) {
+        case Severity::error:
+            return "error";
+        case Severity::warning:
+            return "warning";
+        case Severity::note:
+            return "note";
+    }
+    return "error";
+}
+
+std::string_view color_of(Severity severity) {
+    switch (severity) {
+        case Severity::error:
+            return "\033[1;31m";
+        case Severity::warning:
+            return "\033[1;35m";
+        case Severity::note:
+            return "\033[1;36m";
+    }
+    return "";
+}
+
+std::string place_text(const Place& place) {
+    if (place.file.empty()) return "gobo";
+    std::string text = place.file;
+    if (place.line > 0) text += fmt::format(":{}", place.line);
+    if (place.line > 0 && place.column > 0) text += fmt::format(":{}", place.column);
+    return text;
+}
+
+/// The quoted line and, where the column is known, a caret below it; tabs are kept so that the caret stands
+/// right.
+std::string quotation(const Diagnostic& diagnostic) {
+    std::string text = fmt::format("    {}\n", diagnostic.quoted_line);
+    const auto column = static_cast<std::size_t>(std::max(diagnostic.place.column, 0));
+    if (column == 0 || column > diagnostic.quoted_line.size() + 1) return text;
+    text += "    ";
+    for (std::size_t i = 0; i + 1 < column; ++i) text += diagnostic.quoted_line[i] == '\t' ? '\t' : ' ';
+    return text + "^\n";
+}
+
+int status_of(Fault fault) {
+    switch (fault) {
+        case Fault::input:
+            return 1;
+        case Fault::usage:
+            return 2;
+        case Fault::file:
+        case Fault::needs_lab:
+            return 3;
+        case Fault::internal:
+            return 4;
+    }
+    return 4;
+}
+
+}  // namespace
+
+tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string remedy) {
+    Diagnostic diagnostic;
+    diagnostic.fault = fault;
+    diagnostic.message = std::move(message);
+    diagnostic.remedy = std::move(remedy);
+    return fail(std::move(diagnostic));
+}
+
+tl::unexpected<Diagnostics> fail(Diagnostic diagnostic) {
+    return tl::unexpected(Diagnostics{std::move(diagnostic)});
+}
+
+std::string to_text(const Diagnostic& diagnostic, bool color) {
+    const std::string_view on = color ? color_of(diagnostic.severity) : "";
+    const std::string_view off = color ? "\033[0m" : "";
+    std::string text = fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place), on,
+                                   name_of(diagnostic.severity), off, diagnostic.message);
+    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", diagnostic.subject);
+    text += '\n';
+    if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
+    if (!diagnostic.remedy.empty()) text += fmt::format("  remedy: {}\n", diagnostic.remedy);
+    return text;
+}
+
+int exit_status(const Diagnostics& diagnostics) {
+    int status = 0;
+    for (const Diagnostic& diagnostic : diagnostics) {
+        if (diagnostic.severity != Severity::error) continue;
+        status = std::max(status, status_of(diagnostic.fault));
+    }
+    return status;
+}
+
+std::string_view line_of(std::string_view text, int number) {
+    for (; number > 1; --number) {
+        const auto end = text.find('\n');
+        if (end == std::string_view::npos) return {};
+        text.remove_prefix(end + 1);
+    }
+    if (number < 1) return {};
+    text = text.substr(0, text.find('\n'));
+    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    return text;
+}
+
+}  // namespace gobo

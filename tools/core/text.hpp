@@ -1,0 +1,37 @@
+// Small text functions that every stage may use.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gobo {
+
+/// `text` without the blanks at both ends.
+[[nodiscard]] std::string_view trim(std::string_view text);
+
+/// The parts of `text` between `separator`, trimmed; empty ones are left out.
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
+
+/// The parts put together with `separator` between them.
+[[nodiscard]] std::string join(const std::vector<std::string>& parts, std::string_view separator);
+
+/// The candidate with the fewest edits from `name`, if it is near enough to be what was meant
+/// (at most a third of its letters, at least one); the first in order on a tie.
+[[nodiscard]] std::optional<std::string> nearest(std::string_view name,
+                                                 const std::vector<std::string>& candidates);
+
+/// "did you mean 'X'?" for the nearest candidate; otherwise "known: A, B, C".
+[[nodiscard]] std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
+/// [A-Za-z_][A-Za-z0-9_]*
+[[nodiscard]] bool is_identifier(std::string_view text);
+[[nodiscard]] bool is_identifier_start(char character);
+[[nodiscard]] bool is_identifier_part(char character);
+
+/// A number for readers: three significant digits, and all of those before the point; no exponent where it
+/// can do without.
+[[nodiscard]] std::string short_number(double number);
+
+}  // namespace gobo

@@ -1,0 +1,247 @@
+#include "lab/evaluate/eval_inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "core/text.hpp"
+#include "lab/evaluate/module.hpp"
+#include "lab/evaluate/texture_content.hpp"
+
+namespace gobo::evaluate {
+namespace {
+
+/// Reads the file; every fault is added to `diagnostics`.
+class FileReader {
+  public:
+    FileReader(std::string_view text, const std::string& path) : text_(text), path_(path) {}
+
+    Result<EvalInputs> read() {
+        toml::table file;
+        try {
+            file = toml::parse(text_, path_);
+        } catch (const toml::parse_error& error) {
+            report(error.source(), std::string(error.description()));
+            return tl::unexpected(diagnostics_);
+        }
+        for (const auto& [key, node] : file) {
+            if (key == "stage")
+                read_stage(node);
+            else if (key == "inputs")
+                read_section(node, inputs_.inputs);
+            else if (key == "uniforms")
+                read_section(node, inputs_.uniforms);
+            else if (key == "samplers")
+                read_section(node, inputs_.samplers);
+            else
+                report(key.source(), fmt::format("'{}' means nothing here", key.str()),
+                       suggestion(key.str(), {"stage", "inputs", "uniforms", "samplers"}));
+        }
+        if (!diagnostics_.empty()) return tl::unexpected(diagnostics_);
+        return std::move(inputs_);
+    }
+
+  private:
+    void report(const toml::source_region& source, std::string message, std::string remedy = {}) {
+        Diagnostic diagnostic;
+        diagnostic.place = place_of(source);
+        diagnostic.message = std::move(message);
+        diagnostic.quoted_line = line_of(text_, diagnostic.place.line);
+        diagnostic.remedy = std::move(remedy);
+        diagnostics_.push_back(std::move(diagnostic));
+    }
+
+    [[nodiscard]] Place place_of(const toml::source_region& source) const {
+        return {path_, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+    }
+
+    void read_stage(const toml::node& node) {
+        inputs_.stage = node.value_or(std::string());
+        if (inputs_.stage != "vertex" && inputs_.stage != "fragment")
+            report(node.source(), "'stage' is neither \"vertex\" nor \"fragment\"");
+    }
+
+    void read_section(const toml::node& node, std::map<std::string, EvalValue>& values) {
+        if (const toml::table* table = node.as_table()) return read_table(*table, "", values);
+        report(node.source(), "this is a table of names and values", "write it as a section: [inputs]");
+    }
+
+    void read_table(const toml::table& table, const std::string& prefix,
+                    std::map<std::string, EvalValue>& values) {
+        for (const auto& [key, node] : table) {
+            const std::string name = prefix + std::string(key.str());
+            if (const toml::table* inner = node.as_table()) {
+                read_table(*inner, name + ".", values);
+                continue;
+            }
+            EvalValue value{{}, place_of(key.source()), {}};
+            value.quoted_line = line_of(text_, value.place.line);
+            if (!read_numbers(node, value.numbers))
+                report(node.source(), fmt::format("'{}' is no number, boolean or array of these", name));
+            values[name] = std::move(value);
+        }
+    }
+
+    static bool read_numbers(const toml::node& node, std::vector<double>& numbers) {
+        if (const toml::array* array = node.as_array())
+            return std::all_of(array->begin(), array->end(),
+                               [&](const toml::node& element) { return read_numbers(element, numbers); });
+        if (const auto truth = node.as_boolean())
+            numbers.push_back(truth->get() ? 1.0 : 0.0);
+        else if (const auto whole = node.as_integer())
+            numbers.push_back(static_cast<double>(whole->get()));
+        else if (const auto real = node.as_floating_point())
+            numbers.push_back(real->get());
+        else
+            return false;
+        return true;
+    }
+
+    std::string_view text_;
+    const std::string& path_;
+    EvalInputs inputs_;
+    Diagnostics diagnostics_;
+};
+
+Diagnostic fault(const EvalValue& value, std::string message, std::string remedy = {}) {
+    Diagnostic diagnostic = error_at(value.place, std::move(message), std::move(remedy));
+    diagnostic.quoted_line = value.quoted_line;
+    return diagnostic;
+}
+
+void match(const std::map<std::string, EvalValue>& values, const std::vector<Port>& ports, const char* what,
+           Invocations& invocations, Diagnostics& diagnostics) {
+    for (const auto& [name, value] : values) {
+        const auto port =
+            std::find_if(ports.begin(), ports.end(), [&](const Port& one) { return one.name == name; });
+        if (port == ports.end()) {
+            std::vector<std::string> names;
+            for (const Port& one : ports) names.push_back(one.name);
+            diagnostics.push_back(fault(value, fmt::format("the stage has no {} '{}'", what, name),
+                                        names.empty() ? std::string() : suggestion(name, names)));
+        } else if (value.numbers.size() != port->components) {
+            diagnostics.push_back(
+                fault(value, fmt::format("'{}' is a {}: it takes {} numbers, not {}", name, port->type,
+                                         port->components, value.numbers.size())));
+        } else {
+            invocations.values[name] = value.numbers;
+        }
+    }
+}
+
+/// Reads the textures: what the file calls "map", or "map.color" and so on, for each sampler.
+class SamplerMatcher {
+  public:
+    SamplerMatcher(const EvalInputs& inputs, const Program& program, Diagnostics& diagnostics)
+        : inputs_(inputs), program_(program), diagnostics_(diagnostics) {}
+
+    void add_to(Invocations& invocations) {
+        for (const auto& [name, value] : inputs_.samplers) read(name, value);
+        if (diagnostics_.empty())
+            for (const auto& [name, texels] : texels_) check(name, texels);
+        for (const ImagePort& port : program_.images) {
+            if (const auto depth = texels_.find(port.name); depth != texels_.end())
+                invocations.images[port.name] = image_of(depth->second, port.type);
+            else if (const auto color = colors_.find(port.name); color != colors_.end())
+                invocations.images[port.name] = image_of(color->second, port.type);
+        }
+    }
+
+  private:
+    void read(const std::string& name, const EvalValue& value) {
+        const auto port = std::find_if(program_.images.begin(), program_.images.end(), [&](const auto& one) {
+            return name == one.name || name.starts_with(one.name + ".");
+        });
+        if (port == program_.images.end()) {
+            diagnostics_.push_back(fault(value, fmt::format("the stage has no sampler '{}'", name)));
+            return;
+        }
+        const std::string member = name.substr(std::min(port->name.size() + 1, name.size()));
+        if (member.empty() || member == "color")
+            read_texel(name, value, colors_[port->name].color);
+        else if (member == "size")
+            read_size(name, value, texels_[port->name]);
+        else if (member == "depths")
+            texels_[port->name].depths = value.numbers;
+        else if (const auto axis = std::find(kAlong.begin(), kAlong.end(), member); axis != kAlong.end())
+            read_texel(name, value,
+                       colors_[port->name].along[static_cast<std::size_t>(axis - kAlong.begin())]);
+        else
+            diagnostics_.push_back(
+                fault(value, fmt::format("a sampler has no '{}'", member),
+                      suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths"})));
+    }
+
+    void read_texel(const std::string& name, const EvalValue& value, std::array<double, 4>& texel) {
+        if (value.numbers.empty() || value.numbers.size() > 4)
+            diagnostics_.push_back(fault(value, fmt::format("'{}' takes one to four numbers", name)));
+        std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
+    }
+
+    void read_size(const std::string& name, const EvalValue& value, DepthTexels& texels) {
+        const std::vector<double>& numbers = value.numbers;
+        const bool are_whole = std::all_of(numbers.begin(), numbers.end(), [](double number) {
+            return number >= 1 && number <= kMostTexels && number == std::floor(number);
+        });
+        if (!are_whole || numbers.size() < 2 || numbers.size() > 3) {
+            diagnostics_.push_back(
+                fault(value,
+                      fmt::format("'{}' takes the numbers of columns, rows and, of an array, layers", name)));
+            return;
+        }
+        texels.width = static_cast<int>(numbers[0]);
+        texels.height = static_cast<int>(numbers[1]);
+        texels.layers = numbers.size() > 2 ? static_cast<int>(numbers[2]) : 1;
+    }
+
+    /// Every depth is there.
+    void check(const std::string& name, const DepthTexels& texels) {
+        const double count = static_cast<double>(texels.width) * texels.height * texels.layers;
+        if (static_cast<double>(texels.depths.size()) == count) return;
+        const auto depths = inputs_.samplers.find(name + ".depths");
+        const auto& at = depths != inputs_.samplers.end() ? depths : inputs_.samplers.find(name + ".size");
+        diagnostics_.push_back(fault(at->second, fmt::format("'{}' has {} depths where its size asks for {}",
+                                                             name, texels.depths.size(), count)));
+    }
+
+    static constexpr std::array<std::string_view, 3> kAlong = {"along_x", "along_y", "along_z"};
+    static constexpr double kMostTexels = 1 << 14;  ///< along a side
+
+    const EvalInputs& inputs_;
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, EvenColor> colors_;
+    std::map<std::string, DepthTexels> texels_;
+};
+
+}  // namespace
+
+Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path) {
+    return FileReader(text, path).read();
+}
+
+Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& program) {
+    Invocations invocations;
+    Diagnostics diagnostics;
+    match(inputs.inputs, program.inputs, "input", invocations, diagnostics);
+    match(inputs.uniforms, program.uniforms, "uniform", invocations, diagnostics);
+    SamplerMatcher(inputs, program, diagnostics).add_to(invocations);
+    if (!diagnostics.empty()) return tl::unexpected(diagnostics);
+    return invocations;
+}
+
+Diagnostics inputs_left_out(const EvalInputs& inputs, const Program& program) {
+    Diagnostics notes;
+    for (const Port& port : program.inputs) {
+        if (inputs.inputs.contains(port.name) || port.name.starts_with("gl_")) continue;
+        Diagnostic note;
+        note.severity = Severity::note;
+        note.message = fmt::format("the input '{}' ({}) is not given and is 0", port.name, port.type);
+        notes.push_back(std::move(note));
+    }
+    return notes;
+}
+
+}  // namespace gobo::evaluate

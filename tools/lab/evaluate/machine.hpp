@@ -1,0 +1,89 @@
+// What runs operations: rows of lanes. Internal to evaluation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include "lab/evaluate/evaluate.hpp"
+
+namespace gobo::evaluate {
+
+/// How integers and booleans lie in a row beside reals T: as wide as those, so that a vector of either is one
+/// contiguous run of lanes. Their values are those of 32 bits.
+template <class T>
+using Whole = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+
+/// Lanes, as bits.
+using LaneMask = std::uint64_t;
+inline constexpr LaneMask kAllLanes = ~LaneMask{0};
+static_assert(kLanes == 64, "a LaneMask has one bit for each lane");
+
+/// The state of kLanes invocations. Each slot is a row: one number of each lane.
+template <class T>
+class Machine {
+  public:
+    Machine(const Program& program, const Images& images)
+        : program_(program), cells_(std::size_t{program.slots} * kLanes * sizeof(T) + kAlignment) {
+        // Rows start at cache lines.
+        const auto address = reinterpret_cast<std::uintptr_t>(cells_.data());
+        start_ = cells_.data() + (kAlignment - address % kAlignment) % kAlignment;
+        for (const ImagePort& port : program.images) {
+            const auto given = images.find(port.name);
+            images_.push_back(given == images.end() ? nullptr : &given->second);
+        }
+    }
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    [[nodiscard]] T* reals(std::uint32_t slot) {
+        return reinterpret_cast<T*>(start_ + std::size_t{slot} * kLanes * sizeof(T));
+    }
+    /// Rows of the same memory; a slot holds either reals or integers for good, or is copied as bytes.
+    [[nodiscard]] Whole<T>* wholes(std::uint32_t slot) {
+        return reinterpret_cast<Whole<T>*>(start_ + std::size_t{slot} * kLanes * sizeof(T));
+    }
+    [[nodiscard]] const std::uint32_t* words(const Operation& operation) const {
+        return program_.words.data() + operation.extra;
+    }
+    [[nodiscard]] const Program& program() const { return program_; }
+    /// The caller's image for that ImagePort; where there is none, nullptr, and missing_image() knows.
+    [[nodiscard]] const Image* image(std::size_t index) {
+        if (index < images_.size() && images_[index] != nullptr) return images_[index];
+        missing_image_ = static_cast<int>(index);
+        return nullptr;
+    }
+    /// Index of an image that was asked for in vain, or -1.
+    [[nodiscard]] int missing_image() const { return missing_image_; }
+
+    /// The lanes that run. Operations compute all lanes where that is cheaper: only stores heed the mask.
+    [[nodiscard]] LaneMask active() const { return active_; }
+    [[nodiscard]] bool is_full() const { return active_ == kAllLanes; }
+    [[nodiscard]] bool is_active(std::size_t lane) const { return (active_ >> lane & 1U) != 0; }
+    void set_active(LaneMask active) {
+        if (active == active_) return;
+        active_ = active;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) mask_row_[lane] = is_active(lane) ? -1 : 0;
+    }
+    /// The active lanes as rows of all bits or none.
+    [[nodiscard]] const Whole<T>* mask_row() const { return mask_row_.data(); }
+    /// Those of the lanes that are invocations of the caller, no padding.
+    LaneMask real = kAllLanes;
+    std::size_t first_invocation = 0;
+
+  private:
+    static constexpr std::size_t kAlignment = 64;
+    const Program& program_;
+    std::vector<const Image*> images_;
+    int missing_image_ = -1;
+    std::vector<std::byte> cells_;
+    std::byte* start_ = nullptr;
+    LaneMask active_ = 0;
+    std::array<Whole<T>, kLanes> mask_row_{};
+};
+
+}  // namespace gobo::evaluate

@@ -1,0 +1,141 @@
+#include "lab/oracle/oracle.hpp"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+
+#include "lab/oracle/shadow.hpp"
+
+namespace gobo::oracle {
+
+namespace {
+
+/// The material as the point's colour tints it.
+Material tinted(const Model& model, const Material& material, const glm::dvec4& color) {
+    if (model.vertex_color == VertexColor::none) return material;
+    Material result = material;
+    result.ambient *= glm::dvec3(color);
+    result.diffuse *= glm::dvec3(color);
+    return result;
+}
+
+AmbientLight ambient_light(const Model& model, const Scene& scene, const glm::dvec3& normal) {
+    if (model.ambient == Ambient::hemisphere)
+        return hemisphere_light(model.hemisphere, scene.hemisphere, normal);
+    if (model.ambient == Ambient::spherical_harmonics)
+        return harmonics_light(model.harmonics, scene.harmonics, normal);
+    if (model.ambient == Ambient::image) {
+        const LookedUp found = ambient_from_image(scene.image_light, normal);
+        return {found.value, found.value, found.slope};
+    }
+    return {scene.ambient, scene.ambient, glm::dvec3(0)};
+}
+
+/// What remains of the scattered light of all terms: tones by thresholds are limited by the brightest.
+glm::dvec3 limited(const Model& model, const Scene& scene, const std::vector<LightTerm>& terms) {
+    glm::dvec3 total{0};
+    glm::dvec3 brightest{0};
+    for (const LightTerm& term : terms) {
+        total += term.diffuse * term.arrival.radiance;
+        if (term.diffuse > 0) brightest = glm::max(brightest, term.arrival.radiance);
+    }
+    if (model.diffuse != Diffuse::toon_thresholds) return total;
+    return glm::min(total, *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end()) * brightest);
+}
+
+/// The lights' cosines to the side that is seen, where they come from the vertices.
+std::vector<double> intensities_of(const Model& model, const SurfacePoint& point, bool is_flipped) {
+    if (model.intensity == Intensity::fragment) return {};
+    std::vector<double> result = point.intensities;
+    for (double& cosine : result) cosine *= is_flipped ? -1 : 1;
+    return result;
+}
+
+}  // namespace
+
+glm::dvec3 to_viewer(const Model& model, const glm::dvec3& position) {
+    return model.viewer == Viewer::infinite ? glm::dvec3(0, 0, 1) : direction_of(-position);
+}
+
+const Material& material_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
+    if (model.material == MaterialChoice::uniform) return scene.material;
+    const int rows = static_cast<int>(scene.materials.size());
+    const bool has_pairs = model.sides == Sides::two_materials;
+    const int index = std::clamp(point.material, 0, (has_pairs ? rows / 2 : rows) - 1);
+    const int row = has_pairs ? 2 * index + (point.is_back ? 1 : 0) : index;
+    return scene.materials[static_cast<std::size_t>(row)];
+}
+
+Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
+                      Decisions& decisions) {
+    Radiance radiance;
+    radiance.material = tinted(model, material_of(model, scene, point), point.color);
+    const Material& material = radiance.material;
+    if (model.lighting == Lighting::unlit) {
+        radiance.value = radiance.largest = material.diffuse;
+        return radiance;
+    }
+    const bool is_flipped = model.sides != Sides::one && point.is_back;
+    const bool is_hybrid = model.shading == Shading::hybrid;
+    const glm::dvec3 normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
+    const View view{normal, to_viewer(model, point.position), material.shininess,
+                    is_hybrid ? point.halfways : std::vector<glm::dvec3>(),
+                    intensities_of(model, point, is_flipped)};
+    const glm::dvec3 highlight = material.strength * material.specular;
+    radiance.ambient = ambient_light(model, scene, normal);
+    if (model.reflection == Reflection::image)
+        radiance.reflected = reflection_from_image(scene.reflection, normal, view.to_viewer);
+    const glm::dvec3 mirrored = highlight * radiance.reflected.value;
+    radiance.value = material.emission + material.ambient * radiance.ambient.value + mirrored;
+    radiance.largest = material.emission + material.ambient * radiance.ambient.largest + mirrored;
+    std::vector<Arrival> lights = is_hybrid ? interpolated_arrivals(model, scene, point)
+                                            : arrivals(model, scene, point.position, decisions);
+    cast_shadows(model, scene, point.position, lights, decisions);
+    for (const Arrival& arrival : lights) {
+        LightTerm term = respond(model, scene, view, arrival, radiance.terms.size(), decisions);
+        if (model.light_ambient == LightAmbient::each)
+            term.ambient = arrival.fading * scene.light_ambients.at(radiance.terms.size());
+        radiance.value += highlight * term.specular * arrival.radiance + material.ambient * term.ambient;
+        radiance.largest += material.diffuse * arrival.unshaped + material.ambient * term.ambient;
+        if (model.specular != Specular::none) radiance.largest += highlight * arrival.unshaped;
+        radiance.terms.push_back(term);
+    }
+    radiance.value += material.diffuse * limited(model, scene, radiance.terms);
+    return radiance;
+}
+
+double alpha_of(const Model& model, const SurfacePoint& point) {
+    return model.vertex_color == VertexColor::modulate ? point.color.a : 1;
+}
+
+bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& point, Decisions& decisions) {
+    return model.cutout == Cutout::threshold &&
+           decisions.above(scene.cutout_threshold, point.opacity * alpha_of(model, point));
+}
+
+Seen seen_through_fog(const Model& model, const Scene& scene, const glm::dvec3& position,
+                      const glm::dvec3& radiance, const glm::dvec3& largest, Decisions& decisions) {
+    if (model.fog == Fog::none) return {radiance, largest, 0, 1};
+    const double distance = fog_distance(model.fog_distance, position);
+    const double clear = clearness(model.fog, scene.fog, distance, decisions);
+    return {clear * radiance + (1 - clear) * scene.fog.color, largest + scene.fog.color, distance, clear};
+}
+
+std::optional<double> written_depth(const Model& model, const Scene& scene, double depth) {
+    const double offset = scene.depth_offset;
+    switch (model.depth) {
+        case Depth::untouched:
+            return std::nullopt;
+        case Depth::any:
+            return std::clamp(depth + offset, 0.0, 1.0);
+        case Depth::greater:
+            return std::min(depth + std::max(offset, 0.0), 1.0);
+        case Depth::less:
+            return std::max(depth + std::min(offset, 0.0), 0.0);
+        case Depth::unchanged:
+            break;
+    }
+    return depth;
+}
+
+}  // namespace gobo::oracle

@@ -1,0 +1,124 @@
+// What the lighting models of the family `lit` are asked about: one surface point and all that lights it, by
+// meaning. Points and directions are in eye space, where the viewer stands at the origin and looks along -z.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "lab/oracle/image_light.hpp"
+#include "lab/oracle/surroundings.hpp"
+
+namespace gobo::oracle {
+
+/// A point of a surface.
+struct SurfacePoint {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0};  ///< of any length; zero where there is none
+    glm::dvec4 color{1};   ///< of the vertices, and their alpha
+    double opacity = 1;    ///< the alpha of the opacity map there
+    int material = 0;      ///< index into the table of materials, or of its pairs
+    bool is_back = false;  ///< which side is seen
+
+    /// Per light, where its cosine to the front's normal is found at the vertices and interpolated.
+    std::vector<double> intensities = {};
+
+    // What hybrid shading is given besides, interpolated between vertices.
+    std::vector<glm::dvec4> rays = {};      ///< per local light: its direction, and the share that arrives
+    std::vector<glm::dvec3> halfways = {};  ///< per light: between its direction and the viewer's
+};
+
+/// Reflectivities per colour channel, 0 to 1; emission in radiance.
+struct Material {
+    glm::dvec3 emission{0};
+    glm::dvec3 ambient{0};
+    glm::dvec3 diffuse{0};
+    glm::dvec3 specular{0};
+    double shininess = 0;
+    double strength = 1;  ///< scales the highlight
+};
+
+/// A light so far away that it shines from the same side everywhere.
+struct DirectionalLight {
+    glm::dvec3 direction{0};  ///< unit, from the surface to the light; zero: no light
+    glm::dvec3 color{0};      ///< radiance
+};
+
+/// A light that shines from its position to all sides.
+struct PointLight {
+    glm::dvec3 position{0};
+    glm::dvec3 color{0};        ///< radiance where the attenuation is 1
+    glm::dvec3 attenuation{0};  ///< k_c, k_l, k_q of 1 / (k_c + k_l d + k_q d^2)
+};
+
+/// A point light with a cone. A versine is 1 - cos of an angle, here the half angle of the cone.
+struct SpotLight : PointLight {
+    glm::dvec3 axis{0};  ///< unit, along which the light shines
+    double exponent = 0;
+    double inner_versine = 0;  ///< full light up to here
+    double outer_versine = 2;  ///< none from here on; 2 is all directions
+};
+
+/// How a shadowed light's maps are looked up. Of directional and spot lights `to_map` leads from eye space to
+/// x, y and depth from 0 to 1, to be divided by w. Of a point light it leads to axes with the light at the
+/// origin; on the face of a cube, at w along its axis, the depth is depth_scale + depth_shift / w, and what
+/// lies s along a side appears at 1/2 + spread s / w.
+struct Shadow {
+    glm::dmat4 to_map{1};
+    double layer = 0;  ///< of a cube's face +x; -x +y -y +z -z follow
+    double depth_scale = 0;
+    double depth_shift = 0;
+    double spread = 0.5;
+};
+
+/// The depth of what is nearest to each light, layer after layer, row after row from y = 0.
+struct DepthMaps {
+    int width = 1;
+    int height = 1;
+    int layers = 1;
+    std::vector<double> depths = {1};
+};
+
+/// A light that is directional or local, as w has it.
+struct HomogeneousLight {
+    glm::dvec4 position{0};     ///< a direction where w is 0 (below 2^-20), else a point times its w
+    glm::dvec3 color{0};        ///< radiance where the attenuation is 1
+    glm::dvec3 attenuation{0};  ///< as a point light's; a direction has none
+};
+
+/// Distances along the view. Each kind of fog reads what it needs.
+struct FogParameters {
+    glm::dvec3 color{0};
+    double density = 0;
+    double near = 0;
+    double far = 0;
+};
+
+/// All that is the same for every point of a draw.
+struct Scene {
+    Material material;
+    glm::dvec3 ambient{0};
+    std::vector<DirectionalLight> directional;
+    std::vector<PointLight> point;
+    std::vector<SpotLight> spot;
+    int toon_levels = 1;
+    FogParameters fog;
+    double depth_offset = 0;        ///< in window depth
+    std::vector<Shadow> shadows{};  ///< of the first directional lights, then spot lights, then point lights
+    DepthMaps maps{};
+    std::vector<HomogeneousLight> homogeneous;
+    std::vector<glm::dvec3> light_ambients;  ///< of each light: directional, point, spot, homogeneous
+    HemisphereLight hemisphere;
+    HarmonicsLight harmonics;
+    std::array<double, 3> toon_thresholds{0.95, 0.5, 0.25};  ///< cosines, the highest first
+    std::array<double, 3> toon_tones{1, 0.6, 0.4};           ///< above each
+    std::array<Material, 14> materials;
+    double cutout_threshold = 0;  ///< alpha below it is cut
+    ImageLight image_light{};
+    ImageLight reflection{};
+};
+
+}  // namespace gobo::oracle

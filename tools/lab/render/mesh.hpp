@@ -1,0 +1,42 @@
+// Triangle meshes: what is drawn.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/file_system.hpp"
+
+namespace gobo {
+
+/// An indexed triangle mesh in object space. Front faces run counter-clockwise. Normals have unit length.
+struct Mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;      ///< one per position
+    std::vector<glm::vec2> texcoords;    ///< one per position
+    std::vector<std::uint32_t> indices;  ///< three per triangle
+    std::vector<glm::vec4> colors = {};  ///< RGBA, one per position, or none: white
+};
+
+/// A sphere of radius 1 about the origin, its poles on the y axis. At least 3 slices and 2 stacks.
+[[nodiscard]] Mesh make_sphere(int slices, int stacks);
+/// A torus about the y axis. `radius` is that of the circle of centres, `tube` that of the tube.
+[[nodiscard]] Mesh make_torus(double radius, double tube, int slices, int sides);
+/// A square in the plane y = 0 about the origin, its normal +y, of `side` length and cells * cells quads.
+[[nodiscard]] Mesh make_plane(double side, int cells);
+
+/// A mesh with smooth normals: each corner's is the area-weighted mean of the faces that meet there and lie
+/// within `crease_angle` (radians) of its own. Faces meet where positions are equal, whatever their index.
+/// Triangles without area are left out. Texture coordinates are x and y.
+[[nodiscard]] Mesh with_smooth_normals(const std::vector<glm::vec3>& positions,
+                                       const std::vector<std::uint32_t>& indices, double crease_angle);
+
+/// Reads a Wavefront OBJ: positions, faces (cut into triangles), and normals and texture coordinates where
+/// every corner has them; otherwise normals are computed with a crease angle of 60 degrees.
+[[nodiscard]] Result<Mesh> read_obj(const FileSystem& files, const std::string& path);
+
+}  // namespace gobo

@@ -1,0 +1,36 @@
+// What the sanitizer finds: a place, what happens there, and an input that makes it happen.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "compose/composition.hpp"
+#include "lab/evaluate/eval_point.hpp"
+#include "lab/sanitize/machine.hpp"
+
+namespace gobo::sanitize {
+
+/// What one invocation was given.
+using Point = evaluate::EvalPoint;
+
+/// An undefined operation at one place of one stage.
+struct Finding {
+    StageKind stage = StageKind::vertex;
+    Place place;
+    std::string message;    ///< "division by zero"
+    std::string operation;  ///< with its values: "FDiv 1, depth = 0 -> inf"; empty where there is none
+    Machine machine = Machine::ieee;  ///< that the example was run on
+    Point point;                      ///< the first that showed it
+    std::uint64_t points = 0;
+};
+
+/// The point as an input file of `gobo eval`, numbers that read back as the same floats. `heading` becomes
+/// comment lines.
+[[nodiscard]] std::string eval_input(const Finding& finding, const std::string& heading);
+
+/// The finding's message with the operation's values.
+[[nodiscard]] std::string to_text(const Finding& finding);
+
+}  // namespace gobo::sanitize

@@ -1,0 +1,75 @@
+// All that a stage reads, as one flat list of numbers: what searches draw, change, and simplify.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lab/evaluate/evaluate.hpp"
+#include "family/family.hpp"
+
+namespace gobo::sanitize {
+
+/// An input, a uniform, or the colour that a texture answers with.
+struct InputField {
+    std::string name;  ///< reflected
+    std::string type;  ///< GLSL name; "vec4" of a texture
+    evaluate::Scalar scalar = evaluate::Scalar::real;
+    bool is_texture = false;
+    Domain domain;
+    std::vector<double> hard;  ///< hard numbers of the domain
+    std::size_t first = 0;     ///< of its numbers in a point
+    std::size_t components = 1;
+
+    [[nodiscard]] bool is_real() const { return scalar == evaluate::Scalar::real; }
+    [[nodiscard]] bool is_vector() const;
+    /// Components that the domain's range is of: all but a last one that is a quantity of its own.
+    [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }
+    /// The domain of that last component.
+    [[nodiscard]] Domain last_domain() const;
+    [[nodiscard]] bool is_number() const { return is_real() && components == 1; }
+};
+
+/// The fields of a stage.
+struct InputSpace {
+    std::vector<InputField> fields;
+    std::size_t numbers = 0;           ///< of a point
+    std::vector<std::size_t> vectors;  ///< fields that are vectors of reals
+    std::vector<std::size_t> reals;    ///< fields that are single reals
+};
+
+/// Points of one stage, each `InputSpace::numbers` numbers, one after the other.
+struct PointSet {
+    std::size_t numbers = 0;
+    std::vector<double> values;
+
+    [[nodiscard]] std::size_t count() const { return numbers == 0 ? count_ : values.size() / numbers; }
+    [[nodiscard]] std::span<const double> operator[](std::size_t index) const {
+        return {values.data() + index * numbers, numbers};
+    }
+    [[nodiscard]] std::span<double> operator[](std::size_t index) {
+        return {values.data() + index * numbers, numbers};
+    }
+    void resize(std::size_t count) {
+        count_ = count;
+        values.resize(count * numbers);
+    }
+
+  private:
+    std::size_t count_ = 0;  ///< of a stage that reads nothing
+};
+
+[[nodiscard]] InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains);
+
+/// The nearest numbers that the field's domain allows, as floats or whole numbers.
+void bring_into_domain(const InputField& field, std::span<double> numbers);
+
+/// The points as invocations of the stage. Each texture is of one colour, its own at every point.
+[[nodiscard]] evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points);
+
+/// Invocation `index` as a point: what the invocations do not name is 0.
+[[nodiscard]] std::vector<double> flat_point(const InputSpace& space,
+                                             const evaluate::Invocations& invocations, std::size_t index);
+
+}  // namespace gobo::sanitize

@@ -1,0 +1,133 @@
+#include "lab/sanitize/lit_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "lab/oracle/model.hpp"
+#include "lab/verify/expectation.hpp"
+#include "lab/verify/feed.hpp"
+#include "lab/verify/rounding.hpp"
+
+namespace gobo::sanitize {
+namespace {
+
+/// Each of a few dozen factors and terms rounds by 6e-8, or by a few of that in an inverse square root on the
+/// least accurate machine that the specification allows.
+constexpr double kRoundings = 1 + 1e-5;
+
+/// A radiance, a colour or a depth; the other outputs are positions and directions, which have a sign.
+bool is_never_negative(std::string_view output, StageKind stage) {
+    return stage == StageKind::fragment || output == "litRadiance" || output == "backRadiance";
+}
+
+/// The error of an eye-space coordinate that a vertex stage computes: four roundings of the sum's terms.
+double position_error(const verify::Sample& sample) {
+    glm::dvec3 largest = glm::abs(glm::dvec3(sample.model_view[3]));
+    for (int column = 0; column < 3; ++column)
+        largest += glm::abs(glm::dvec3(sample.model_view[column]) * sample.object_position[column]);
+    return 4 * verify::kUnitRoundoff * glm::length(largest);
+}
+
+/// The light with its attenuation replaced by the largest that the error of the distance allows.
+void bring_nearer(oracle::PointLight& light, const glm::dvec3& surface, double error) {
+    const double distance = std::max(glm::distance(light.position, surface) - error, 0.0);
+    const glm::dvec3& k = light.attenuation;
+    light.attenuation = {k.x + distance * (k.y + distance * k.z), 0, 0};
+}
+
+/// The same for a light that is local by its w; the division by w rounds its place, too.
+void bring_nearer(oracle::HomogeneousLight& light, const glm::dvec3& surface, double error) {
+    if (std::abs(light.position.w) < 0x1p-20) return;
+    const glm::dvec3 place = glm::dvec3(light.position) / light.position.w;
+    oracle::PointLight local{place, light.color, light.attenuation};
+    bring_nearer(local, surface, error + verify::kUnitRoundoff * glm::length(place));
+    light.attenuation = local.attenuation;
+}
+
+class LitBounds final : public ModelBounds {
+  public:
+    LitBounds(const oracle::Model& model, StageKind stage, const evaluate::Program& program)
+        : model_(model), stage_(stage), program_(program) {}
+
+    [[nodiscard]] bool add(const InputField& field) {
+        if (field.is_texture) return field.name == "shadowMaps" || field.name == "opacityMap";
+        const auto known = verify::field_of(field.name);
+        if (known) fields_.push_back({*known, field.first, field.components});
+        return known.has_value() || field.name.starts_with("gl_");
+    }
+
+    void narrow(std::span<const double> point, std::span<Interval> intervals) override {
+        for (const Known& field : fields_) {
+            const auto numbers = point.subspan(field.first, field.components);
+            scratch_.assign(numbers.begin(), numbers.end());
+            field.access.set(sample_, scratch_);
+        }
+        bring_lights_nearer();
+        oracle::Decisions decisions;
+        const std::vector<verify::Expected> outputs = verify::expect(model_, stage_, sample_, decisions);
+        std::size_t at = 0;
+        for (const evaluate::Port& port : program_.outputs) {
+            const auto expected =
+                std::find_if(outputs.begin(), outputs.end(),
+                             [&](const verify::Expected& one) { return one.output == port.name; });
+            if (expected != outputs.end()) narrow(*expected, intervals.subspan(at, port.components));
+            at += port.components;
+        }
+    }
+
+  private:
+    struct Known {
+        verify::Field access;
+        std::size_t first;
+        std::size_t components;
+    };
+
+    void bring_lights_nearer() {
+        if (stage_ == StageKind::fragment) {
+            for (oracle::HomogeneousLight& light : sample_.scene.homogeneous)
+                bring_nearer(light, sample_.surface.position, 0);
+            return;
+        }
+        const glm::dvec3 surface = glm::dvec3(sample_.model_view * glm::dvec4(sample_.object_position, 1));
+        const double error = position_error(sample_);
+        for (oracle::PointLight& light : sample_.scene.point) bring_nearer(light, surface, error);
+        for (oracle::SpotLight& light : sample_.scene.spot) bring_nearer(light, surface, error);
+        for (oracle::HomogeneousLight& light : sample_.scene.homogeneous) bring_nearer(light, surface, error);
+    }
+
+    void narrow(const verify::Expected& expected, std::span<Interval> intervals) const {
+        for (std::size_t c = 0; c < intervals.size(); ++c) {
+            const double most = std::max(expected.largest[c], std::abs(expected.value[c])) * kRoundings;
+            if (!std::isfinite(most)) continue;
+            intervals[c].high = std::min(intervals[c].high, most);
+            intervals[c].low =
+                is_never_negative(expected.output, stage_) ? 0 : std::max(intervals[c].low, -most);
+        }
+    }
+
+    const oracle::Model model_;
+    StageKind stage_;
+    const evaluate::Program& program_;
+    std::vector<Known> fields_;
+    verify::Sample sample_;
+    std::vector<double> scratch_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModelBounds> lit_bounds(const Family& family, const Key& key, StageKind stage,
+                                        const evaluate::Program& program, const InputSpace& space) {
+    auto model = oracle::model_of(family, key);
+    if (!model) return nullptr;
+    // A shadow only takes light away.
+    model->directional_shadows = model->point_shadows = model->spot_shadows = 0;
+    auto bounds = std::make_unique<LitBounds>(*model, stage, program);
+    for (const InputField& field : space.fields)
+        if (!bounds->add(field)) return nullptr;
+    return bounds;
+}
+
+}  // namespace gobo::sanitize

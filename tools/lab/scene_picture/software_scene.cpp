@@ -1,0 +1,151 @@
+#include "lab/scene_picture/software_scene.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace gobo::scene {
+namespace {
+
+using verify::Fragment;
+using verify::SoftwareObject;
+using verify::SoftwareProgram;
+
+/// Whether the depth of a fragment is that of its triangle, and the fragment certain to be drawn.
+bool is_plain(const SoftwareProgram& program) {
+    const auto& outputs = program.fragment.outputs;
+    const bool writes_depth = std::any_of(outputs.begin(), outputs.end(), [](const evaluate::Port& port) {
+        return port.name == "gl_FragDepth";
+    });
+    return !writes_depth && !program.link.may_discard;
+}
+
+class Canvas {
+  public:
+    explicit Canvas(const SceneView& view)
+        : width_(view.width),
+          height_(view.height),
+          depths_(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height),
+                  std::numeric_limits<double>::infinity()),
+          picture_{Image(view.width, view.height, 4), std::vector<int>(depths_.size(), -1), 0, {}} {
+        for (std::size_t i = 0; i < picture_.color.values.size(); ++i)
+            picture_.color.values[i] = view.background[i % 4];
+    }
+
+    /// Notes what hides what lies behind it, before anything is shaded.
+    void occlude(const SoftwareObject& object) {
+        if (hidden_behind_.empty()) hidden_behind_ = depths_;
+        for (const Fragment& fragment : object.fragments) {
+            double& nearest = hidden_behind_[index(fragment)];
+            if (fragment.is_covered) nearest = std::min(nearest, fragment.weights.depth);
+        }
+    }
+
+    /// Leaves only fragments that may be seen.
+    void cull(SoftwareObject& object) const {
+        std::erase_if(object.fragments, [&](const Fragment& fragment) {
+            const bool is_hidden =
+                !hidden_behind_.empty() && fragment.weights.depth > hidden_behind_[index(fragment)];
+            return !fragment.is_covered || is_hidden || fragment.weights.depth > 1;
+        });
+    }
+
+    [[nodiscard]] evaluate::Counts& operations() { return picture_.operations; }
+
+    void draw(const SoftwareObject& object, const std::vector<verify::Shaded>& shaded, int number) {
+        picture_.fragments += shaded.size();
+        for (std::size_t i = 0; i < shaded.size(); ++i) {
+            const std::size_t pixel = index(object.fragments[i]);
+            if (!object.fragments[i].is_covered || shaded[i].is_discarded) continue;
+            if (shaded[i].depth >= std::min(depths_[pixel], 1.0)) continue;
+            depths_[pixel] = shaded[i].depth;
+            picture_.draw[pixel] = number;
+            for (std::size_t c = 0; c < 4; ++c)
+                picture_.color.values[4 * pixel + c] = static_cast<float>(shaded[i].color[c]);
+        }
+    }
+
+    [[nodiscard]] SoftwarePicture picture() && { return std::move(picture_); }
+
+  private:
+    [[nodiscard]] std::size_t index(const Fragment& fragment) const {
+        return static_cast<std::size_t>(height_ - 1 - fragment.y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(fragment.x);
+    }
+
+    int width_;
+    int height_;
+    std::vector<double> depths_;
+    std::vector<double> hidden_behind_;
+    SoftwarePicture picture_;
+};
+
+void add(std::vector<RenderValue> values, std::vector<RenderValue>& to) {
+    to.insert(to.end(), std::make_move_iterator(values.begin()), std::make_move_iterator(values.end()));
+}
+
+/// What the fragment stage's samplers read, beside the one colour that they have.
+void give_images(const SoftwareImages& images, std::size_t object, evaluate::Invocations& uniforms) {
+    for (auto& [name, image] : uniforms.images) {
+        if (name == "shadowMaps" && images.maps)
+            image = [maps = images.maps](const evaluate::ImageRequest& request) {
+                return evaluate::answer(*maps, request);
+            };
+        if (name != "opacityMap" || object >= images.images.opacity.size()) continue;
+        const AlphaMap& map = images.images.opacity[object];
+        if (!map.texels.empty()) image = alpha_image(map);
+    }
+}
+
+}  // namespace
+
+Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
+    SoftwarePrograms programs;
+    for (const Permutation& permutation : shaders.composition.permutations) {
+        const auto& stages = shaders.validated.stages;
+        auto program = verify::software_program(stages[static_cast<std::size_t>(permutation.vertex)].spirv,
+                                                stages[static_cast<std::size_t>(permutation.fragment)].spirv);
+        if (!program) return tl::unexpected(program.error());
+        programs.push_back(std::move(*program));
+    }
+    return programs;
+}
+
+Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const SoftwarePrograms& programs,
+                                         const std::vector<Object>& objects,
+                                         const std::vector<RenderValue>& values, const SceneView& view,
+                                         bool counts, const SoftwareImages& images) {
+    Canvas canvas(view);
+    const ShadowPlan plan = images.maps
+                                ? shadow_plan(images.images.lights, images.casters, view.view, images.side)
+                                : ShadowPlan();
+    std::vector<SoftwareObject> rasterised(objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const auto& permutation = shaders.permutation[i];
+        if (!permutation) continue;
+        Object with_shadows = objects[i];
+        if (images.maps) {
+            const std::vector<RenderValue> shadows = shadow_values(plan, images.images.shadows[i]);
+            add(images.renamed ? images.renamed(i, shadows) : shadows, with_shadows.values);
+        }
+        auto object = verify::rasterise_object(
+            programs[*permutation], shaders.interfaces[*permutation], with_shadows,
+            verify::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));
+        if (!object) return tl::unexpected(object.error());
+        give_images(images, i, object->uniforms);
+        rasterised[i] = std::move(*object);
+        if (is_plain(programs[*permutation])) canvas.occlude(rasterised[i]);
+    }
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const auto& permutation = shaders.permutation[i];
+        if (!permutation) continue;
+        const SoftwareProgram& program = programs[*permutation];
+        if (is_plain(program)) canvas.cull(rasterised[i]);
+        const auto shaded =
+            verify::shade(program, rasterised[i], {}, counts ? &canvas.operations() : nullptr);
+        if (!shaded) return tl::unexpected(shaded.error());
+        canvas.draw(rasterised[i], *shaded, static_cast<int>(i));
+    }
+    return std::move(canvas).picture();
+}
+
+}  // namespace gobo::scene

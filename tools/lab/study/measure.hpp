@@ -1,0 +1,34 @@
+// One permutation on one scene: its error by cause, and the operations it executes.
+#pragma once
+
+#include "lab/study/error_figures.hpp"
+
+namespace gobo::study {
+
+/// Three causes are told apart. The total is what fp32 gives against the reference.
+struct Measurement {
+    ErrorFigures total;
+    ErrorFigures rounding;       ///< fp32 against fp64 of the same permutation
+    ErrorFigures approximation;  ///< fp64 at full shading rate against the reference
+    ErrorFigures rate;           ///< fp64 against fp64 at full shading rate
+    double relative = 0;         ///< largest relative error of the total
+
+    verify::Work work;
+    std::size_t pixels = 0;
+    std::size_t edges = 0;
+    std::size_t shown_vertices = 0;  ///< work.vertices is theirs
+    std::size_t mesh_vertices = 0;
+    bool from_oracle = false;
+};
+
+/// `at_full_rate` differs from the variant only in the features that say where light is computed; it may be
+/// the variant itself.
+[[nodiscard]] Result<Measurement> measure(const ScenePoints& points, const Variant& variant,
+                                          const Variant& at_full_rate);
+
+/// The colours of a variant at the points, in arithmetic of T.
+template <class T>
+[[nodiscard]] Result<Colors> shade_points(const ScenePoints& points, const Variant& variant,
+                                          verify::Work* work = nullptr);
+
+}  // namespace gobo::study

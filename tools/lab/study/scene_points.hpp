@@ -1,0 +1,56 @@
+// The points of a scene that a picture shows, and the radiance that ought to be seen there.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "lab/study/study_scene.hpp"
+#include "validate/validated.hpp"
+#include "lab/verify/shade.hpp"
+
+namespace gobo::study {
+
+using Color = std::array<double, 3>;
+
+/// A permutation ready to be evaluated.
+struct Variant {
+    Key key;
+    verify::SoftwareProgram program;
+    Interface interface;
+    std::uint64_t hash = 0;  ///< of both stages' SPIR-V
+};
+
+/// One object's visible fragments. Its mesh holds only the triangles that have some.
+struct ObjectPoints {
+    Object object;
+    std::vector<glm::dvec4> positions;  ///< gl_Position of each vertex
+    std::vector<verify::Fragment> fragments;
+    std::vector<Color> reference;  ///< of each fragment
+    std::vector<bool> at_edge;     ///< a question decided within a rounding: either answer is right
+};
+
+/// What a picture of a scene shows, drawn by the most accurate permutation of some effects.
+struct ScenePoints {
+    DrawnScene scene;
+    std::vector<ObjectPoints> objects;
+    bool from_oracle = false;  ///< otherwise the reference is the most accurate permutation in fp64
+    std::size_t pixels = 0;    ///< that show a surface
+    std::size_t edges = 0;     ///< of them, at a discontinuity
+    std::size_t mesh_vertices = 0;
+    std::size_t shown_vertices = 0;  ///< of the triangles that are seen
+};
+
+/// `accurate` is the most accurate permutation of the effects.
+[[nodiscard]] Result<ScenePoints> find_points(const Family& family, const Variant& accurate,
+                                              DrawnScene scene);
+
+/// At most about `count` of the points, spread evenly.
+[[nodiscard]] ScenePoints thinned(const ScenePoints& points, std::size_t count);
+
+/// The object's points as a variant shades them.
+[[nodiscard]] Result<verify::SoftwareObject> shaded_object(const Variant& variant, const DrawnScene& scene,
+                                                           const ObjectPoints& points);
+
+}  // namespace gobo::study

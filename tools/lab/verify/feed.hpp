@@ -1,0 +1,34 @@
+// Hands samples of `lit` to a stage, by the reflected names of what it reads.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "lab/evaluate/evaluate.hpp"
+#include "lab/verify/sample.hpp"
+
+namespace gobo::verify {
+
+/// One number, vector or matrix of a sample, component by component, matrices column by column.
+struct Field {
+    std::function<std::vector<double>(const Sample&)> get;
+    std::function<void(Sample&, const std::vector<double>&)> set;
+};
+
+/// The field of that reflected name: "PointLights.lights[2].color". Nothing where samples have no such field.
+[[nodiscard]] std::optional<Field> field_of(const std::string& name);
+
+/// The samples as invocations of the stage. An error for an input or uniform that samples have no value for.
+[[nodiscard]] Result<evaluate::Invocations> feed(const evaluate::Program& program,
+                                                 std::span<const Sample> samples);
+
+/// The sample that one invocation stands for; what is not given is 0. Nothing where the stage reads something
+/// that samples do not have.
+[[nodiscard]] std::optional<Sample> sample_of(const evaluate::Program& program,
+                                              const evaluate::Invocations& invocations);
+
+}  // namespace gobo::verify

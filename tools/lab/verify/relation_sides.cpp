@@ -1,0 +1,200 @@
+#include "lab/verify/relation_sides.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "lab/verify/random.hpp"
+#include "lab/verify/random_points.hpp"
+
+namespace gobo::verify {
+namespace {
+
+using Values = std::vector<double>;
+
+/// An element of an array: "uLights[2].color" of "uLights" is 2 and ".color".
+struct Element {
+    std::size_t index = 0;
+    std::string member;
+};
+
+std::optional<Element> element_of(const std::string& name, const std::string& array) {
+    if (!name.starts_with(array + "[")) return std::nullopt;
+    const char* first = name.data() + array.size() + 1;
+    const char* last = name.data() + name.size();
+    Element element;
+    const auto [end, error] = std::from_chars(first, last, element.index);
+    if (error != std::errc() || end == last || *end != ']') return std::nullopt;
+    element.member.assign(end + 1, last);
+    return element;
+}
+
+std::size_t elements_of(const std::string& array, const std::vector<evaluate::Port>& ports) {
+    std::size_t count = 0;
+    for (const evaluate::Port& port : ports)
+        if (const auto element = element_of(port.name, array)) count = std::max(count, element->index + 1);
+    return count;
+}
+
+std::string name_of(const std::string& array, std::size_t index, const std::string& member) {
+    return fmt::format("{}[{}]{}", array, index, member);
+}
+
+/// Each element takes the place of the one before it.
+std::optional<Sides> reordered(const std::string& array, const std::vector<evaluate::Port>& ports,
+                               const evaluate::Invocations& points) {
+    const std::size_t count = elements_of(array, ports);
+    if (count < 2) return std::nullopt;
+    Sides sides{points, points};
+    for (const evaluate::Port& port : ports)
+        if (const auto element = element_of(port.name, array))
+            sides.other.values[port.name] =
+                points.values.at(name_of(array, (element->index + 1) % count, element->member));
+    return sides;
+}
+
+/// The values of the invocation after each: any others, as far as they are concerned.
+Values of_others(const Values& values, std::size_t count) {
+    Values others(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k)
+        others[k] = values[k / count * count + (k % count + 1) % count];
+    return others;
+}
+
+/// `member` of the elements adds up. Two elements that are the same but for it, against one with the sum and
+/// another one that has none of it; a single one with none, against another one with none.
+std::optional<Sides> added_up(const std::string& name, const std::vector<evaluate::Port>& ports,
+                              const evaluate::Invocations& points) {
+    const auto brackets = name.find("[]");
+    const std::string array = name.substr(0, brackets);
+    const std::string member = name.substr(brackets + 2);
+    const std::size_t count = elements_of(array, ports);
+    if (count == 0 || !points.values.contains(name_of(array, 0, member))) return std::nullopt;
+    const std::size_t last = count - 1;
+    Sides sides{points, points};
+    for (const evaluate::Port& port : ports) {
+        const auto element = element_of(port.name, array);
+        if (!element || element->index != last) continue;
+        Values& one = sides.one.values[port.name];
+        Values& other = sides.other.values[port.name];
+        if (element->member == member) {
+            std::fill(other.begin(), other.end(), 0);
+            if (count == 1) std::fill(one.begin(), one.end(), 0);
+        } else if (count == 1) {
+            other = of_others(one, points.count);
+        } else {
+            one = points.values.at(name_of(array, 0, element->member));
+        }
+    }
+    if (count > 1) {
+        Values& sum = sides.other.values[name_of(array, 0, member)];
+        const Values& more = points.values.at(name_of(array, last, member));
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
+    }
+    return sides;
+}
+
+/// What is turned, as the columns that the rotation is applied to.
+bool turn_columns(Values& values, std::uint32_t components, std::size_t count, const glm::dmat3& rotation) {
+    const std::uint32_t rows = components == 16 || components == 4 ? 4 : 3;
+    if (components % rows != 0 || components < 3) return false;
+    for (std::uint32_t column = 0; column < components / rows; ++column)
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto at = [&](std::uint32_t row) -> double& {
+                return values[(column * rows + row) * count + i];
+            };
+            const glm::dvec3 turned = rotation * glm::dvec3(at(0), at(1), at(2));
+            for (std::uint32_t row = 0; row < 3; ++row) at(row) = turned[static_cast<int>(row)];
+        }
+    return true;
+}
+
+/// A matrix that leads out of the space that is turned: times the inverse rotation.
+bool turn_rows_back(Values& values, std::uint32_t components, std::size_t count, const glm::dmat3& rotation) {
+    if (components != 9 && components != 16) return false;
+    const std::uint32_t rows = components == 9 ? 3 : 4;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto at = [&](std::uint32_t column) -> double& {
+                return values[(column * rows + row) * count + i];
+            };
+            const glm::dvec3 turned = rotation * glm::dvec3(at(0), at(1), at(2));
+            for (std::uint32_t column = 0; column < 3; ++column)
+                at(column) = turned[static_cast<int>(column)];
+        }
+    return true;
+}
+
+bool names(const std::vector<std::string>& list, const std::string& port) {
+    return std::any_of(list.begin(), list.end(), [name = without_subscripts(port)](const std::string& one) {
+        return without_subscripts(one) == name;
+    });
+}
+
+std::optional<Sides> turned(const Relation& relation, const std::vector<evaluate::Port>& ports,
+                            const evaluate::Invocations& points, std::uint64_t seed) {
+    Random random(seed);
+    const glm::dmat3 rotation(
+        glm::rotate(glm::dmat4(1), random.between(0.3, 2.8), glm::normalize(random.direction())));
+    Sides sides{points, points};
+    bool is_there = false;
+    for (const evaluate::Port& port : ports) {
+        const auto found = sides.other.values.find(port.name);
+        if (found == sides.other.values.end()) continue;
+        Values& values = found->second;
+        if (names(relation.names, port.name))
+            is_there = turn_columns(values, port.components, points.count, rotation) || is_there;
+        else if (names(relation.turned_back, port.name))
+            is_there = turn_rows_back(values, port.components, points.count, rotation) || is_there;
+    }
+    if (!is_there) return std::nullopt;
+    return sides;
+}
+
+/// The value that turns an effect off, wherever the name stands for: with `[]` the last element of `count`,
+/// or every element where that is 0.
+std::optional<Sides> turned_off(const Relation& relation, const std::vector<evaluate::Port>& ports, int count,
+                                const evaluate::Invocations& points) {
+    Sides sides{points, points};
+    for (const RenderValue& value : relation.at) {
+        const auto brackets = value.name.find("[]");
+        std::string name = value.name;
+        if (count > 0 && brackets != std::string::npos)
+            name.replace(brackets, 2, fmt::format("[{}]", count - 1));
+        for (const evaluate::Port& port : ports) {
+            if (port.name != name && without_subscripts(port.name) != name) continue;
+            Values& values = sides.one.values[port.name];
+            for (std::size_t c = 0; c < port.components; ++c)
+                std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(c * points.count), points.count,
+                            value.numbers[std::min(c, value.numbers.size() - 1)]);
+        }
+    }
+    sides.other = sides.one;
+    return sides;
+}
+
+}  // namespace
+
+std::optional<Sides> sides_of(const Relation& relation, const std::vector<evaluate::Port>& ports, int count,
+                              const evaluate::Invocations& points, std::uint64_t seed) {
+    switch (relation.kind) {
+        case Relation::Kind::any_order:
+            return reordered(relation.names.front(), ports, points);
+        case Relation::Kind::adds:
+            return added_up(relation.names.front(), ports, points);
+        case Relation::Kind::turn:
+            return turned(relation, ports, points, seed);
+        case Relation::Kind::off:
+            return turned_off(relation, ports, count, points);
+        case Relation::Kind::finer:
+            break;
+    }
+    return std::nullopt;
+}
+
+}  // namespace gobo::verify

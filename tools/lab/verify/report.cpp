@@ -1,0 +1,39 @@
+#include "lab/verify/report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace gobo::verify {
+std::string_view name_of(Precision precision) {
+    return precision == Precision::fp32 ? "fp32" : "fp64";
+}
+
+Figures& Figures::operator+=(const Figures& other) {
+    points += other.points;
+    edges += other.edges;
+    largest_fp64_error = std::max(largest_fp64_error, other.largest_fp64_error);
+    largest_fp32_error = std::max(largest_fp32_error, other.largest_fp32_error);
+    largest_fp32_ratio = std::max(largest_fp32_ratio, other.largest_fp32_ratio);
+    return *this;
+}
+
+void add_failure(StageReport& report, Failure failure) {
+    const auto place = std::find_if(report.worst.begin(), report.worst.end(),
+                                    [&](const Failure& other) { return other.ratio < failure.ratio; });
+    report.worst.insert(place, std::move(failure));
+    if (report.worst.size() > kWorstPoints) report.worst.pop_back();
+}
+
+std::string to_text(const Failure& failure) {
+    return fmt::format("{} {}[{}] is {}, should be {} within {:.3g}", name_of(failure.precision),
+                       failure.output, failure.component, failure.actual, failure.expected,
+                       failure.tolerance);
+}
+
+std::string eval_input(const Failure& failure, const std::string& key) {
+    return evaluate::eval_file(gobo::name_of(failure.stage), failure.point,
+                               fmt::format("# {}: {}\n", key, to_text(failure)), evaluate::Digits::all);
+}
+
+}  // namespace gobo::verify

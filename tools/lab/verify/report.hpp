@@ -1,0 +1,62 @@
+// What a verification found: figures, and points where a stage gives something else than it should.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "lab/evaluate/eval_point.hpp"
+
+namespace gobo::verify {
+
+enum class Precision { fp32, fp64 };
+
+/// "fp32" or "fp64".
+[[nodiscard]] std::string_view name_of(Precision precision);
+
+/// A point where an output is out of tolerance: its worst component.
+struct Failure {
+    StageKind stage = StageKind::vertex;
+    Precision precision = Precision::fp32;
+    std::string output;
+    std::uint32_t component = 0;
+    double expected = 0;
+    double actual = 0;
+    double tolerance = 0;
+    double ratio = 0;  ///< of the error to the tolerance; infinite for a NaN
+    evaluate::EvalPoint point;
+};
+
+/// What is counted, of a stage, a permutation or a whole run.
+struct Figures {
+    std::size_t points = 0;         ///< invocations, each evaluated as fp32 and as fp64
+    std::size_t edges = 0;          ///< of them, so near a discontinuity that either side is right
+    double largest_fp64_error = 0;  ///< relative to the largest term
+    double largest_fp32_error = 0;  ///< as well; without an oracle, to the output's largest component
+    double largest_fp32_ratio = 0;  ///< of the error to its derived bound
+
+    Figures& operator+=(const Figures& other);
+};
+
+/// Of a stage.
+struct StageReport {
+    Figures figures;
+    std::size_t failed_points = 0;
+    std::vector<Failure> worst;  ///< at most kWorstPoints, largest ratio first
+};
+
+inline constexpr std::size_t kWorstPoints = 3;
+
+/// Keeps the failure if it is among the worst.
+void add_failure(StageReport& report, Failure failure);
+
+/// The failing point as an input file of `gobo eval`, numbers in full precision. `key` is the permutation's
+/// text.
+[[nodiscard]] std::string eval_input(const Failure& failure, const std::string& key);
+
+/// "fp32 fragmentColor[0] is 0.25, should be 0.5 within 1e-06".
+[[nodiscard]] std::string to_text(const Failure& failure);
+
+}  // namespace gobo::verify

@@ -1,0 +1,212 @@
+#include "lab/verify/rounding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "lab/verify/power_rounding.hpp"
+
+namespace gobo::verify {
+namespace {
+
+constexpr double kU = kUnitRoundoff;
+
+/// 1 - a.b of two directions whose errors add up to `directions`. Near 0 it is |a - b|^2 / 2, whose
+/// derivative is |a - b| = sqrt(2 u), and five roundings; from 1/2 on 1 - a.b, with four roundings of at most
+/// 1, which are eight of u.
+Versine versine_of_unit(double value, double directions) {
+    const double slope = std::sqrt(2 * value);
+    return {value, (slope + directions / 2) * directions + 8 * kU * value};
+}
+
+/// 1 - a.b as it stands: the directions' errors, by the sine of the angle where both are unit, and four
+/// roundings of at most 1 each.
+Versine versine_of_cosine(double value, double directions, bool are_unit) {
+    const double sine = std::sqrt(std::max(value * (2 - value), 0.0));
+    const double slope = are_unit ? sine + directions / 2 : 1;
+    return {value, slope * directions + 4 * kU};
+}
+
+/// Where a ray lies in a cone. By the angle itself: |a x b| and a.b are good to four roundings of 1 each, so
+/// that the angle is off by six, and 2 sin^2 of its half by its slope, the sine, and six roundings more.
+Versine cone_versine(oracle::SpotEdge edge, double angle, double directions) {
+    const double value = oracle::versine_of(angle);
+    if (edge == oracle::SpotEdge::versine) return versine_of_unit(value, directions);
+    if (edge == oracle::SpotEdge::cosine) return versine_of_cosine(value, directions, true);
+    const double off = directions + 6 * kU;
+    return {value, (std::sin(angle) + off / 2) * off + 6 * kU * value};
+}
+
+/// How far a highlight's versine is off, of directions whose errors add up to `directions`.
+Versine lobe_versine(const oracle::Model& model, double value, double directions) {
+    return model.normal == oracle::Normal::renormalised ? versine_of_unit(value, directions)
+                                                        : versine_of_cosine(value, directions, false);
+}
+
+double edge(const oracle::SpotLight& light, double versine) {
+    const double width = light.outer_versine - light.inner_versine;
+    if (width <= 0) return versine < light.outer_versine || light.outer_versine >= 2 ? 1 : 0;
+    const double fade = std::clamp((light.outer_versine - versine) / width, 0.0, 1.0);
+    return fade * fade;
+}
+
+/// Error of a spot light's share. A hard edge is decided, not rounded: it adds nothing here.
+double cone_error(oracle::SpotEdge spot_edge, const oracle::Arrival& arrival, double to_light_error) {
+    const oracle::SpotLight& light = *arrival.spot;
+    // The axis is unit to two roundings.
+    const Versine u = cone_versine(spot_edge, arrival.cone_angle, to_light_error + 2 * kU);
+    const bool is_hard = light.inner_versine >= light.outer_versine;
+    const double most = edge(light, std::max(u.value - u.error, 0.0));
+    const double edge_error = is_hard ? 0 : most - edge(light, u.value + u.error) + 6 * kU * most;
+    return edge_error + power_error(oracle::Power::exact, u, light.exponent) + kU;
+}
+
+/// Error of a shadowed light's share. A product of a matrix and a position rounds each term at most four
+/// times, a cube's spread twice more, the division once, and the place among the texels twice; what lies
+/// before the place in the map is decided. The weights and the product with the light are ten roundings of at
+/// most 1. A texel's centre, where a formula asks for that, is rounded once as it is divided by the map's
+/// size.
+double shadow_error(const oracle::Arrival& arrival, double position_error) {
+    const double centre = arrival.shadow_per_place * kU;
+    if (arrival.shadow_per_rounding == 0) return arrival.is_shadowed ? centre + kU : 0;
+    return arrival.shadow_per_rounding * 9 * kU + arrival.shadow_per_length * position_error + centre +
+           10 * kU;
+}
+
+/// What becomes of a direction that is an input: it is made unit, or taken as it is.
+double given_direction(const oracle::Model& model) {
+    return model.normal == oracle::Normal::renormalised ? kDirectionError : 0;
+}
+
+/// The sum of the errors of the two directions between which the highlight's angle lies.
+double highlight_directions(const oracle::Model& model, const oracle::LightTerm& term, double normal,
+                            double to_light, double to_viewer) {
+    if (model.specular == oracle::Specular::phong)  // r = 2 (n.s) n - s: at most four times n's error
+        return to_light + 4 * normal + 8 * kU + to_viewer;
+    if (model.shading == oracle::Shading::hybrid) return given_direction(model) + normal;
+    return halfway_error(to_light, to_viewer, term.half_length) + normal;
+}
+
+/// Roundings of a sum of n terms that are not negative: one for each, one for each level of pairs and the few
+/// partial sums of the last, or, where what is lost is carried along, two.
+double sum_roundings(oracle::LightSum kind, std::size_t terms) {
+    const auto count = static_cast<double>(terms);
+    if (kind == oracle::LightSum::compensated) return 2;
+    return kind == oracle::LightSum::plain || terms < 4 ? count : std::ceil(std::log2(count)) + 1;
+}
+
+/// A light's parts of the error, without the material.
+struct TermErrors {
+    glm::dvec3 ambient{0};
+    glm::dvec3 scattered{0};
+    glm::dvec3 reflected{0};
+};
+
+/// The share that a light's error counts with: the brightest tone where that limits the sum.
+double largest_share(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term) {
+    if (model.diffuse != oracle::Diffuse::toon_thresholds) return term.diffuse;
+    return *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end());
+}
+
+/// Ambient light at a normal known to within `normal`: its slope times that error (turning the normal to the
+/// probe's axes rounds three products more), and ten roundings of its terms.
+glm::dvec3 ambient_error(const oracle::AmbientLight& ambient, double normal) {
+    return ambient.slope * (normal + 6 * kU) + ambient.largest * (10 * kU);
+}
+
+TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term,
+                       double shininess, const PointErrors& errors, double normal, double to_viewer) {
+    const ArrivalErrors arrival = arrival_errors(model, term.arrival, errors.position);
+    const glm::dvec3& light = term.arrival.radiance;
+    TermErrors result;
+    result.ambient = term.ambient * (arrival.fading + 2 * kU);
+    // The gate is decided; where it is open, the cosine is off by both directions and a dot product.
+    const double cosine = normal + arrival.direction + 3 * kU;
+    const bool may_be_lit = term.is_lit || std::abs(term.cosine) <= cosine;
+    if (!may_be_lit) return result;
+    const double diffuse = model.diffuse == oracle::Diffuse::lambert ? cosine : 2 * kU;
+    result.scattered = light * (diffuse + kU) + arrival.radiance * largest_share(model, scene, term);
+    if (model.specular == oracle::Specular::none) return result;
+    const double directions = highlight_directions(model, term, normal, arrival.direction, to_viewer);
+    const double share =
+        power_error(model.power, lobe_versine(model, term.highlight_versine, directions), shininess);
+    result.reflected = light * (share + kU) + arrival.radiance * term.specular;
+    return result;
+}
+
+}  // namespace
+
+/// Directional lights are inputs, unit to two roundings. Of local ones the ray is a difference (one rounding,
+/// and the position's own error), the distance is good to as much, and 1 / (k_c + d (k_l + d k_q)) changes by
+/// at most twice as much, with seven roundings of positive terms.
+ArrivalErrors arrival_errors(const oracle::Model& model, const oracle::Arrival& arrival,
+                             double position_error) {
+    const glm::dvec3 shadow = arrival.unshaped * shadow_error(arrival, position_error);
+    if (arrival.is_interpolated) return {given_direction(model), kU, arrival.radiance * kU + shadow};
+    if (arrival.is_given) return {2 * kU, 0, shadow};
+    if (arrival.distance == 0) return {kDirectionError, 0, glm::dvec3(0)};
+    const double ray = kU + (position_error + kU * arrival.place_size) / arrival.distance;
+    const double direction = ray + kDirectionError;
+    const double fading = 2 * direction + 7 * kU;
+    const double cone = arrival.spot != nullptr ? cone_error(model.spot_edge, arrival, direction) : 0;
+    return {direction, fading, arrival.radiance * fading + arrival.unshaped * cone + shadow};
+}
+
+double viewer_error(const oracle::Model& model, const glm::dvec3& position, double position_error) {
+    const double distance = glm::length(position);
+    const bool is_computed = model.viewer == oracle::Viewer::local && distance > 0;
+    return is_computed ? position_error / distance + kDirectionError : 0;
+}
+
+double halfway_error(double to_light, double to_viewer, double half_length) {
+    return (to_light + to_viewer + 2 * kU) / std::max(half_length, 1e-30) + kDirectionError;
+}
+
+glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene,
+                          const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
+                          const PointErrors& errors) {
+    const double normal = errors.normal + given_direction(model);
+    const double to_viewer = viewer_error(model, point.position, errors.position);
+    const oracle::Material& material = radiance.material;
+    glm::dvec3 error = material.ambient * ambient_error(radiance.ambient, normal);
+    // A mirrored direction is known to four times the normal's error besides the viewer's; turning it to the
+    // map's axes rounds three products more, mixing and scaling five.
+    const double mirrored = to_viewer + 4 * normal + 8 * kU;
+    error += material.strength * material.specular *
+             (radiance.reflected.slope * (mirrored + 6 * kU) + radiance.reflected.value * (5 * kU));
+    for (const oracle::LightTerm& term : radiance.terms) {
+        const TermErrors one = term_errors(model, scene, term, material.shininess, errors, normal, to_viewer);
+        error += material.ambient * one.ambient + material.diffuse * one.scattered +
+                 material.strength * material.specular * one.reflected;
+    }
+    // Sums of terms that are not negative, three products with the material and two with the vertices'
+    // colour, four sums of the parts.
+    const double roundings = sum_roundings(model.light_sum, radiance.terms.size()) + 9;
+    return error + radiance.value * (roundings * kU);
+}
+
+glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene, const oracle::Seen& seen,
+                     const glm::dvec3& radiance, const glm::dvec3& radiance_error, double position_error) {
+    if (model.fog == oracle::Fog::none) return radiance_error;
+    const oracle::FogParameters& fog = scene.fog;
+    const double distance = kDirectionError * seen.distance + position_error;
+    double clearness = 0;
+    if (model.fog == oracle::Fog::linear && fog.near != fog.far) {
+        const double ahead = distance + kU * std::abs(fog.far - seen.distance);
+        clearness = ahead / std::abs(fog.far - fog.near) + 2 * kU * seen.clearness;
+    } else if (model.fog != oracle::Fog::linear) {
+        // exp(-t) or exp(-t^2): the thickness t is a product, the square doubles its relative error.
+        const double thickness = fog.density * seen.distance;
+        const double relative = seen.distance > 0 ? distance / seen.distance + kU : 0;
+        const double exponent = model.fog == oracle::Fog::exponential
+                                    ? thickness * relative
+                                    : thickness * thickness * (2 * relative + kU);
+        clearness = seen.clearness * (exponent + 2 * kU);
+    }
+    const glm::dvec3 blend = glm::abs(radiance) * seen.clearness + fog.color * (1 - seen.clearness);
+    return seen.clearness * radiance_error + (glm::abs(radiance) + fog.color) * clearness + 3 * kU * blend;
+}
+
+}  // namespace gobo::verify
