@@ -12,6 +12,8 @@
 # MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
 # choose by, by default the study that came with the family.
 #
+# GOBO_PROGRAM, where it is set, is the gobo that runs instead of the package's own: one of the host when cross-compiling.
+#
 # The header follows every file that it was made from, and is left untouched where its text stays the same. Relative
 # paths are relative to the current source folder. docs/build_integration.md says more.
 cmake_policy(PUSH)
@@ -34,12 +36,16 @@ function(gobo_add_permutations target)
   set(stamp "${folder}/${name}.stamp")
   list(JOIN arguments "\n" argument_lines)
   _gobo_write("${folder}/${name}.arguments" "${argument_lines}\n")
+  set(program gobo::gobo)
+  if(GOBO_PROGRAM)
+    set(program "${GOBO_PROGRAM}")
+  endif()
   add_custom_command(
     OUTPUT "${stamp}"
     BYPRODUCTS "${folder}/${name}.hpp" "${folder}/${name}.json"
-    COMMAND gobo::gobo build ${arguments} -o "${folder}" --depfile-target "${stamp}" --quiet
+    COMMAND ${program} build ${arguments} -o "${folder}" --depfile-target "${stamp}" --quiet
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
-    DEPENDS gobo::gobo ${inputs} "${folder}/${name}.arguments"
+    DEPENDS ${program} ${inputs} "${folder}/${name}.arguments"
     DEPFILE "${folder}/${name}.d"
     COMMENT "Building the permutations ${name}.hpp of ${target}"
     VERBATIM)
