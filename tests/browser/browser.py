@@ -18,8 +18,20 @@ def opened(path, width=1280, height=1000):
     try:
         from selenium import webdriver
         from selenium.webdriver.chrome.service import Service
+        from selenium.webdriver.common.utils import is_connectable
     except ImportError:
         skip("python3-selenium is not installed")
+
+    class NumericService(Service):
+        """Reached by its number: a system without /etc/hosts does not know the name localhost."""
+
+        @property
+        def service_url(self):
+            return f"http://127.0.0.1:{self.port}"
+
+        def is_connectable(self):
+            return is_connectable(self.port, "127.0.0.1")
+
     browser, driver_program = shutil.which("chromium"), shutil.which("chromedriver")
     if not browser or not driver_program:
         skip("chromium is not installed")
@@ -29,7 +41,7 @@ def opened(path, width=1280, height=1000):
                      "--allow-file-access-from-files"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(service=Service(driver_program), options=options)
+    driver = webdriver.Chrome(service=NumericService(driver_program), options=options)
     try:
         driver.get(pathlib.Path(path).resolve().as_uri())
         yield driver
