@@ -1,8 +1,17 @@
 #!/usr/bin/env bash
-# Sets up, builds and runs all tests. Arguments go to ctest: tools/test.sh -R family
+# Sets up, builds and runs the tests: those of every day, or with --full all of them. Other arguments go to ctest: tools/test.sh -R family
 set -euo pipefail
 cd "$(dirname "$0")/.."
+tier=(-LE full)
+[ "${1:-}" != --full ] || { tier=(); shift; export GOBO_FULL_TESTS=1; }
 tools/setup.sh
 cmake --preset release
 cmake --build --preset release
-exec ctest --preset release -j "$(nproc)" "$@"
+results=build/release/test_results
+rm -rf "$results"
+status=0
+ctest --preset release -j "$(nproc)" "${tier[@]}" --output-junit "$PWD/$results/ctest.xml" "$@" || status=$?
+echo "The ten slowest, in seconds:"
+sed -nE 's/.*<testcase name="([^"]*)".* classname="([^"]*)".* time="([0-9.]+)".*/\3 \1/p; s/.*<testcase name="([^"]*)".* time="([0-9.]+)".* classname="([^"]*)".*/\2 \3.\1/p' \
+  "$results"/*.xml | sort -rn | head -10
+exit $status
