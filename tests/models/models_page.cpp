@@ -41,7 +41,7 @@ int run(std::span<char*> arguments) {
     }
     const Result<std::string> present = disk.read(path);
     if (present && say_the_same(*present, *page)) return 0;
-    fmt::print(stderr, "docs/models.md is stale\n  remedy: cmake --build --preset release --target models\n");
+    fmt::print(stderr, "docs/models.md is stale\n  help: cmake --build --preset release --target models\n");
     return 1;
 }
 

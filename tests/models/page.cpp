@@ -96,15 +96,15 @@ std::string piece_link(const std::string& name) {
 Result<std::string> row_of(const FileSystem& files, const std::string& root, const Model& model,
                            const Measured& measured) {
     const Family& family = measured.family;
-    const auto refuse = [&](const std::string& message, const std::string& remedy) {
-        return fail(Fault::input, fmt::format("{}: {}", model.id, message), remedy);
+    const auto refuse = [&](const std::string& message, const std::string& help) {
+        return fail(Fault::input, fmt::format("{}: {}", model.id, message), help);
     };
     const Result<Key> key = parse_key(family, model.key);
     if (!key) return tl::unexpected(key.error());
     const Result<Expression> where = parse_expression(model.where, family.features, {}, Fault::input);
     if (!where) return tl::unexpected(where.error());
     if (!holds(*where, *key))
-        return refuse(fmt::format("'{}' has not the model", model.key), "mend docs/models.toml");
+        return refuse(fmt::format("'{}' has not the model", model.key), "fix docs/models.toml");
     const Result<Composition> example = compose_example(files, root, family, *key);
     if (!example) return tl::unexpected(example.error());
     const std::vector<std::string> pieces = pieces_naming(*example, model.id);

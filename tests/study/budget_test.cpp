@@ -1,11 +1,10 @@
 // What a budget buys, of studies written down here.
-#include "lab/study/studied_keys.hpp"
-
 #include <gtest/gtest.h>
 
+#include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "budget/qualities.hpp"
+#include "lab/study/studied_keys.hpp"
 
 namespace gobo::study {
 namespace {
@@ -50,7 +49,7 @@ struct BudgetRow {
     const char* name;
     Budget budget;
     const char* key;  ///< nullptr: refused
-    const char* remedy;
+    const char* help;
 };
 
 class Buys : public testing::TestWithParam<BudgetRow> {};
@@ -61,7 +60,7 @@ TEST_P(Buys, TheBestWithinIt) {
     if (chosen)
         EXPECT_EQ(key_text(small_family(), chosen->key), GetParam().key);
     else
-        EXPECT_EQ(chosen.error().front().remedy, GetParam().remedy);
+        EXPECT_EQ(chosen.error().front().help, GetParam().help);
 }
 
 // The promise is kSafety = 2 times the measured error.
@@ -102,7 +101,7 @@ TEST(Studied, OfAnotherFamilyIsRefusedAtItsLine) {
                      small_family());
     ASSERT_FALSE(read);
     EXPECT_EQ(to_text(read.error().front()).substr(0, 12), "study.csv:2:");
-    EXPECT_EQ(read.error().front().remedy, "remake the study: gobo study small -o FOLDER");
+    EXPECT_EQ(read.error().front().help, "remake the study: gobo study small -o FOLDER");
 }
 
 TEST(FrontQualities, AreAppliedToOtherEffects) {

@@ -21,21 +21,21 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:7: error: feature 'fog' must be an identifier with a table\n"
      "    fog = 3\n"
      "          ^\n"
-     "  remedy: write [features.NAME] with values, count or define\n"},
+     "  help: write [features.NAME] with values, count or define\n"},
     {"feature_with_a_bad_name",
      "[features.\"2d\"]\n"
      "define = \"A\"\n",
      "tiny.toml:4:1: error: feature '2d' must be an identifier with a table\n"
      "    [features.\"2d\"]\n"
      "    ^\n"
-     "  remedy: write [features.NAME] with values, count or define\n"},
+     "  help: write [features.NAME] with values, count or define\n"},
     {"feature_of_no_kind",
      "[features.fog]\n"
      "role = \"effect\"\n",
      "tiny.toml:4:1: error: feature 'fog' must be one of a choice, a count and a define\n"
      "    [features.fog]\n"
      "    ^\n"
-     "  remedy: give it exactly one of values, count and define\n"},
+     "  help: give it exactly one of values, count and define\n"},
     {"unknown_role",
      "[features.fog]\n"
      "role = \"efect\"\n"
@@ -43,42 +43,42 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:8: error: feature 'fog' has no role 'efect'\n"
      "    role = \"efect\"\n"
      "           ^\n"
-     "  remedy: did you mean 'effect'?\n"},
+     "  help: did you mean 'effect'?\n"},
     {"unknown_name_in_a_feature",
      "[features.fog]\n"
      "value = [\"a\"]\n",
      "tiny.toml:5:1: error: unknown name 'value' in feature 'fog'\n"
      "    value = [\"a\"]\n"
      "    ^\n"
-     "  remedy: did you mean 'values'?\n"},
+     "  help: did you mean 'values'?\n"},
     {"choice_without_values",
      "[features.fog]\n"
      "values = []\n",
      "tiny.toml:5:10: error: feature 'fog' has no values\n"
      "    values = []\n"
      "             ^\n"
-     "  remedy: list at least one; the first is the default\n"},
+     "  help: list at least one; the first is the default\n"},
     {"value_of_wrong_type",
      "[features.fog]\n"
      "values = [\"a\", 2]\n",
      "tiny.toml:5:16: error: 'values' must be an array of strings\n"
      "    values = [\"a\", 2]\n"
      "                   ^\n"
-     "  remedy: write values = ...\n"},
+     "  help: write values = ...\n"},
     {"value_with_a_bad_name",
      "[features.fog]\n"
      "values = [\"a b\"]\n",
      "tiny.toml:5:10: error: feature 'fog' cannot have the value 'a b'\n"
      "    values = [\"a b\"]\n"
      "             ^\n"
-     "  remedy: use letters, digits and _: it names a file and a C++ enumerator\n"},
+     "  help: use letters, digits and _: it names a file and a C++ enumerator\n"},
     {"value_twice",
      "[features.fog]\n"
      "values = [\"a\", \"b\", \"a\"]\n",
      "tiny.toml:5:10: error: feature 'fog' has the value 'a' twice\n"
      "    values = [\"a\", \"b\", \"a\"]\n"
      "             ^\n"
-     "  remedy: list it once\n"},
+     "  help: list it once\n"},
     {"varying_counted_by_a_choice",
      "[features.fog]\n"
      "values = [\"one\", \"two\"]\n"
@@ -89,7 +89,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:7:9: error: varying 'rays' is counted by 'fog', which is no count\n"
      "    count = \"fog\"\n"
      "            ^\n"
-     "  remedy: there are none\n"},
+     "  help: there are none\n"},
     {"varying_with_location_and_count",
      "[features.point]\n"
      "count = [0, 4]\n"
@@ -102,7 +102,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:9:12: error: varying 'rays' has a location and a count\n"
      "    location = 1\n"
      "               ^\n"
-     "  remedy: leave the location out: counted varyings lie behind the others\n"},
+     "  help: leave the location out: counted varyings lie behind the others\n"},
     {"varying_with_too_many_values_in_an_element",
      "[features.point]\n"
      "count = [0, 4]\n"
@@ -115,14 +115,14 @@ const BadRow bad_rows[] = {
      "tiny.toml:9:22: error: varying 'rays' has no valid values_per_element\n"
      "    values_per_element = 5\n"
      "                         ^\n"
-     "  remedy: write a number from 1 to 4 beside a count\n"},
+     "  help: write a number from 1 to 4 beside a count\n"},
     {"domain_last_is_no_range",
      "[domain]\n"
      "\"rays[]\" = { length = [0, 1], last = [2] }\n",
      "tiny.toml:5:38: error: the domain of 'rays[]' is no range\n"
      "    \"rays[]\" = { length = [0, 1], last = [2] }\n"
      "                                         ^\n"
-     "  remedy: write last = [low, high]\n"},
+     "  help: write last = [low, high]\n"},
     {"default_unknown",
      "[features.fog]\n"
      "values = [\"one\", \"two\"]\n"
@@ -130,7 +130,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:11: error: feature 'fog' has no value 'twoo' to default to\n"
      "    default = \"twoo\"\n"
      "              ^\n"
-     "  remedy: did you mean 'two'?\n"},
+     "  help: did you mean 'two'?\n"},
     {"default_of_a_count",
      "[features.point]\n"
      "count = [0, 4]\n"
@@ -139,7 +139,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:11: error: feature 'point' cannot name its default\n"
      "    default = \"1\"\n"
      "              ^\n"
-     "  remedy: only a choice can: a count's is 0, a define's is off\n"},
+     "  help: only a choice can: a count's is 0, a define's is off\n"},
     {"enum_of_a_define",
      "[features.bump]\n"
      "define = \"BUMP\"\n"
@@ -147,7 +147,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:8: error: feature 'bump' cannot name an enum\n"
      "    enum = \"Bump\"\n"
      "           ^\n"
-     "  remedy: only a choice has one: a count is an int, a define a bool\n"},
+     "  help: only a choice has one: a count is an int, a define a bool\n"},
     {"enum_that_is_no_type",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"
@@ -155,7 +155,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:8: error: feature 'fog' has 'Fog kind' for an enum\n"
      "    enum = \"Fog kind\"\n"
      "           ^\n"
-     "  remedy: name it as C++ names a type, such as FogKind\n"},
+     "  help: name it as C++ names a type, such as FogKind\n"},
     {"retired_explicit_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"
@@ -164,7 +164,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:7:11: error: feature 'fog' cannot retire 'b'\n"
      "    retired = [\"b\"]\n"
      "              ^\n"
-     "  remedy: the default cannot be retired\n"},
+     "  help: the default cannot be retired\n"},
     {"retired_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"
@@ -172,7 +172,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:11: error: feature 'fog' cannot retire 'a'\n"
      "    retired = [\"a\"]\n"
      "              ^\n"
-     "  remedy: the default cannot be retired\n"},
+     "  help: the default cannot be retired\n"},
     {"retired_unknown",
      "[features.fog]\n"
      "values = [\"one\", \"two\"]\n"
@@ -180,7 +180,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:11: error: feature 'fog' cannot retire 'twoo'\n"
      "    retired = [\"twoo\"]\n"
      "              ^\n"
-     "  remedy: did you mean 'two'?\n"},
+     "  help: did you mean 'two'?\n"},
     {"count_from_one",
      "[features.point]\n"
      "count = [1, 4]\n"
@@ -188,7 +188,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = [1, 4]\n"
      "            ^\n"
-     "  remedy: write count = [0, N] with N from 1 to 4096\n"},
+     "  help: write count = [0, N] with N from 1 to 4096\n"},
     {"count_of_wrong_type",
      "[features.point]\n"
      "count = 4\n"
@@ -196,14 +196,14 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = 4\n"
      "            ^\n"
-     "  remedy: write count = [0, N] with N from 1 to 4096\n"},
+     "  help: write count = [0, N] with N from 1 to 4096\n"},
     {"count_without_constant",
      "[features.point]\n"
      "count = [0, 4]\n",
      "tiny.toml:4:1: error: feature 'point' lacks 'constant'\n"
      "    [features.point]\n"
      "    ^\n"
-     "  remedy: add constant = \"...\"\n"},
+     "  help: add constant = \"...\"\n"},
     {"constant_with_a_bad_name",
      "[features.point]\n"
      "count = [0, 4]\n"
@@ -211,7 +211,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:4:1: error: feature 'point' has 'N-1' for a macro\n"
      "    [features.point]\n"
      "    ^\n"
-     "  remedy: a macro is an identifier\n"},
+     "  help: a macro is an identifier\n"},
     {"macro_shared",
      "[features]\n"
      "a = { define = \"USE_IT\" }\n"
@@ -219,19 +219,19 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:5: error: feature 'b' shares the macro 'USE_IT' with another feature\n"
      "    b = { define = \"USE_IT\" }\n"
      "        ^\n"
-     "  remedy: give each count and define a macro of its own\n"},
+     "  help: give each count and define a macro of its own\n"},
     {"define_of_wrong_type",
      "[features.a]\n"
      "define = true\n",
      "tiny.toml:5:10: error: 'define' must be a string\n"
      "    define = true\n"
      "             ^\n"
-     "  remedy: write define = ...\n"},
+     "  help: write define = ...\n"},
     {"rules_that_are_no_tables", "rules = [\"fog\"]\n",
      "tiny.toml:4:9: error: 'rules' must be an array of tables\n"
      "    rules = [\"fog\"]\n"
      "            ^\n"
-     "  remedy: write each rule under [[rules]]\n"},
+     "  help: write each rule under [[rules]]\n"},
     {"rule_of_no_kind",
      "[features.a]\n"
      "define = \"A\"\n"
@@ -240,7 +240,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:1: error: a rule must be one of default and forbid\n"
      "    [[rules]]\n"
      "    ^\n"
-     "  remedy: write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with reason "
+     "  help: write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with reason "
      "= \"...\"\n"},
     {"rule_of_both_kinds",
      "[features.a]\n"
@@ -252,7 +252,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:1: error: a rule must be one of default and forbid\n"
      "    [[rules]]\n"
      "    ^\n"
-     "  remedy: write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with reason "
+     "  help: write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with reason "
      "= \"...\"\n"},
     {"rule_unknown_name",
      "[features.a]\n"
@@ -263,7 +263,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:8:1: error: unknown name 'reasn' in a rule\n"
      "    reasn = \"x\"\n"
      "    ^\n"
-     "  remedy: did you mean 'reason'?\n"},
+     "  help: did you mean 'reason'?\n"},
     {"rule_unknown_dialect",
      "[features.a]\n"
      "define = \"A\"\n"
@@ -274,7 +274,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:9:12: error: unknown dialect 'es30'\n"
      "    dialects = [\"es30\"]\n"
      "               ^\n"
-     "  remedy: did you mean 'es300'?\n"},
+     "  help: did you mean 'es300'?\n"},
     {"rule_condition_of_wrong_type",
      "[features.a]\n"
      "define = \"A\"\n"
@@ -284,14 +284,14 @@ const BadRow bad_rows[] = {
      "tiny.toml:7:10: error: 'forbid' must be a string\n"
      "    forbid = 1\n"
      "             ^\n"
-     "  remedy: write forbid = ...\n"},
+     "  help: write forbid = ...\n"},
     {"varying_that_is_no_table",
      "[varyings]\n"
      "normal = 1\n",
      "tiny.toml:5:10: error: varying 'normal' must be a GLSL identifier with a table\n"
      "    normal = 1\n"
      "             ^\n"
-     "  remedy: write [varyings.NAME] with location, type, piece and value\n"},
+     "  help: write [varyings.NAME] with location, type, piece and value\n"},
     {"varying_with_a_bad_name",
      "[varyings.\"a.b\"]\n"
      "location = 0\n"
@@ -300,7 +300,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:4:1: error: varying 'a.b' must be a GLSL identifier with a table\n"
      "    [varyings.\"a.b\"]\n"
      "    ^\n"
-     "  remedy: write [varyings.NAME] with location, type, piece and value\n"},
+     "  help: write [varyings.NAME] with location, type, piece and value\n"},
     {"varying_without_type",
      "[varyings.normal]\n"
      "location = 0\n"
@@ -308,7 +308,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:4:1: error: varying 'normal' lacks 'type'\n"
      "    [varyings.normal]\n"
      "    ^\n"
-     "  remedy: add type = \"...\"\n"},
+     "  help: add type = \"...\"\n"},
     {"varying_without_value",
      "[varyings.normal]\n"
      "location = 0\n"
@@ -316,7 +316,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:4:1: error: varying 'normal' lacks 'value'\n"
      "    [varyings.normal]\n"
      "    ^\n"
-     "  remedy: add value = \"...\"\n"},
+     "  help: add value = \"...\"\n"},
     {"varying_unknown_name",
      "[varyings.normal]\n"
      "locaton = 0\n"
@@ -325,7 +325,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:1: error: unknown name 'locaton' in varying 'normal'\n"
      "    locaton = 0\n"
      "    ^\n"
-     "  remedy: did you mean 'location'?\n"},
+     "  help: did you mean 'location'?\n"},
     {"varying_location_negative",
      "[varyings.normal]\n"
      "location = -1\n"
@@ -334,7 +334,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:12: error: varying 'normal' has no valid location\n"
      "    location = -1\n"
      "               ^\n"
-     "  remedy: write location = N with N from 0 to 255\n"},
+     "  help: write location = N with N from 0 to 255\n"},
     {"varying_location_beyond_limits",
      "[varyings.normal]\n"
      "location = 4294967296\n"
@@ -343,7 +343,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:12: error: varying 'normal' has no valid location\n"
      "    location = 4294967296\n"
      "               ^\n"
-     "  remedy: write location = N with N from 0 to 255\n"},
+     "  help: write location = N with N from 0 to 255\n"},
     {"varying_location_taken",
      "[varyings.a]\n"
      "location = 1\n"
@@ -356,7 +356,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:8:1: error: varying 'b' shares location 1 with 'a'\n"
      "    [varyings.b]\n"
      "    ^\n"
-     "  remedy: give each varying a location of its own\n"},
+     "  help: give each varying a location of its own\n"},
     {"varying_unknown_interpolation",
      "[varyings.a]\n"
      "location = 1\n"
@@ -366,49 +366,49 @@ const BadRow bad_rows[] = {
      "tiny.toml:8:17: error: varying 'a' has no interpolation 'flatt'\n"
      "    interpolation = \"flatt\"\n"
      "                    ^\n"
-     "  remedy: did you mean 'flat'?\n"},
+     "  help: did you mean 'flat'?\n"},
     {"domain_of_three",
      "[domain]\n"
      "\"a\" = [1, 2, 3]\n",
      "tiny.toml:5:7: error: the domain of 'a' is no range\n"
      "    \"a\" = [1, 2, 3]\n"
      "          ^\n"
-     "  remedy: write [low, high]\n"},
+     "  help: write [low, high]\n"},
     {"domain_infinite",
      "[domain]\n"
      "\"a\" = [0, inf]\n",
      "tiny.toml:5:11: error: 'a' must be finite numbers\n"
      "    \"a\" = [0, inf]\n"
      "              ^\n"
-     "  remedy: write a = ...\n"},
+     "  help: write a = ...\n"},
     {"domain_unknown_name",
      "[domain]\n"
      "\"a\" = { rnage = [0, 1] }\n",
      "tiny.toml:5:9: error: unknown name 'rnage' in the domain of 'a'\n"
      "    \"a\" = { rnage = [0, 1] }\n"
      "            ^\n"
-     "  remedy: did you mean 'range'?\n"},
+     "  help: did you mean 'range'?\n"},
     {"render_of_wrong_type",
      "[render]\n"
      "a = true\n",
      "tiny.toml:5:5: error: 'a' must be finite numbers\n"
      "    a = true\n"
      "        ^\n"
-     "  remedy: write a = ...\n"},
+     "  help: write a = ...\n"},
     {"render_without_source",
      "[render]\n"
      "a = { numbers = [1] }\n",
      "tiny.toml:5:5: error: the render value of 'a' lacks 'source'\n"
      "    a = { numbers = [1] }\n"
      "        ^\n"
-     "  remedy: add source = \"...\"\n"},
+     "  help: add source = \"...\"\n"},
     {"default_set_of_nothing",
      "[default_set]\n"
      "where = \"a == 1\"\n",
      "tiny.toml:4:1: error: [default_set] selects nothing\n"
      "    [default_set]\n"
      "    ^\n"
-     "  remedy: add keys = [...], all = true or cover = 2\n"},
+     "  help: add keys = [...], all = true or cover = 2\n"},
     {"default_set_unknown_feature",
      "[features.fog]\n"
      "define = \"A\"\n"
@@ -418,28 +418,28 @@ const BadRow bad_rows[] = {
      "tiny.toml:8:8: error: [default_set] names an unknown feature 'fogg'\n"
      "    over = [\"fogg\"]\n"
      "           ^\n"
-     "  remedy: did you mean 'fog'?\n"},
+     "  help: did you mean 'fog'?\n"},
     {"default_set_negative_cover",
      "[default_set]\n"
      "cover = -2\n",
      "tiny.toml:4:1: error: [default_set] selects nothing\n"
      "    [default_set]\n"
      "    ^\n"
-     "  remedy: add keys = [...], all = true or cover = 2\n"},
+     "  help: add keys = [...], all = true or cover = 2\n"},
     {"default_set_of_wrong_type",
      "[default_set]\n"
      "all = 1\n",
      "tiny.toml:5:7: error: 'all' must be true or false\n"
      "    all = 1\n"
      "          ^\n"
-     "  remedy: write all = ...\n"},
+     "  help: write all = ...\n"},
     {"unknown_table",
      "[feature.fog]\n"
      "define = \"A\"\n",
      "tiny.toml:4:2: error: unknown name 'feature' in the family\n"
      "    [feature.fog]\n"
      "     ^\n"
-     "  remedy: did you mean 'features'?\n"},
+     "  help: did you mean 'features'?\n"},
 };
 
 class BadFamily : public testing::TestWithParam<BadRow> {};

@@ -8,18 +8,18 @@
 namespace gobo {
 namespace {
 
-TEST(Diagnostic, PrintsPlaceMessageSubjectQuotationAndRemedy) {
+TEST(Diagnostic, PrintsPlaceMessageSubjectQuotationAndHelp) {
     Diagnostic diagnostic;
     diagnostic.place = {"shader_lib/fog/linear.glsl", 12, 5};
     diagnostic.message = "unknown function 'mxi'";
     diagnostic.subject = "fog=linear point=3";
     diagnostic.quoted_line = "\tvec mxi(1)";
-    diagnostic.remedy = "did you mean 'mix'?";
+    diagnostic.help = "did you mean 'mix'?";
     EXPECT_EQ(to_text(diagnostic),
               "shader_lib/fog/linear.glsl:12:5: error: unknown function 'mxi' [fog=linear point=3]\n"
               "    \tvec mxi(1)\n"
               "    \t   ^\n"
-              "  remedy: did you mean 'mix'?\n");
+              "  help: did you mean 'mix'?\n");
 }
 
 TEST(Diagnostic, ExitStatusIsThatOfTheGravestFault) {

@@ -201,7 +201,7 @@ TEST_F(Compose, PlacesPiecesUnderOtherNames) {
     EXPECT_EQ(first_error(),
               "b.glsl:1:1: error: 'a.glsl' is in this stage already, under other names\n"
               "    #include \"a.glsl\" with f as h\n    ^\n"
-              "  remedy: include it with the same renaming everywhere; a stage holds each piece once\n");
+              "  help: include it with the same renaming everywhere; a stage holds each piece once\n");
 }
 
 TEST_F(Compose, LaysCountedVaryingsBehindTheOthers) {
@@ -240,7 +240,7 @@ TEST_F(Compose, PrintsTheWholeCycle) {
     files["c.glsl"] = "#include \"b.glsl\"\n";
     EXPECT_EQ(first_error(),
               "c.glsl:1:1: error: include cycle: b.glsl -> c.glsl -> b.glsl\n    #include \"b.glsl\"\n    ^\n"
-              "  remedy: move what both need into a piece of its own\n");
+              "  help: move what both need into a piece of its own\n");
     files["b.glsl"] = "#include \"b.glsl\"\n";
     EXPECT_THAT(first_error(), testing::StartsWith("b.glsl:1:1: error: include cycle: b.glsl -> b.glsl\n"));
 }
@@ -259,7 +259,7 @@ TEST_F(Compose, RefusesEndlessChains) {
         files[std::to_string(i) + ".glsl"] = "#include \"" + std::to_string(i + 1) + ".glsl\"\n";
     EXPECT_EQ(first_error(),
               "99.glsl:1:1: error: includes are nested more than 100 deep\n    #include \"100.glsl\"\n    ^\n"
-              "  remedy: include the piece from the template\n");
+              "  help: include the piece from the template\n");
 }
 
 TEST_F(Compose, NamesTheFoldersSearchedAndTheNearestFile) {
@@ -267,11 +267,11 @@ TEST_F(Compose, NamesTheFoldersSearchedAndTheNearestFile) {
     files["common/math.glsl"] = "";
     EXPECT_EQ(first_error(),
               "tiny.frag:2:1: error: no piece 'common/mth.glsl'\n    #include \"common/mth.glsl\"\n    ^\n"
-              "  remedy: searched .; nearest: 'common/math.glsl'\n");
+              "  help: searched .; nearest: 'common/math.glsl'\n");
     files.erase("tiny.frag");
     files["tinny.frag"] = "";
     EXPECT_EQ(first_error(),
-              "tiny.toml: error: no template 'tiny.frag'\n  remedy: searched .; nearest: 'tinny.frag'\n");
+              "tiny.toml: error: no template 'tiny.frag'\n  help: searched .; nearest: 'tinny.frag'\n");
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ TEST(Bindings, UnknownNamesAndWrongCountsAreErrors) {
     Result<Outputs> outputs = run<float>(program, invocations);
     ASSERT_FALSE(outputs);
     EXPECT_EQ(outputs.error().front().message, "the stage has no input or uniform 'aa'");
-    EXPECT_EQ(outputs.error().front().remedy, "did you mean 'a'?");
+    EXPECT_EQ(outputs.error().front().help, "did you mean 'a'?");
     invocations.values = {{"a", {1, 2, 3}}};
     invocations.count = 2;
     outputs = run<float>(program, invocations);

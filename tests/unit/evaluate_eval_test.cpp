@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "evaluate_support.hpp"
 #include "lab/evaluate/eval_inputs.hpp"
 #include "lab/evaluate/eval_report.hpp"
-#include "evaluate_support.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -37,21 +37,21 @@ const Case kCases[] = {
      "    stage = \"geometry\"\n            ^\n"},
     {"unknown_section", "[input]\na = 1\n",
      "point.toml:1:2: error: 'input' means nothing here\n    [input]\n     ^\n"
-     "  remedy: did you mean 'inputs'?\n"},
+     "  help: did you mean 'inputs'?\n"},
     {"no_number", "[inputs]\na = [1, \"x\"]\n",
      "point.toml:2:5: error: 'a' is no number, boolean or array of these\n    a = [1, \"x\"]\n        ^\n"},
     {"unknown_names", "[inputs]\nd = 1\n[uniforms]\n\"Lights.lights[0].pover\" = 2\n[samplers]\nmap = 1\n",
      "point.toml:2:1: error: the stage has no input 'd'\n    d = 1\n    ^\n"
-     "  remedy: did you mean 'a'?\n"
+     "  help: did you mean 'a'?\n"
      "point.toml:4:1: error: the stage has no uniform 'Lights.lights[0].pover'\n"
-     "    \"Lights.lights[0].pover\" = 2\n    ^\n  remedy: did you mean 'Lights.lights[0].power'?\n"
+     "    \"Lights.lights[0].pover\" = 2\n    ^\n  help: did you mean 'Lights.lights[0].power'?\n"
      "point.toml:6:1: error: the stage has no sampler 'map'\n    map = 1\n    ^\n"},
     {"wrong_counts", "[inputs]\na = [1, 2, 3]\n[samplers]\ntex = []\n",
      "point.toml:2:1: error: 'a' is a vec4: it takes 4 numbers, not 3\n    a = [1, 2, 3]\n    ^\n"
      "point.toml:4:1: error: 'tex' takes one to four numbers\n    tex = []\n    ^\n"},
     {"unknown_member", "[samplers]\ntex = { colour = [1, 1, 1] }\n",
      "point.toml:2:9: error: a sampler has no 'colour'\n    tex = { colour = [1, 1, 1] }\n            ^\n"
-     "  remedy: did you mean 'color'?\n"},
+     "  help: did you mean 'color'?\n"},
     {"no_size", "[samplers]\ntex = { size = [2, 1.5], depths = [1, 1] }\n",
      "point.toml:2:9: error: 'tex.size' takes the numbers of columns, rows and, of an array, layers\n"
      "    tex = { size = [2, 1.5], depths = [1, 1] }\n            ^\n"},

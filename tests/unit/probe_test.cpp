@@ -282,25 +282,24 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadMap{"square", filled(8, 8, 3, 1),
                "map.exr: error: a picture of 8 x 8 texels is no latitude-longitude map\n"
-               "  remedy: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
+               "  help: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
                "to nadir\n"},
         BadMap{"too_small", filled(2, 1, 3, 1),
                "map.exr: error: a picture of 2 x 1 texels is no latitude-longitude map\n"
-               "  remedy: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
+               "  help: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
                "to nadir\n"},
-        BadMap{
-            "grey", filled(8, 4, 1, 1),
-            "map.exr: error: the picture has no colours\n  remedy: give one with the channels R, G and B\n"},
+        BadMap{"grey", filled(8, 4, 1, 1),
+               "map.exr: error: the picture has no colours\n  help: give one with the channels R, G and B\n"},
         BadMap{"not_a_number", with_texel(std::numeric_limits<float>::quiet_NaN()),
                "map.exr: error: the texel in column 5, row 2 (from the upper left, counted from 0) has the "
                "radiance nan "
-               "in channel G\n  remedy: radiance is finite: mend the map, or clamp it where "
+               "in channel G\n  help: radiance is finite: fix the map, or clamp it where "
                "it was "
                "exported\n"},
         BadMap{"infinite", with_texel(std::numeric_limits<float>::infinity()),
                "map.exr: error: the texel in column 5, row 2 (from the upper left, counted from 0) has the "
                "radiance inf "
-               "in channel G\n  remedy: radiance is finite: mend the map, or clamp it where "
+               "in channel G\n  help: radiance is finite: fix the map, or clamp it where "
                "it was "
                "exported\n"}),
     [](const auto& row) { return row.param.name; });

@@ -118,7 +118,7 @@ TEST_P(Conflicting, IsRefused) {
     EXPECT_EQ(to_text(family.error().front()),
               "gobo: error: '" + std::string(row.error) +
                   "' is declared differently in different permutations\n"
-                  "  remedy: give it one declaration in a piece that every user includes, or two names\n");
+                  "  help: give it one declaration in a piece that every user includes, or two names\n");
 }
 
 INSTANTIATE_TEST_SUITE_P(Declarations, Conflicting, ::testing::ValuesIn(conflicts),

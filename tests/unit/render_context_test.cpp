@@ -117,8 +117,7 @@ TEST(Context, TwoBackendsTakeTurnsInOneThread) {
 TEST(Context, UnknownBackend) {
     const auto backend = backend_of("elg");
     ASSERT_FALSE(backend);
-    EXPECT_EQ(text_of(backend.error()),
-              "gobo: error: unknown backend 'elg'\n  remedy: did you mean 'egl'?\n");
+    EXPECT_EQ(text_of(backend.error()), "gobo: error: unknown backend 'elg'\n  help: did you mean 'egl'?\n");
 }
 
 TEST(Context, NoSuchVersion) {
@@ -133,7 +132,7 @@ TEST(Framebuffer, SizeMustBePossible) {
     const auto framebuffer = make_framebuffer(*context, 0, 8);
     ASSERT_FALSE(framebuffer);
     EXPECT_EQ(text_of(framebuffer.error()),
-              "gobo: error: cannot draw a picture of 0 x 8 pixels\n  remedy: choose both from 1 to 16384\n");
+              "gobo: error: cannot draw a picture of 0 x 8 pixels\n  help: choose both from 1 to 16384\n");
 }
 
 TEST(Program, DriverErrorsNameThePieceAndItsOwnLine) {

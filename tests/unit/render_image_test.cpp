@@ -114,7 +114,7 @@ TEST(Image, UnknownFormatSuggestsTheNearest) {
     const auto written = write_image(files, "picture.pgn", sample(3));
     ASSERT_FALSE(written);
     EXPECT_EQ(to_text(written.error().front()),
-              "gobo: error: unknown image format 'pgn'\n  remedy: did you mean 'png'?\n");
+              "gobo: error: unknown image format 'pgn'\n  help: did you mean 'png'?\n");
 }
 
 TEST(Compare, CountsWhatDiffers) {

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lab/render/render.hpp"
 #include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
-#include "lab/render/render.hpp"
 
 namespace gobo {
 namespace {
@@ -227,11 +227,11 @@ void main() { color = vec4(lights[1].color, texture(table, lights[0].range).r); 
     ASSERT_TRUE(picture) << text_of(picture.error());
     EXPECT_EQ(text_of(picture->warnings),
               "gobo: warning: the renderer has no texture for 'table' of type sampler1D\n"
-              "  remedy: it reads as black\n"
+              "  help: it reads as black\n"
               "gobo: warning: 'Lights.lights[].range' has no value and stays 0\n"
-              "  remedy: give it one under [render] in the family file\n"
+              "  help: give it one under [render] in the family file\n"
               "gobo: warning: the attribute 'wind' has no value and stays 0\n"
-              "  remedy: give it one under [render] in the family file\n");
+              "  help: give it one under [render] in the family file\n");
 }
 
 struct BadValue {
@@ -259,28 +259,28 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(BadValue{"misspelt_member",
                                {"Material.difuse", "", {1, 1, 1}, {}},
                                "demo.toml:7:3: error: 'Material' has no member 'Material.difuse'\n"
-                               "  remedy: did you mean 'Material.diffuse'?\n"},
+                               "  help: did you mean 'Material.diffuse'?\n"},
                       BadValue{"too_few_numbers",
                                {"Material.diffuse", "", {1, 1}, {}},
                                "demo.toml:7:3: error: 'Material.diffuse' is given 2 numbers\n"
-                               "  remedy: it is of type vec3: give 3\n"},
+                               "  help: it is of type vec3: give 3\n"},
                       BadValue{"too_many_elements",
                                {"Material.twoSided", "", {1, 1}, {}},
                                "demo.toml:7:3: error: 'Material.twoSided' is given 2 numbers\n"
-                               "  remedy: it is of type bool: give 1\n"},
+                               "  help: it is of type bool: give 1\n"},
                       BadValue{"unknown_source",
                                {"Material.diffuse", "eye_pont", {1, 1, 1}, {}},
                                "demo.toml:7:3: error: unknown source 'eye_pont' for 'Material.diffuse'\n"
-                               "  remedy: did you mean 'eye_point'?\n"},
+                               "  help: did you mean 'eye_point'?\n"},
                       BadValue{"matrix_for_a_vector",
                                {"Material.diffuse", "model", {}, {}},
                                "demo.toml:7:3: error: the source 'model' with 0 numbers cannot supply "
                                "'Material.diffuse' of type vec3\n"
-                               "  remedy: matrices go to matrices, vectors to vectors\n"},
+                               "  help: matrices go to matrices, vectors to vectors\n"},
                       BadValue{"unknown_attribute_source",
                                {"aNormal", "normals", {}, {}},
                                "demo.toml:7:3: error: unknown source 'normals' for 'aNormal'\n"
-                               "  remedy: did you mean 'normal'?\n"}),
+                               "  help: did you mean 'normal'?\n"}),
     [](const auto& row) { return row.param.name; });
 
 struct SpellingRow {

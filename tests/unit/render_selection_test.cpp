@@ -135,7 +135,7 @@ TEST(RenderSelection, WhatFailsStopsNoOtherKey) {
     EXPECT_EQ(rendered.files, (std::vector<std::string>{"out/default.pfm", "out/half-on.pfm"}));
     EXPECT_EQ(text_of(rendered.diagnostics),
               "f/own.toml:11:10: error: 'tint' is given 2 numbers [tint=on, and 1 more key]\n"
-              "  remedy: it is of type vec3: give 3\n");
+              "  help: it is of type vec3: give 3\n");
 }
 
 TEST(PictureName, IsSafeAndDistinct) {

@@ -77,29 +77,29 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadPieceRow{"include_after_code", "int a;\n\t#include <fog>\n",
                     "a.glsl:2:2: error: #include after code\n    \t#include <fog>\n    \t^\n"
-                    "  remedy: includes stand at the top of a piece, after comments only\n"},
+                    "  help: includes stand at the top of a piece, after comments only\n"},
         BadPieceRow{"include_within_condition", "#if A\n#include <fog>\n#endif\n",
                     "a.glsl:2:1: error: #include after code\n    #include <fog>\n    ^\n"
-                    "  remedy: includes stand at the top of a piece, after comments only\n"},
+                    "  help: includes stand at the top of a piece, after comments only\n"},
         BadPieceRow{"include_of_nothing", "#include\n",
                     "a.glsl:1:1: error: malformed #include\n    #include\n    ^\n"
-                    "  remedy: write #include <feature> or #include \"folder/piece.glsl\"\n"},
+                    "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
         BadPieceRow{"include_half_closed", "#include \"a.glsl>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include \"a.glsl>\n    ^\n"
-                    "  remedy: write #include <feature> or #include \"folder/piece.glsl\"\n"},
+                    "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
         BadPieceRow{"include_of_no_feature", "#include <fog linear>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include <fog linear>\n    ^\n"
-                    "  remedy: write #include <feature> or #include \"folder/piece.glsl\"\n"},
+                    "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
         BadPieceRow{"renaming_without_a_name", "#include \"a.glsl\" with one as\n",
                     "a.glsl:1:1: error: malformed renaming\n    #include \"a.glsl\" with one as\n    ^\n"
-                    "  remedy: write #include \"folder/piece.glsl\" with name as otherName, ...\n"},
+                    "  help: write #include \"folder/piece.glsl\" with name as otherName, ...\n"},
         BadPieceRow{"nul_byte", std::string("int a;\n\0", 8),
-                    "a.glsl:2: error: holds a NUL byte and is no text\n  remedy: name a GLSL file\n"},
+                    "a.glsl:2: error: holds a NUL byte and is no text\n  help: name a GLSL file\n"},
         BadPieceRow{"nested_over_lines",
                     std::string(201, '\n') + std::string(150, '{') + "\n" + std::string(51, '{') + "\n",
                     "a.glsl:203: error: brackets are nested more than 200 deep\n"
                     "    {{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{\n"
-                    "  remedy: split the expression or the function\n"}),
+                    "  help: split the expression or the function\n"}),
     [](const auto& row) { return row.param.name; });
 
 TEST(ScanPiece, TakesDeepNestingThatIsClosedAgain) {

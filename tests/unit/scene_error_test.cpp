@@ -60,14 +60,14 @@ INSTANTIATE_TEST_SUITE_P(
     File, BrokenScenes,
     testing::Values(
         Broken{"no_asset", take("/asset"),
-               "asset is missing\n  remedy: a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}"},
+               "asset is missing\n  help: a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}"},
         Broken{"old_version", put("/asset/version", R"("1.0")"),
                "asset.version is '1.0', but only glTF 2 is read"},
         Broken{"newer_needed", put("/asset/minVersion", R"("2.1")"),
                "asset.minVersion is '2.1', but only glTF 2.0 is read"},
         Broken{
             "extension_required", put("/extensionsRequired", R"(["KHR_draco_mesh_compression"])"),
-            "extensionsRequired[0] is KHR_draco_mesh_compression, which gobo does not read\n  remedy: export "
+            "extensionsRequired[0] is KHR_draco_mesh_compression, which gobo does not read\n  help: export "
             "without it; read are EXT_mesh_gpu_instancing, KHR_lights_punctual, "
             "KHR_materials_emissive_strength, "
             "KHR_materials_specular, "
@@ -75,21 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"nodes_no_array", put("/nodes", R"("three")"), "nodes must be an array, not a string"},
         Broken{"node_no_object", put("/nodes/0", "7"), "nodes[0] must be an object, not a number"},
         Broken{"scene_out_of_range", put("/scene", "4"),
-               "scene is 4, but the file has 1 scenes\n  remedy: indices run from 0 to 0"}),
+               "scene is 4, but the file has 1 scenes\n  help: indices run from 0 to 0"}),
     [](const auto& row) { return row.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Nodes, BrokenScenes,
     testing::Values(
         Broken{"mesh_out_of_range", put("/nodes/0/mesh", "3"),
-               "nodes[0].mesh is 3, but the file has 1 meshes\n  remedy: indices run from 0 to 0"},
+               "nodes[0].mesh is 3, but the file has 1 meshes\n  help: indices run from 0 to 0"},
         Broken{"mesh_negative", put("/nodes/0/mesh", "-1"),
-               "nodes[0].mesh is -1, but the file has 1 meshes\n  remedy: indices run from 0 to 0"},
+               "nodes[0].mesh is -1, but the file has 1 meshes\n  help: indices run from 0 to 0"},
         Broken{"mesh_no_number", put("/nodes/0/mesh", R"("cube")"),
                "nodes[0].mesh must be a whole number, not a string"},
         Broken{"mesh_half", put("/nodes/0/mesh", "0.5"), "nodes[0].mesh must be a whole number, not 0.5"},
         Broken{"light_out_of_range", put("/nodes/1/extensions/KHR_lights_punctual/light", "1"),
-               "nodes[1].extensions.KHR_lights_punctual.light is 1, but the file has 1 lights\n  remedy: "
+               "nodes[1].extensions.KHR_lights_punctual.light is 1, but the file has 1 lights\n  help: "
                "indices run "
                "from 0 to 0"},
         Broken{"own_child", put("/nodes/0/children", "[0]"),
@@ -101,11 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"two_parents",
                R"([{"op": "add", "path": "/nodes/0/children", "value": [2]},
                    {"op": "add", "path": "/nodes/1/children", "value": [2]}])",
-               "nodes[2] is a child of both node 0 and node 1\n  remedy: a node has at most one parent; let "
+               "nodes[2] is a child of both node 0 and node 1\n  help: a node has at most one parent; let "
                "two nodes "
                "share a mesh instead"},
         Broken{"scene_lists_child", put("/nodes/0/children", "[2]"),
-               "scenes[0].nodes[2] is node 2, which is a child of node 0\n  remedy: a scene lists root nodes "
+               "scenes[0].nodes[2] is node 2, which is a child of node 0\n  help: a scene lists root nodes "
                "only"},
         Broken{"short_translation", put("/nodes/0/translation", "[1, 2]"),
                "nodes[0].translation must hold 3 numbers, not 2"},
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"unknown_component", put("/accessors/0/componentType", "5124"),
                "accessors[0].componentType is 5124, but must be one of 5120, 5121, 5122, 5123, 5125, 5126"},
         Broken{"unknown_shape", put("/accessors/0/type", R"("VEC5")"),
-               "accessors[0].type is 'VEC5', which is unknown\n  remedy: did you mean 'VEC2'?"},
+               "accessors[0].type is 'VEC5', which is unknown\n  help: did you mean 'VEC2'?"},
         Broken{"no_shape", take("/accessors/0/type"), "accessors[0].type is missing"},
         Broken{
             "sparse_too_many",
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"unknown_mode", put("/meshes/0/primitives/0/mode", "7"),
                "meshes[0].primitives[0].mode is 7, but must be between 0 and 6"},
         Broken{"material_out_of_range", put("/meshes/0/primitives/0/material", "1"),
-               "meshes[0].primitives[0].material is 1, but the file has 1 materials\n  remedy: indices run "
+               "meshes[0].primitives[0].material is 1, but the file has 1 materials\n  help: indices run "
                "from 0 to "
                "0"},
         Broken{"positions_of_scalars", put("/meshes/0/primitives/0/attributes/POSITION", "2"),
@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"negative_range", put("/extensions/KHR_lights_punctual/lights/0/range", "-1"),
                "extensions.KHR_lights_punctual.lights[0].range is -1, but must be above 0"},
         Broken{"unknown_light", put("/extensions/KHR_lights_punctual/lights/0/type", R"("area")"),
-               "extensions.KHR_lights_punctual.lights[0].type is 'area', which is unknown\n  remedy: known: "
+               "extensions.KHR_lights_punctual.lights[0].type is 'area', which is unknown\n  help: known: "
                "directional, point, spot"},
         Broken{"inner_beyond_outer",
                put("/extensions/KHR_lights_punctual/lights/0",
@@ -210,9 +210,9 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"roughness_of_two", put("/materials/0/pbrMetallicRoughness/roughnessFactor", "2"),
                "materials[0].pbrMetallicRoughness.roughnessFactor is 2, but must be between 0 and 1"},
         Broken{"unknown_alpha_mode", put("/materials/0/alphaMode", R"("MASKED")"),
-               "materials[0].alphaMode is 'MASKED', which is unknown\n  remedy: did you mean 'MASK'?"},
+               "materials[0].alphaMode is 'MASKED', which is unknown\n  help: did you mean 'MASK'?"},
         Broken{"unknown_extra", put("/scenes/0/extras", R"({"gobo": {"fogg": {}}})"),
-               "scenes[0].extras.gobo.fogg is unknown\n  remedy: did you mean 'fog'?"},
+               "scenes[0].extras.gobo.fogg is unknown\n  help: did you mean 'fog'?"},
         Broken{"fog_without_kind", put("/scenes/0/extras", R"({"gobo": {"fog": {"near": 1}}})"),
                "scenes[0].extras.gobo.fog.kind is missing"},
         Broken{"too_many_levels", put("/materials/0/extras", R"({"gobo": {"toon": 65}})"),
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"data_not_base64", put("/buffers/0/uri", R"("data:application/octet-stream;base64,@@@@")"),
                "buffers[0].uri is a data URI whose base64 holds a character that is none of its digits"},
         Broken{"buffer_elsewhere", put("/buffers/0/uri", R"("https://example.org/quad.bin")"),
-               "buffers[0].uri is 'https://example.org/quad.bin'\n  remedy: buffers and pictures are data "
+               "buffers[0].uri is 'https://example.org/quad.bin'\n  help: buffers and pictures are data "
                "URIs or paths "
                "relative "
                "to the file"},
@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {"op": "add", "path": "/nodes/0/extensions",
                     "value": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])",
                "nodes[0].extensions.EXT_mesh_gpu_instancing stands beside a skin: gobo draws no skinned "
-               "instances\n  remedy: export each instance as a node of its own"},
+               "instances\n  help: export each instance as a node of its own"},
         Broken{"zeros_without_end",
                put("/accessors/0", R"({"componentType": 5126, "count": 2000000, "type": "VEC3"})"),
                "accessors[0] has 2000000 elements without a buffer view: more than 4194304 zeros"},
@@ -273,7 +273,7 @@ TEST(SceneErrors, MissingBufferFileIsAFaultOfTheFile) {
     const MemoryFileSystem files(Content{{"rooms/quad.gltf", quad_scene().dump()}});
     const Result<Scene> scene = read_scene(files, "rooms/quad.gltf");
     EXPECT_EQ(error_of(scene),
-              "rooms/quad.bin: error: cannot be read: No such file or directory\n  remedy: buffers[0].uri of "
+              "rooms/quad.bin: error: cannot be read: No such file or directory\n  help: buffers[0].uri of "
               "rooms/quad.gltf names it\n");
     EXPECT_EQ(exit_status(scene.error()), 3);
 }
@@ -281,7 +281,7 @@ TEST(SceneErrors, MissingBufferFileIsAFaultOfTheFile) {
 TEST(SceneErrors, MissingPictureIsAFaultOfTheFile) {
     const Result<Scene> scene = read_json(patched_scene(masked(R"({"uri": "leaf.png"})")));
     EXPECT_EQ(error_of(scene),
-              "leaf.png: error: cannot be read: No such file or directory\n  remedy: images[0].uri of "
+              "leaf.png: error: cannot be read: No such file or directory\n  help: images[0].uri of "
               "quad.gltf names it\n");
     EXPECT_EQ(exit_status(scene.error()), 3);
 }

@@ -85,10 +85,9 @@ TEST_F(OnDisk, LinksOutOfTheFolderAreRefused) {
     for (const std::string path : {"link.glsl", "up/outside.glsl"}) {
         const auto found = search.find(path);
         ASSERT_FALSE(found) << path;
-        EXPECT_EQ(
-            first_text(found.error()),
-            root + "/inside/" + path + ": error: is a link that leads out of '" + root +
-                "/inside'\n  remedy: put the piece itself into the folder, or name its folder with -I\n");
+        EXPECT_EQ(first_text(found.error()),
+                  root + "/inside/" + path + ": error: is a link that leads out of '" + root +
+                      "/inside'\n  help: put the piece itself into the folder, or name its folder with -I\n");
     }
 }
 

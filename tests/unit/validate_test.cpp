@@ -95,7 +95,7 @@ TEST_F(Validate, RefusesToReadWhatIsNotWritten) {
     EXPECT_THAT(messages(),
                 ElementsAre("tiny.frag: error: the fragment stage reads 'vec3 normal', which the vertex "
                             "stage does not write [default]\n"
-                            "  remedy: declare and write it as an output of the vertex stage\n"));
+                            "  help: declare and write it as an output of the vertex stage\n"));
 }
 
 TEST_F(Validate, AFailedLinkLeavesOtherPairsAlone) {

@@ -18,7 +18,7 @@ Diagnostic problem(const std::string& path, std::size_t row, std::string message
     Diagnostic diagnostic;
     diagnostic.place = {path, static_cast<int>(row) + 2, 0};
     diagnostic.message = std::move(message);
-    diagnostic.remedy = fmt::format("remake the study: gobo study {} -o FOLDER", family.name);
+    diagnostic.help = fmt::format("remake the study: gobo study {} -o FOLDER", family.name);
     return diagnostic;
 }
 
@@ -102,7 +102,7 @@ Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& bud
                                      budget.max_error ? fmt::format("an error of {}", *budget.max_error) : "",
                                      budget.max_error && budget.max_cost ? " and " : "",
                                      budget.max_cost ? fmt::format("a cost of {}", *budget.max_cost) : "");
-    if (!keys.empty()) diagnostic.remedy = "raise the budget: " + nearest_text(keys, budget);
+    if (!keys.empty()) diagnostic.help = "raise the budget: " + nearest_text(keys, budget);
     return fail(std::move(diagnostic));
 }
 

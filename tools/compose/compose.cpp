@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
 #include "compose/dialect.hpp"
 #include "compose/piece_library.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
@@ -121,7 +121,7 @@ class Composer {
         diagnostic.quoted_line = from.line;
         diagnostic.message =
             fmt::format("'{}' is in this stage already, under other names", library_.entry(piece).piece.name);
-        diagnostic.remedy = "include it with the same renaming everywhere; a stage holds each piece once";
+        diagnostic.help = "include it with the same renaming everywhere; a stage holds each piece once";
         return {diagnostic};
     }
 
@@ -166,7 +166,7 @@ class Composer {
         diagnostic.place = from.place;
         diagnostic.quoted_line = from.line;
         diagnostic.message = "include cycle: " + path;
-        diagnostic.remedy = "move what both need into a piece of its own";
+        diagnostic.help = "move what both need into a piece of its own";
         return {diagnostic};
     }
 
@@ -175,7 +175,7 @@ class Composer {
         diagnostic.place = from.place;
         diagnostic.quoted_line = from.line;
         diagnostic.message = fmt::format("includes are nested more than {} deep", deepest_include);
-        diagnostic.remedy = "include the piece from the template";
+        diagnostic.help = "include the piece from the template";
         return {diagnostic};
     }
 

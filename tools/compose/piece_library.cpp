@@ -61,9 +61,9 @@ tl::unexpected<Diagnostics> PieceLibrary::missing(const std::string& wanted, con
         diagnostic.quoted_line = from->line;
     }
     diagnostic.message = std::move(reason);
-    diagnostic.remedy = fmt::format("searched {}", join(search_.folders(), ", "));
+    diagnostic.help = fmt::format("searched {}", join(search_.folders(), ", "));
     if (const auto near = nearest(wanted, search_.all_include_paths()))
-        diagnostic.remedy += fmt::format("; nearest: '{}'", *near);
+        diagnostic.help += fmt::format("; nearest: '{}'", *near);
     return fail(std::move(diagnostic));
 }
 
@@ -73,7 +73,7 @@ Result<int> PieceLibrary::fixed(const std::string& path, StageKind stage, const 
         diagnostic.place = from != nullptr ? from->place : Place{family_.path, 0, 0};
         diagnostic.quoted_line = from != nullptr ? from->line : "";
         diagnostic.message = fmt::format("the path '{}' leaves the folders searched", path);
-        diagnostic.remedy =
+        diagnostic.help =
             "write a path relative to one of them, without '..' in front; name further folders with -I";
         return fail(std::move(diagnostic));
     }
@@ -113,7 +113,7 @@ Result<std::optional<int>> PieceLibrary::chosen(const Include& include, const Ke
         diagnostic.place = include.place;
         diagnostic.quoted_line = include.line;
         diagnostic.message = fmt::format("family '{}' has no feature '{}'", family_.name, wanted);
-        diagnostic.remedy = suggestion(wanted, names);
+        diagnostic.help = suggestion(wanted, names);
         return fail(std::move(diagnostic));
     }
     const int value = key[static_cast<std::size_t>(*index)];

@@ -26,7 +26,7 @@ Diagnostics same_stages(const Family& family, const Composition& composition) {
     diagnostic.severity = Severity::warning;
     diagnostic.place.file = family.path;
     diagnostic.message = more == 0 ? example : fmt::format("{}; so do {} more", example, more);
-    diagnostic.remedy =
+    diagnostic.help =
         "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there";
     return {diagnostic};
 }

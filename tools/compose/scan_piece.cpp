@@ -16,12 +16,12 @@ namespace {
 constexpr int deepest_nesting = 200;
 
 tl::unexpected<Diagnostics> error_at(const Place& place, std::string_view line, std::string message,
-                                     std::string remedy) {
+                                     std::string help) {
     Diagnostic diagnostic;
     diagnostic.place = place;
     diagnostic.quoted_line = line;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return fail(std::move(diagnostic));
 }
 
@@ -91,7 +91,7 @@ Diagnostics unstated_layouts(const std::string& bare, std::string_view text, con
         diagnostic.quoted_line = line_of(text, diagnostic.place.line);
         diagnostic.message = fmt::format(
             "the uniform block '{}' does not state std140: drivers lay it out as they like", (*at)[3].str());
-        diagnostic.remedy = "write layout(std140) before uniform, or ask the driver for every offset";
+        diagnostic.help = "write layout(std140) before uniform, or ask the driver for every offset";
         warnings.push_back(std::move(diagnostic));
     }
     return warnings;

@@ -46,7 +46,7 @@ Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) c
             Diagnostic diagnostic;
             diagnostic.place.file = path;
             diagnostic.message = fmt::format("is a link that leads out of '{}'", root.folder);
-            diagnostic.remedy = "put the piece itself into the folder, or name its folder with -I";
+            diagnostic.help = "put the piece itself into the folder, or name its folder with -I";
             return fail(std::move(diagnostic));
         }
         Result<std::string> text = root.files->read(path);

@@ -67,11 +67,11 @@ int status_of(Fault fault) {
 
 }  // namespace
 
-tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string remedy) {
+tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string help) {
     Diagnostic diagnostic;
     diagnostic.fault = fault;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return fail(std::move(diagnostic));
 }
 
@@ -87,7 +87,7 @@ std::string to_text(const Diagnostic& diagnostic, bool color) {
     if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", diagnostic.subject);
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
-    if (!diagnostic.remedy.empty()) text += fmt::format("  remedy: {}\n", diagnostic.remedy);
+    if (!diagnostic.help.empty()) text += fmt::format("  help: {}\n", diagnostic.help);
     return text;
 }
 

@@ -1,4 +1,4 @@
-// Errors as values: what is wrong, where, and how to mend it.
+// Errors as values: what is wrong, where, and how to fix it.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ struct Diagnostic {
     Place place;
     std::string message;
     std::string quoted_line;  ///< the line of text at `place`, or empty
-    std::string remedy;       ///< how to mend it, or empty
+    std::string help;         ///< how to fix it, or empty
     std::string subject;      ///< the permutation it concerns, as key text, or empty
 
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
@@ -49,7 +49,7 @@ template <class T>
 using Result = tl::expected<T, Diagnostics>;
 
 /// An error of the given fault, ready to be returned from a function whose type is Result<T>.
-[[nodiscard]] tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string remedy = {});
+[[nodiscard]] tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string help = {});
 [[nodiscard]] tl::unexpected<Diagnostics> fail(Diagnostic diagnostic);
 
 #define GOBO_JOIN_(a, b) a##b
@@ -65,7 +65,7 @@ using Result = tl::expected<T, Diagnostics>;
     if (auto&& gobo_result = __VA_ARGS__; !gobo_result) return tl::unexpected(std::move(gobo_result).error())
 
 /// The diagnostic as a compiler prints it, ending in a newline:
-/// `file:line:column: error: message [subject]`, the quoted line with a caret, the remedy.
+/// `file:line:column: error: message [subject]`, the quoted line with a caret, the help.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic, bool color = false);
 
 /// 0 where there is no error, otherwise the status of the gravest fault: internal (4), file (3), usage (2),

@@ -202,7 +202,7 @@ class Parser {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n')) ++at_;
     }
 
-    void error(std::string message, std::string remedy, std::size_t at = std::string_view::npos) {
+    void error(std::string message, std::string help, std::size_t at = std::string_view::npos) {
         if (error_) return;
         Diagnostic diagnostic;
         diagnostic.fault = fault_;
@@ -210,7 +210,7 @@ class Parser {
         const std::size_t offset = std::min(at == std::string_view::npos ? at_ : at, text_.size());
         if (place_.column > 0) diagnostic.place.column += static_cast<int>(offset);
         diagnostic.message = fmt::format("{} in the condition '{}'", message, text_);
-        diagnostic.remedy = std::move(remedy);
+        diagnostic.help = std::move(help);
         error_ = std::move(diagnostic);
     }
 

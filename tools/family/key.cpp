@@ -18,17 +18,17 @@ std::vector<std::string> feature_names(const Family& family) {
 }
 
 tl::unexpected<Diagnostics> key_error(const Place& place, std::string_view text, std::string message,
-                                      std::string remedy) {
+                                      std::string help) {
     Diagnostic diagnostic;
     diagnostic.fault = Fault::usage;
     diagnostic.place = place;
     if (!place.file.empty()) diagnostic.quoted_line = text;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return fail(std::move(diagnostic));
 }
 
-std::string values_remedy(const Feature& feature, std::string_view value) {
+std::string values_help(const Feature& feature, std::string_view value) {
     if (feature.kind == FeatureKind::count)
         return fmt::format("a whole number from 0 to {}", feature.values.back());
     return suggestion(value, feature.values);
@@ -103,7 +103,7 @@ Result<Key> parse_key(const Family& family, std::string_view text, const Place& 
         const auto found = feature.index_of(value);
         if (!found) {
             return key_error(place, text, fmt::format("feature '{}' has no value '{}'", name, value),
-                             values_remedy(feature, value));
+                             values_help(feature, value));
         }
         const auto at = static_cast<std::size_t>(*index);
         if (named[at]) {

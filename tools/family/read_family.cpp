@@ -114,7 +114,8 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
                          "write [varyings.NAME] with location, type, piece and value");
             break;
         }
-        reader.only(*row, what, {"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
+        reader.only(*row, what,
+                    {"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
         if (row->contains("count") && !row->contains("location"))
             read_counts(reader, *row, what, features, varying);
         else
@@ -201,7 +202,7 @@ Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base
     if (extends == nullptr || reader.failed()) return FamilyText{};
     Diagnostic diagnostic;
     diagnostic.place = reader.place_of(*extends);
-    diagnostic.remedy = "name a shipped family or a .toml file: extends = \"lit\"";
+    diagnostic.help = "name a shipped family or a .toml file: extends = \"lit\"";
     if (!extends->is_string() || !find_base) {
         diagnostic.message = "'extends' must name a family";
         return fail(std::move(diagnostic));
@@ -210,7 +211,7 @@ Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base
     if (base) return base;
     diagnostic.message =
         fmt::format("cannot extend '{}': {}", extends->as_string()->get(), base.error().front().message);
-    diagnostic.remedy = base.error().front().remedy;
+    diagnostic.help = base.error().front().help;
     return fail(std::move(diagnostic));
 }
 

@@ -27,7 +27,7 @@ const std::vector<Form>& forms() {
     return table;
 }
 
-constexpr std::string_view remedy =
+constexpr std::string_view help =
     "write any_order = \"ARRAY\", adds = \"ARRAY[].MEMBER\", turn = [NAMES], off = \"FEATURE\" with at = "
     "{ NAME = VALUE }, or finer = \"FEATURE\"";
 
@@ -44,7 +44,7 @@ const Form* form_of(TomlReader& reader, const toml::table& row) {
         }
         found = &form;
     }
-    if (found == nullptr) reader.error(row, "a relation must say what holds", std::string(remedy));
+    if (found == nullptr) reader.error(row, "a relation must say what holds", std::string(help));
     return found;
 }
 

@@ -23,7 +23,7 @@ tl::unexpected<Diagnostics> refused(const Family& family, const NamedKey& named,
     if (!named.place.file.empty()) diagnostic.quoted_line = named.text;
     diagnostic.message =
         fmt::format("family '{}' forbids the key '{}': {}", family.name, key_text(family, key), rule.reason);
-    diagnostic.remedy =
+    diagnostic.help =
         fmt::format("choose another value; the rule is in {}:{}", rule.place.file, rule.place.line);
     return fail(std::move(diagnostic));
 }

@@ -63,20 +63,20 @@ Place TomlReader::place_of(const toml::node& node) const {
     return place_of(node.source());
 }
 
-void TomlReader::error(const Place& place, std::string message, std::string remedy) {
+void TomlReader::error(const Place& place, std::string message, std::string help) {
     if (failed()) return;
     Diagnostic diagnostic;
     diagnostic.place = place;
     diagnostic.message = std::move(message);
     const auto text = texts_.find(place.file);
     if (text != texts_.end()) diagnostic.quoted_line = line_of(text->second, place.line);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     errors_.push_back(std::move(diagnostic));
 }
 
 void TomlReader::take(Diagnostics errors) {
     for (Diagnostic& diagnostic : errors)
-        error(diagnostic.place, std::move(diagnostic.message), std::move(diagnostic.remedy));
+        error(diagnostic.place, std::move(diagnostic.message), std::move(diagnostic.help));
 }
 
 void TomlReader::only(const toml::table& table, std::string_view what,

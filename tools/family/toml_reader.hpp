@@ -48,9 +48,9 @@ class TomlReader {
     /// Finite numbers of an array node; a single number is an array of one.
     [[nodiscard]] std::vector<double> numbers_of(const toml::node& node, std::string_view name);
 
-    void error(const Place& place, std::string message, std::string remedy);
-    void error(const toml::node& node, std::string message, std::string remedy) {
-        error(place_of(node), std::move(message), std::move(remedy));
+    void error(const Place& place, std::string message, std::string help);
+    void error(const toml::node& node, std::string message, std::string help) {
+        error(place_of(node), std::move(message), std::move(help));
     }
     /// Takes over errors found elsewhere in the document, quoting its lines.
     void take(Diagnostics errors);

@@ -21,7 +21,7 @@ Diagnostic nothing_to_check() {
     Diagnostic diagnostic;
     diagnostic.severity = Severity::warning;
     diagnostic.message = "the selection holds no keys, so nothing was checked";
-    diagnostic.remedy = "see what a selection holds with 'gobo list'";
+    diagnostic.help = "see what a selection holds with 'gobo list'";
     return diagnostic;
 }
 

@@ -190,8 +190,7 @@ Result<Selection> load_selection(const World& world, LoadedFamily& family, const
             Diagnostic diagnostic;
             diagnostic.place.file = path;
             diagnostic.message = "holds no keys";
-            diagnostic.remedy =
-                "write one key a line; 'default' is the key with every feature at its default";
+            diagnostic.help = "write one key a line; 'default' is the key with every feature at its default";
             return fail(std::move(diagnostic));
         }
         selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());

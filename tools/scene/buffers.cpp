@@ -93,7 +93,7 @@ std::string read_file(const FileSystem& files, Document& document, const Value& 
     const std::string path = folder_of(document.path()) + decode_percent(uri);
     Result<std::string> content = files.read(path);
     if (!content) {
-        content.error().front().remedy = fmt::format("{} of {} names it", place, document.path());
+        content.error().front().help = fmt::format("{} of {} names it", place, document.path());
         document.take(std::move(content.error()));
         return {};
     }

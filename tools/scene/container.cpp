@@ -20,11 +20,11 @@ std::uint32_t word_at(std::string_view content, std::size_t offset) {
     return word;
 }
 
-tl::unexpected<Diagnostics> broken(const std::string& path, std::string message, std::string remedy = {}) {
+tl::unexpected<Diagnostics> broken(const std::string& path, std::string message, std::string help = {}) {
     Diagnostic diagnostic;
     diagnostic.place.file = path;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return fail(std::move(diagnostic));
 }
 

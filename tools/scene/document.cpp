@@ -71,12 +71,12 @@ Document::Document(std::string_view text, std::string path) : path_(std::move(pa
     errors_.push_back(std::move(diagnostic));
 }
 
-void Document::error(std::string_view place, std::string_view message, std::string remedy) {
+void Document::error(std::string_view place, std::string_view message, std::string help) {
     if (failed()) return;
     Diagnostic diagnostic;
     diagnostic.place.file = path_;
     diagnostic.message = place.empty() ? std::string(message) : fmt::format("{} {}", place, message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     errors_.push_back(std::move(diagnostic));
 }
 

@@ -70,7 +70,7 @@ class Document {
 
     /// Keeps the error unless there is one already. `place` is the path of what is wrong, and begins the
     /// message.
-    void error(std::string_view place, std::string_view message, std::string remedy = {});
+    void error(std::string_view place, std::string_view message, std::string help = {});
     void take(Diagnostics errors);
 
   private:

@@ -78,7 +78,7 @@ SpirvModule spirv_of(const glslang::TIntermediate& intermediate, bool debug_info
 Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     std::erase_if(diagnostics, [](const Diagnostic& found) { return found.severity != Severity::error; });
     for (Diagnostic& diagnostic : diagnostics) {
-        diagnostic.remedy = fmt::format(
+        diagnostic.help = fmt::format(
             "glslang makes no SPIR-V of GLSL {}, so gobo reads it as 330 (ES: 310), which lacks this; write "
             "it "
             "with what 330 has",

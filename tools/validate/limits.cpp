@@ -38,7 +38,7 @@ class Checker {
         diagnostic.place = place_;
         diagnostic.message =
             fmt::format("{} {}, OpenGL guarantees only {} ({})", what, needed, limit, constant);
-        diagnostic.remedy = "use fewer, or forbid the combination by a rule of the family";
+        diagnostic.help = "use fewer, or forbid the combination by a rule of the family";
         found_.push_back(std::move(diagnostic));
     }
 
@@ -108,7 +108,7 @@ Diagnostics unwritten_inputs(const Interface& vertex, const Interface& fragment,
         diagnostic.message =
             fmt::format("the fragment stage reads '{} {}', which the vertex stage does not write", input.type,
                         input.name);
-        diagnostic.remedy = "declare and write it as an output of the vertex stage";
+        diagnostic.help = "declare and write it as an output of the vertex stage";
         found.push_back(std::move(diagnostic));
     }
     return found;

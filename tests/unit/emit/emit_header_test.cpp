@@ -203,7 +203,7 @@ TEST(EmitHeader, RefusesWhatIsNoNamespace) {
         EXPECT_EQ(to_text(header.error().front()),
                   std::string("gobo: error: '") + name +
                       "' is no C++ namespace\n"
-                      "  remedy: use identifiers with '::' between them, such as game::shaders\n");
+                      "  help: use identifiers with '::' between them, such as game::shaders\n");
         EXPECT_EQ(exit_status(header.error()), 2);
     }
     EXPECT_NE(emit_header(built.input("game::shaders"), templates())->find("namespace game::shaders {"),
@@ -218,7 +218,7 @@ TEST(EmitHeader, RefusesALayoutThatOverlaps) {
     ASSERT_FALSE(header);
     EXPECT_EQ(to_text(header.error().front()),
               "gobo: error: no C++ struct has the layout of 'Odd.b'\n"
-              "  remedy: declare the block with layout(std140)\n");
+              "  help: declare the block with layout(std140)\n");
 }
 
 }  // namespace

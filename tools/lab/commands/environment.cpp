@@ -35,7 +35,7 @@ Result<CubeImages> load_environment(const World& world, const std::string& folde
         auto image = read_image(world.disk, folder + "/" + file);
         if (!image) {
             Diagnostics why = image.error();
-            for (Diagnostic& diagnostic : why) diagnostic.remedy = "name a folder that gobo probe wrote";
+            for (Diagnostic& diagnostic : why) diagnostic.help = "name a folder that gobo probe wrote";
             return tl::unexpected(std::move(why));
         }
         images.emplace(sampler, std::move(*image));

@@ -27,8 +27,7 @@ Result<probe::Environment> read_environment(const World& world, const std::strin
     if (!image) {
         Diagnostics why = image.error();
         for (Diagnostic& diagnostic : why)
-            diagnostic.remedy =
-                "give a latitude-longitude map as an OpenEXR file with the channels R, G and B";
+            diagnostic.help = "give a latitude-longitude map as an OpenEXR file with the channels R, G and B";
         return tl::unexpected(std::move(why));
     }
     return probe::environment_of(*image, path);

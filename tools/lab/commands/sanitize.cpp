@@ -105,7 +105,7 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
     const std::string path = fmt::format("{}/{}", options.folder, file_name(finding, number));
     const std::string follow = follow_text(options, error.subject, path);
     const Result<bool> written = world.disk.write(path, sanitize::eval_input(finding, follow));
-    error.remedy = "guard the operation; follow the input with: " + follow;
+    error.help = "guard the operation; follow the input with: " + follow;
     if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
     return diagnostics;
 }

@@ -46,7 +46,7 @@ Diagnostics report_failure(const World& world, const TestOptions& options, const
     error.subject = key;
     error.message =
         fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points);
-    error.remedy =
+    error.help =
         fmt::format("follow one of these through the shader: gobo eval {} '{}' --inputs FILE --trace",
                     options.family, key);
     Diagnostics diagnostics = {std::move(error)};
@@ -93,7 +93,7 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
     error.message =
         fmt::format("the relation {} does not hold at {} of {} points: {}",
                     to_text(relation, family.features), report.failed, report.points, report.found);
-    error.remedy = "mend the shaders, or state `when` it holds";
+    error.help = "fix the shaders, or state `when` it holds";
     Diagnostics diagnostics = {std::move(error)};
     if (!report.worst) return diagnostics;
     const auto add = [&](const std::string& side_key, const evaluate::EvalPoint& point, const char* side) {

@@ -74,7 +74,7 @@ Diagnostics report_failure(const World& world, const std::string& folder, const 
             fmt::format("\n  pixel ({}, {}): drawn {:.7g}, evaluated {:.7g}, {:.3g} times the limit", pixel.x,
                         pixel.y, fmt::join(pixel.actual, " "), fmt::join(pixel.expected, " "), pixel.ratio);
     const std::string stem = fmt::format("{}/{}", folder, picture_name(key));
-    error.remedy = fmt::format("see {}.actual.exr, .expected.exr and .difference.png", stem);
+    error.help = fmt::format("see {}.actual.exr, .expected.exr and .difference.png", stem);
     Diagnostics diagnostics = {std::move(error)};
     const Diagnostics written = write_images(world.disk, stem, report);
     diagnostics.insert(diagnostics.end(), written.begin(), written.end());

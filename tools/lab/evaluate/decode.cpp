@@ -45,8 +45,8 @@ const EntryPoint* Decoder::find_entry_point() {
     return nullptr;
 }
 
-void Decoder::report(const Instruction& instruction, std::string message, std::string remedy) {
-    if (!error_) error_ = error_at(module_.places[instruction.place], std::move(message), std::move(remedy));
+void Decoder::report(const Instruction& instruction, std::string message, std::string help) {
+    if (!error_) error_ = error_at(module_.places[instruction.place], std::move(message), std::move(help));
 }
 
 void Decoder::report_unknown(const Instruction& instruction) {

@@ -74,7 +74,7 @@ class Decoder {
     };
 
     // decode.cpp: the module.
-    void report(const Instruction& instruction, std::string message, std::string remedy = {});
+    void report(const Instruction& instruction, std::string message, std::string help = {});
     void report_unknown(const Instruction& instruction);
     const EntryPoint* find_entry_point();
     void finish_program();

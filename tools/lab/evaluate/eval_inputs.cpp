@@ -44,12 +44,12 @@ class FileReader {
     }
 
   private:
-    void report(const toml::source_region& source, std::string message, std::string remedy = {}) {
+    void report(const toml::source_region& source, std::string message, std::string help = {}) {
         Diagnostic diagnostic;
         diagnostic.place = place_of(source);
         diagnostic.message = std::move(message);
         diagnostic.quoted_line = line_of(text_, diagnostic.place.line);
-        diagnostic.remedy = std::move(remedy);
+        diagnostic.help = std::move(help);
         diagnostics_.push_back(std::move(diagnostic));
     }
 
@@ -105,8 +105,8 @@ class FileReader {
     Diagnostics diagnostics_;
 };
 
-Diagnostic fault(const EvalValue& value, std::string message, std::string remedy = {}) {
-    Diagnostic diagnostic = error_at(value.place, std::move(message), std::move(remedy));
+Diagnostic fault(const EvalValue& value, std::string message, std::string help = {}) {
+    Diagnostic diagnostic = error_at(value.place, std::move(message), std::move(help));
     diagnostic.quoted_line = value.quoted_line;
     return diagnostic;
 }

@@ -268,11 +268,11 @@ std::pair<std::string, std::size_t> literal_string(const Instruction& instructio
     return {std::move(text), index};
 }
 
-Diagnostic error_at(const Place& place, std::string message, std::string remedy) {
+Diagnostic error_at(const Place& place, std::string message, std::string help) {
     Diagnostic diagnostic;
     diagnostic.place = place;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return diagnostic;
 }
 

@@ -90,7 +90,7 @@ struct Module {
                                                                  std::size_t index);
 
 /// An error in the shader at that place.
-[[nodiscard]] Diagnostic error_at(const Place& place, std::string message, std::string remedy = {});
+[[nodiscard]] Diagnostic error_at(const Place& place, std::string message, std::string help = {});
 
 /// "OpFAdd"; "instruction 4711" where SPIRV-Tools knows no name.
 [[nodiscard]] std::string opcode_name(spv::Op opcode);

@@ -9,11 +9,11 @@
 namespace gobo::probe {
 namespace {
 
-tl::unexpected<Diagnostics> fault(const std::string& path, std::string message, std::string remedy) {
+tl::unexpected<Diagnostics> fault(const std::string& path, std::string message, std::string help) {
     Diagnostic diagnostic;
     diagnostic.place.file = path;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return fail(std::move(diagnostic));
 }
 
@@ -28,7 +28,7 @@ tl::unexpected<Diagnostics> no_number(const std::string& path, int column, int r
                  fmt::format("the texel in column {}, row {} (from the upper left, counted from 0) has the "
                              "radiance {} in channel {}",
                              column, row, value, "RGB"[channel]),
-                 "radiance is finite: mend the map, or clamp it where it was exported");
+                 "radiance is finite: fix the map, or clamp it where it was exported");
 }
 
 }  // namespace

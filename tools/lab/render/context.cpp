@@ -9,13 +9,13 @@
 namespace gobo {
 
 Result<SharedLibrary> SharedLibrary::open(const std::vector<const char*>& file_names,
-                                          const std::string& remedy) {
+                                          const std::string& help) {
     SharedLibrary library;
     for (const char* name : file_names) {
         library.handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
         if (library.handle_ != nullptr) return library;
     }
-    return fail(Fault::file, fmt::format("cannot load the shared library {}", file_names.front()), remedy);
+    return fail(Fault::file, fmt::format("cannot load the shared library {}", file_names.front()), help);
 }
 
 void* SharedLibrary::address(const char* name) const {

@@ -53,7 +53,7 @@ class Context {
 };
 
 /// Opens a context and makes it current. `version` is 10 * major + minor, from 33 to 45.
-/// Fault::file where the library is absent (the remedy names the package) or gives no such context.
+/// Fault::file where the library is absent (the help names the package) or gives no such context.
 [[nodiscard]] Result<Context> open_context(Backend backend, int version = 45);
 
 }  // namespace gobo

@@ -13,11 +13,11 @@
 namespace gobo {
 namespace {
 
-Diagnostic warning(std::string message, std::string remedy) {
+Diagnostic warning(std::string message, std::string help) {
     Diagnostic diagnostic;
     diagnostic.severity = Severity::warning;
     diagnostic.message = std::move(message);
-    diagnostic.remedy = std::move(remedy);
+    diagnostic.help = std::move(help);
     return diagnostic;
 }
 
@@ -25,7 +25,7 @@ tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::
     Diagnostic diagnostic;
     diagnostic.place = value.place;
     diagnostic.message = fmt::format("unknown source '{}' for '{}'", value.source, value.name);
-    diagnostic.remedy = suggestion(value.source, known);
+    diagnostic.help = suggestion(value.source, known);
     return fail(std::move(diagnostic));
 }
 

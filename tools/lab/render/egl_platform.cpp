@@ -24,7 +24,7 @@ constexpr EglInteger context_minor_version = 0x30FB;
 constexpr EglInteger context_profile_mask = 0x30FD;
 constexpr EglInteger core_profile_bit = 1;
 
-constexpr const char* remedy = "install it: apt-get install libegl1 libgl1-mesa-dri, or use --backend osmesa";
+constexpr const char* help = "install it: apt-get install libegl1 libgl1-mesa-dri, or use --backend osmesa";
 
 struct Egl {
     explicit Egl(const SharedLibrary& library)
@@ -85,11 +85,11 @@ class EglPlatform final : public Platform {
 }  // namespace
 
 Result<std::unique_ptr<Platform>> open_egl(int major, int minor) {
-    const auto library = SharedLibrary::open({"libEGL.so.1", "libEGL.so"}, remedy);
+    const auto library = SharedLibrary::open({"libEGL.so.1", "libEGL.so"}, help);
     if (!library) return tl::unexpected(library.error());
     const Egl egl(*library);
     EglDisplay display = open_display(egl);
-    if (display == nullptr) return fail(Fault::file, "EGL finds no display without a screen", remedy);
+    if (display == nullptr) return fail(Fault::file, "EGL finds no display without a screen", help);
     egl.bind_api(opengl_api);
     const std::array<EglInteger, 7> attributes = {
         context_major_version, major,   context_minor_version, minor, context_profile_mask,
@@ -97,7 +97,7 @@ Result<std::unique_ptr<Platform>> open_egl(int major, int minor) {
     // No configuration (EGL_KHR_no_config_context): there is no surface that it could be of.
     EglContext context = egl.create_context(display, nullptr, nullptr, attributes.data());
     if (context == nullptr)
-        return fail(Fault::file, fmt::format("EGL gives no OpenGL {}.{} core profile", major, minor), remedy);
+        return fail(Fault::file, fmt::format("EGL gives no OpenGL {}.{} core profile", major, minor), help);
     return std::make_unique<EglPlatform>(egl, display, context);
 }
 

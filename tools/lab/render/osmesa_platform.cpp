@@ -23,7 +23,7 @@ constexpr int osmesa_context_major_version = 0x36;
 constexpr int osmesa_context_minor_version = 0x37;
 constexpr unsigned unsigned_byte = 0x1401;
 
-constexpr const char* remedy = "install it: apt-get install libosmesa6, or use --backend egl";
+constexpr const char* help = "install it: apt-get install libosmesa6, or use --backend egl";
 
 class OsmesaPlatform final : public Platform {
   public:
@@ -52,12 +52,12 @@ class OsmesaPlatform final : public Platform {
 }  // namespace
 
 Result<std::unique_ptr<Platform>> open_osmesa(int major, int minor) {
-    const auto library = SharedLibrary::open({"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}, remedy);
+    const auto library = SharedLibrary::open({"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}, help);
     if (!library) return tl::unexpected(library.error());
     const auto create = library->symbol<CreateContextAttribs>("OSMesaCreateContextAttribs");
     if (create == nullptr)
         return fail(Fault::file, "this OSMesa is older than 12.0 and has no OSMesaCreateContextAttribs",
-                    remedy);
+                    help);
     const std::array<int, 11> attributes = {osmesa_format,
                                             osmesa_rgba,
                                             osmesa_depth_bits,

@@ -30,7 +30,7 @@ class SharedLibrary {
   public:
     /// Tries each file name in turn.
     [[nodiscard]] static Result<SharedLibrary> open(const std::vector<const char*>& file_names,
-                                                    const std::string& remedy);
+                                                    const std::string& help);
     /// Null where the library has no such symbol.
     template <class Pointer>
     [[nodiscard]] Pointer symbol(const char* name) const {

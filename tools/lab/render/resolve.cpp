@@ -29,7 +29,7 @@ Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& valu
     Diagnostic diagnostic;
     diagnostic.place = value.place;
     diagnostic.message = fmt::format("'{}' has no member '{}'", head_of(value.name), value.name);
-    diagnostic.remedy = suggestion(plain, known);
+    diagnostic.help = suggestion(plain, known);
     return fail(std::move(diagnostic));
 }
 
@@ -39,13 +39,13 @@ tl::unexpected<Diagnostics> cannot_supply(const Leaf& leaf, const RenderValue& v
     const std::vector<std::string>& known = uniform_sources();
     if (std::find(known.begin(), known.end(), value.source) == known.end()) {
         diagnostic.message = fmt::format("unknown source '{}' for '{}'", value.source, value.name);
-        diagnostic.remedy = suggestion(value.source, known);
+        diagnostic.help = suggestion(value.source, known);
     } else {
         diagnostic.message = fmt::format("the source '{}' with {} numbers cannot supply '{}' of type {}",
                                          value.source, value.numbers.size(), value.name, leaf.type);
-        diagnostic.remedy = "eye_point and eye_direction need numbers = [x, y, z] and give vectors";
+        diagnostic.help = "eye_point and eye_direction need numbers = [x, y, z] and give vectors";
         if (!value.source.starts_with("eye_"))
-            diagnostic.remedy = "matrices go to matrices, vectors to vectors";
+            diagnostic.help = "matrices go to matrices, vectors to vectors";
     }
     return fail(std::move(diagnostic));
 }
@@ -78,7 +78,7 @@ Diagnostics warnings_for(const std::set<std::string>& names) {
         Diagnostic warning;
         warning.severity = Severity::warning;
         warning.message = fmt::format("'{}' has no value and stays 0", name);
-        warning.remedy = "give it one under [render] in the family file";
+        warning.help = "give it one under [render] in the family file";
         warnings.push_back(std::move(warning));
     }
     return warnings;

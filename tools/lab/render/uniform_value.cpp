@@ -104,10 +104,9 @@ Result<void> check(const Assignment& assignment, const Place& place) {
     const std::size_t given = assignment.numbers.size();
     if (given > 0 && given <= most && given % components == 0) return {};
     diagnostic.message = fmt::format("'{}' is given {} number{}", leaf.name, given, given == 1 ? "" : "s");
-    diagnostic.remedy = leaf.count > 1
-                            ? fmt::format("it is an array of {}: give a multiple of {}, at most {}",
-                                          leaf.type, components, most)
-                            : fmt::format("it is of type {}: give {}", leaf.type, components);
+    diagnostic.help = leaf.count > 1 ? fmt::format("it is an array of {}: give a multiple of {}, at most {}",
+                                                   leaf.type, components, most)
+                                     : fmt::format("it is of type {}: give {}", leaf.type, components);
     return fail(std::move(diagnostic));
 }
 

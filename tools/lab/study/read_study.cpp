@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "family/key.hpp"
 #include "budget/qualities.hpp"
+#include "family/key.hpp"
 
 namespace gobo::study {
 namespace {
@@ -23,7 +23,7 @@ Diagnostic problem(const std::string& path, std::size_t row, std::string message
     Diagnostic diagnostic;
     diagnostic.place = {path, static_cast<int>(row) + 2, 0};
     diagnostic.message = std::move(message);
-    diagnostic.remedy =
+    diagnostic.help =
         "name effects that the study holds, or make a study of them: gobo study FAMILY "
         "--effects KEY -o FOLDER";
     return diagnostic;

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
 #include "core/csv.hpp"
+#include "core/text.hpp"
 
 namespace gobo::study {
 namespace {
@@ -16,7 +16,7 @@ Diagnostic problem(const std::string& path, std::size_t row, std::string message
     Diagnostic diagnostic;
     diagnostic.place = {path, static_cast<int>(row) + 2, 0};
     diagnostic.message = std::move(message);
-    diagnostic.remedy = "remake the weights: gobo study lit --weights -o FOLDER";
+    diagnostic.help = "remake the weights: gobo study lit --weights -o FOLDER";
     return diagnostic;
 }
 
