@@ -17,7 +17,7 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "reflect/unused.hpp"
+#include "../unit/reflect_unused.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/validate.hpp"
 

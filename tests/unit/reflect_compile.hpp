@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reflect/restore_bools.hpp"
+#include "reflect/interface.hpp"
 
 namespace gobo::testing {
 

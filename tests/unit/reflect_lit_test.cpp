@@ -7,12 +7,11 @@
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "reflect/merge.hpp"
-#include "reflect/reflect.hpp"
-#include "reflect/unused.hpp"
-#include "reflect_compile.hpp"
-#include "reflect_witness.hpp"
 #include "lab/render/program_interface.hpp"
+#include "reflect/reflect.hpp"
+#include "reflect_compile.hpp"
+#include "reflect_unused.hpp"
+#include "reflect_witness.hpp"
 
 namespace gobo {
 namespace {
@@ -75,8 +74,8 @@ TEST(Lit, IsReflectedAsBothWitnessesSay) {
     const Result<Context> context = open_context(Backend::osmesa);
     ASSERT_TRUE(context) << to_text(context.error().front());
     for (const Permutation& permutation : lit.permutations) {
-        const Interface program = merge(stages[static_cast<std::size_t>(permutation.vertex)],
-                                        stages[static_cast<std::size_t>(permutation.fragment)]);
+        const Interface program = merge({stages[static_cast<std::size_t>(permutation.vertex)],
+                                         stages[static_cast<std::size_t>(permutation.fragment)]});
         EXPECT_THAT(differences_from_opengl(*context, lit, permutation, program), IsEmpty());
     }
 }
@@ -89,8 +88,8 @@ TEST(Lit, HasOneInterfaceForAllPermutations) {
     // Programs, not stages: what a vertex stage hands on is nobody's but its fragment stage's.
     std::vector<Interface> programs;
     for (const Permutation& permutation : lit.permutations)
-        programs.push_back(merge(stages[static_cast<std::size_t>(permutation.vertex)],
-                                 stages[static_cast<std::size_t>(permutation.fragment)]));
+        programs.push_back(merge({stages[static_cast<std::size_t>(permutation.vertex)],
+                                  stages[static_cast<std::size_t>(permutation.fragment)]}));
     const Interface family = value_of(unite(programs));
     const auto lights = std::ranges::find(family.blocks, "PointLights", &Block::name);
     ASSERT_NE(lights, family.blocks.end());

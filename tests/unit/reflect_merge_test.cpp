@@ -1,7 +1,6 @@
 // One interface from several: stages of a program, permutations of a family.
 #include <gtest/gtest.h>
 
-#include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 
@@ -42,8 +41,8 @@ layout(location = 0) in vec3 normal;
 layout(location = 0) out vec4 color;
 void main() { color = vec4(normal, exposure); }
 )");
-    const Interface program = merge(vertex, fragment);
-    EXPECT_EQ(program, merge(fragment, vertex));
+    const Interface program = merge({vertex, fragment});
+    EXPECT_EQ(program, merge({fragment, vertex}));
     EXPECT_EQ(program.stages, (Names{"vertex", "fragment"}));
     ASSERT_EQ(program.blocks.size(), 1u);
     EXPECT_EQ(program.blocks[0].stages, (Names{"vertex", "fragment"}));

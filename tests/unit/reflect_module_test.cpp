@@ -1,10 +1,9 @@
 // Malformed modules are diagnostics, never crashes.
 #include <gtest/gtest.h>
 
-#include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
-#include "reflect/unused.hpp"
 #include "reflect_compile.hpp"
+#include "reflect_unused.hpp"
 
 namespace gobo {
 namespace {
@@ -64,7 +63,7 @@ const Row rows[] = {
                 op(spv::Op::OpTypeArray, 4), 3, 1, 2}),
      "gobo: error: malformed SPIR-V module at word 13: an array of impossible size\n"},
     {"twice", module_of({op(spv::Op::OpTypeBool, 2), 1, op(spv::Op::OpTypeBool, 2), 1}),
-     "gobo: error: malformed SPIR-V module at word 7: a type declared twice\n"},
+     "gobo: error: malformed SPIR-V module at word 7: an id declared twice\n"},
     {"variable_of_no_pointer",
      module_of({op(spv::Op::OpTypeBool, 2), 1, op(spv::Op::OpVariable, 4), 1, 2, 1}),
      "gobo: error: malformed SPIR-V module at word 7: a variable whose type is no pointer\n"},
@@ -149,7 +148,7 @@ TEST(RichModule, CutAnywhereInItsDeclarationsIsNeverMisread) {
         if (!interface) ++refused;
         // What can be read of a module that ends between two instructions is part of the whole.
         else
-            EXPECT_TRUE(merge(*interface, whole).blocks == whole.blocks) << length;
+            EXPECT_TRUE(merge({*interface, whole}).blocks == whole.blocks) << length;
     }
     EXPECT_GT(refused, 100);  // every length that ends inside an instruction
 }

@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reflect/merge.hpp"
+#include "lab/render/program_interface.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_shaders.hpp"
-#include "lab/render/program_interface.hpp"
 
 namespace gobo {
 namespace {
@@ -38,7 +37,8 @@ class BlockLayout : public ::testing::TestWithParam<testing::Shader> {};
 
 TEST_P(BlockLayout, AgreesWithOpenGl) {
     const std::string source = source_of(GetParam());
-    Interface interface = merge(reflected(Stage::vertex, plain_vertex), reflected(GetParam().stage, source));
+    Interface interface =
+        merge({reflected(Stage::vertex, plain_vertex), reflected(GetParam().stage, source)});
     EXPECT_FALSE(interface.blocks.empty());
     for (Block& block : interface.blocks) {
         block.stages.clear();  // OpenGL lists the stages that read a block, and none does
@@ -88,7 +88,8 @@ void main() {
     id = 7u;
 }
 )";
-    const Interface interface = merge(reflected(Stage::vertex, vertex), reflected(Stage::fragment, fragment));
+    const Interface interface =
+        merge({reflected(Stage::vertex, vertex), reflected(Stage::fragment, fragment)});
     EXPECT_THAT(differences_from_opengl(interface, vertex, fragment), IsEmpty());
 }
 

@@ -5,9 +5,8 @@
 
 #include "reflect/interface_format.hpp"
 #include "reflect/reflect.hpp"
-#include "reflect/restore_bools.hpp"
-#include "reflect/unused.hpp"
 #include "reflect_compile.hpp"
+#include "reflect_unused.hpp"
 
 namespace gobo {
 namespace {

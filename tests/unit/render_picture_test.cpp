@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "lab/render/render.hpp"
-#include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 

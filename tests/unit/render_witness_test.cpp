@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reflect/merge.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "lab/render/program_interface.hpp"

@@ -1,8 +1,6 @@
 #include "emit/interface_section.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 #include <set>
 #include <vector>
 
@@ -11,20 +9,10 @@
 #include "emit/cpp_text.hpp"
 #include "emit/identifiers.hpp"
 #include "emit/struct_section.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
-
-int elements_of(const std::vector<int>& array) {
-    return std::accumulate(array.begin(), array.end(), 1, std::multiplies<>());
-}
-
-/// Locations that an attribute takes: one per element and per column of a matrix.
-int locations_of(const Variable& variable) {
-    const auto matrix = variable.type.find("mat");
-    const int columns = matrix == std::string::npos ? 1 : variable.type[matrix + 3] - '0';
-    return columns * elements_of(variable.array);
-}
 
 /// Gives every item without a place the lowest free one. `place` refers to an item's place, `size` says how
 /// many it takes.
@@ -104,7 +92,7 @@ void add_uniform_rows(const UniformPart& part, int& location, std::vector<std::s
                          rows);
     }
     if (!part.members.empty()) return;
-    const int count = elements_of(part.array);
+    const int count = element_count(part.array);
     rows.push_back(
         fmt::format("{{{}, {}, {}, {}}}", cpp_literal(part.name), cpp_literal(part.type), location, count));
     if (location >= 0) location += count;
@@ -128,9 +116,10 @@ Interface with_places(Interface interface) {
         interface.blocks, [](Block& block) -> int& { return block.binding; }, [](const Block&) { return 1; });
     fill_places(
         interface.samplers, [](Sampler& sampler) -> int& { return sampler.binding; },
-        [](const Sampler& sampler) { return elements_of(sampler.array); });
+        [](const Sampler& sampler) { return element_count(sampler.array); });
     fill_places(
-        interface.inputs, [](Variable& input) -> int& { return input.location; }, locations_of);
+        interface.inputs, [](Variable& input) -> int& { return input.location; },
+        [](const Variable& input) { return location_count(input.type, input.array); });
     if (interface.outputs.size() == 1 && interface.outputs.front().location < 0) {
         interface.outputs.front().location = 0;
     }
@@ -150,7 +139,7 @@ void describe_interface(const Interface& interface, const std::vector<Domain>& d
     for (const Sampler& sampler : interface.samplers) {
         samplers.push_back(fmt::format("{{{}, {}, {}, {}}}", cpp_literal(sampler.name),
                                        cpp_literal(sampler.type), sampler.binding,
-                                       elements_of(sampler.array)));
+                                       element_count(sampler.array)));
     }
     std::vector<std::string> uniforms;
     for (const Uniform& uniform : interface.uniforms) {

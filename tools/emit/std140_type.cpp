@@ -1,85 +1,41 @@
 #include "emit/std140_type.hpp"
 
-#include <functional>
-#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "spirv/glsl_type.hpp"
+
 namespace gobo {
 namespace {
 
-/// A GLSL scalar, vector or matrix type, taken apart.
-struct GlslType {
-    std::string_view number;  ///< of C++
-    char letter = 'f';        ///< f, i, u, d or b
-    int columns = 1;
-    int rows = 1;
-
-    [[nodiscard]] int number_size() const { return letter == 'd' ? 8 : 4; }
-};
-
-std::string_view number_of(char letter) {
-    switch (letter) {
-        case 'i':
+std::string_view number_of(Scalar scalar) {
+    switch (scalar) {
+        case Scalar::int32:
             return "std::int32_t";
-        case 'u':
+        case Scalar::uint32:
             return "std::uint32_t";
-        case 'd':
+        case Scalar::float64:
             return "double";
-        case 'b':
+        case Scalar::boolean:
             return "std140::Bool";
         default:
             return "float";
     }
 }
 
-bool is_extent(char digit) {
-    return digit >= '2' && digit <= '4';
-}
-
-std::optional<GlslType> scalar(std::string_view name) {
-    if (name == "float") return GlslType{number_of('f'), 'f'};
-    if (name == "int") return GlslType{number_of('i'), 'i'};
-    if (name == "uint") return GlslType{number_of('u'), 'u'};
-    if (name == "double") return GlslType{number_of('d'), 'd'};
-    if (name == "bool") return GlslType{number_of('b'), 'b'};
-    return std::nullopt;
-}
-
-/// vec3, dmat4x3 and so on.
-std::optional<GlslType> vector_or_matrix(std::string_view name) {
-    char letter = 'f';
-    if (!name.empty() && std::string_view("iudb").find(name.front()) != std::string_view::npos) {
-        letter = name.front();
-        name.remove_prefix(1);
-    }
-    const bool is_matrix = name.starts_with("mat");
-    if (!is_matrix && !name.starts_with("vec")) return std::nullopt;
-    const std::string_view extents = name.substr(3);
-    if (extents.empty() || !is_extent(extents.front())) return std::nullopt;
-    const int first = extents.front() - '0';
-    if (extents.size() == 1) return GlslType{number_of(letter), letter, is_matrix ? first : 1, first};
-    if (!is_matrix || extents.size() != 3 || extents[1] != 'x' || !is_extent(extents[2])) return std::nullopt;
-    return GlslType{number_of(letter), letter, first, extents[2] - '0'};
-}
-
 CppMemberType vector_type(const GlslType& glsl) {
-    CppMemberType result;
-    result.size = glsl.rows * glsl.number_size();
-    const std::string prefix = glsl.letter == 'f' ? "" : std::string(1, glsl.letter);
-    result.type =
-        glsl.rows == 1 ? std::string(glsl.number) : fmt::format("std140::{}vec{}", prefix, glsl.rows);
-    return result;
+    std::string type = glsl.rows == 1 ? std::string(number_of(glsl.scalar)) : "std140::" + glsl.name();
+    return {std::move(type), {}, glsl.column_size()};
 }
 
 std::optional<CppMemberType> matrix_type(const GlslType& glsl, const Member& member) {
     CppMemberType result;
     const int lines = member.row_major ? glsl.rows : glsl.columns;
-    const int line_size = (member.row_major ? glsl.columns : glsl.rows) * glsl.number_size();
+    const int line_size = (member.row_major ? glsl.columns : glsl.rows) * glsl.scalar_size();
     if (member.matrix_stride < line_size) return std::nullopt;
     result.size = lines * member.matrix_stride;
-    const std::string shape = fmt::format("<{}, {}, {}", glsl.columns, glsl.rows, glsl.number);
+    const std::string shape = fmt::format("<{}, {}, {}", glsl.columns, glsl.rows, number_of(glsl.scalar));
     if (member.row_major) {
         result.type = fmt::format("std140::RowMajorMatrix{}, {}>", shape, member.matrix_stride);
     } else if (member.matrix_stride > line_size) {
@@ -97,7 +53,7 @@ std::optional<CppMemberType> matrix_type(const GlslType& glsl, const Member& mem
 
 int element_stride(const Member& member) {
     if (member.array.empty()) return 0;
-    const int inner = std::accumulate(member.array.begin() + 1, member.array.end(), 1, std::multiplies<>());
+    const int inner = element_count({member.array.begin() + 1, member.array.end()});
     return inner > 0 ? member.array_stride / inner : 0;
 }
 
@@ -117,10 +73,10 @@ std::optional<CppMemberType> cpp_array_of(const std::string& element, int elemen
 }
 
 std::optional<CppMemberType> cpp_type_of(const Member& member) {
-    std::optional<GlslType> glsl = scalar(member.type);
-    if (!glsl) glsl = vector_or_matrix(member.type);
-    if (!glsl) return std::nullopt;
-    const auto element = glsl->columns == 1 ? vector_type(*glsl) : matrix_type(*glsl, member);
+    const std::optional<GlslType> glsl = glsl_type(member.type);
+    // C++ has no types for the numbers of 8, 16 and 64 bits that extensions of GLSL know.
+    if (!glsl || (glsl->scalar_size() != 4 && glsl->scalar != Scalar::float64)) return std::nullopt;
+    const auto element = glsl->is_matrix() ? matrix_type(*glsl, member) : vector_type(*glsl);
     if (!element) return std::nullopt;
     return cpp_array_of(element->type, element->size, member);
 }

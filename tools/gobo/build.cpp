@@ -12,7 +12,7 @@
 #include "emit/manifest.hpp"
 #include "gobo/budget.hpp"
 #include "gobo/commands.hpp"
-#include "reflect/merge.hpp"
+#include "reflect/interface.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

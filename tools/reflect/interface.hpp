@@ -1,9 +1,11 @@
 // The interface of a program as applications see it: blocks, uniforms, samplers, inputs and outputs.
 #pragma once
 
-#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "core/diagnostic.hpp"
 
 namespace gobo {
 
@@ -56,8 +58,7 @@ struct Sampler {
 
 /// A vertex attribute, a fragment output, or a value between the stages.
 struct Variable {
-    std::string
-        name;  ///< in a block or struct the path, as OpenGL spells it: "Surface.normal", "ray[1].origin"
+    std::string name;  ///< in a block or struct the path, as OpenGL has it: "Surface.normal", "ray[1].origin"
     std::string type;
     int location = -1;
     std::vector<int> array;
@@ -77,5 +78,29 @@ struct Interface {
 
     friend bool operator==(const Interface&, const Interface&) = default;
 };
+
+/// The interface of a program: inputs of its first stage, outputs of its last (as the pipeline runs, whatever
+/// the order of `stages`), everything else united by name. Meant for stages that link, so where two declare
+/// the same name their declarations agree; should they differ, the earlier stage's stands.
+[[nodiscard]] Interface merge(std::vector<Interface> stages);
+
+/// The interface that serves every one of several programs, the permutations of a family: lists united by
+/// name. A block whose last member is an array may differ in that array's outermost extent: the largest is
+/// kept. Where two programs disagree in any other way about a name: an error (Fault::input) that names it.
+[[nodiscard]] Result<Interface> unite(const std::vector<Interface>& programs);
+
+/// OpenGL's type enumerants (0x8B56 is GL_BOOL) by flattened name, as glslang's reflection and OpenGL's
+/// program-interface queries list them: "Fog.enabled" or, for a block without instance, "enabled";
+/// "Lights.lights[0].on". glslang lists unread members only with EShReflectionAllBlockVariables, unread
+/// blocks only with EShReflectionSharedStd140UBO. Array subscripts are ignored: all elements have one type.
+using GlTypes = std::map<std::string, int>;
+
+/// Whether a block has an unsigned integer, which may have been a boolean: only then are GlTypes worth
+/// collecting.
+[[nodiscard]] bool may_hold_bools(const Interface& interface);
+
+/// The interface with "uint" and "uvecN" in blocks, as which SPIR-V stores booleans, turned back into "bool"
+/// and "bvecN" where `types` says so.
+[[nodiscard]] Interface restore_bools(Interface interface, const GlTypes& types);
 
 }  // namespace gobo

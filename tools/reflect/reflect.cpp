@@ -2,81 +2,155 @@
 
 #include <algorithm>
 #include <limits>
-#include <string_view>
 
 #include <fmt/format.h>
-
-#include "reflect/glsl_type.hpp"
 
 namespace gobo {
 namespace {
 
 using spirv::Id;
+using spirv::kWhole;
 using spirv::Module;
+using spirv::Type;
 
 /// Far above what any device offers; keeps a malformed module from asking for lists without end.
-constexpr int most_locations = 1 << 16;
-constexpr int most_bindings = 1 << 16;
+constexpr int kMostLocations = 1 << 16;
+constexpr int kMostBindings = 1 << 16;
+constexpr int kLargest = std::numeric_limits<int>::max();
 
-std::string stage_name(spv::ExecutionModel model) {
-    switch (model) {
-        case spv::ExecutionModel::Vertex:
-            return "vertex";
-        case spv::ExecutionModel::TessellationControl:
-            return "tess_control";
-        case spv::ExecutionModel::TessellationEvaluation:
-            return "tess_evaluation";
-        case spv::ExecutionModel::Geometry:
-            return "geometry";
-        case spv::ExecutionModel::Fragment:
-            return "fragment";
-        case spv::ExecutionModel::GLCompute:
-            return "compute";
-        default:
-            return {};
-    }
+std::string_view stage_name(spv::ExecutionModel model) {
+    constexpr std::string_view kNames[] = {"vertex",   "tess_control", "tess_evaluation",
+                                           "geometry", "fragment",     "compute"};
+    return model <= spv::ExecutionModelGLCompute ? kNames[model] : std::string_view();
 }
 
-std::vector<Member> members_of(const Module& module, Id structure);
+/// The number that decorates the id or member; `absent` where none does.
+int decorated(const Module& module, spv::Decoration kind, Id id, int member = kWhole, int absent = 0) {
+    const auto value = module.decoration(id, kind, member);
+    return value ? static_cast<int>(std::min<std::uint32_t>(*value, kLargest)) : absent;
+}
 
-Member member_of(const Module& module, Id structure, int index) {
-    const Id id = module.type(structure).members[static_cast<std::size_t>(index)];
-    const Id element = array_element(module, id);
-    Member member;
-    member.name = module.name(structure, index);
-    member.type = glsl_name(module, element);
-    member.offset = module.decoration(structure, spv::Decoration::Offset, index).value_or(0);
-    member.array = array_extents(module, id);
-    member.array_stride = module.decoration(id, spv::Decoration::ArrayStride).value_or(0);
-    member.matrix_stride = module.decoration(structure, spv::Decoration::MatrixStride, index).value_or(0);
-    member.row_major = module.decoration(structure, spv::Decoration::RowMajor, index).has_value();
-    member.members = members_of(module, element);
-    return member;
+/// The location or binding point that the module states, or -1.
+int stated(const Module& module, spv::Decoration kind, Id id, int member = kWhole) {
+    return std::min(decorated(module, kind, id, member, -1), kMostLocations);
+}
+
+/// The extents of an array, outermost first, 0 for no size; empty where the type is no array.
+std::vector<int> array_extents(const Module& module, Id id) {
+    std::vector<int> extents;
+    for (; module.type(id).is_array(); id = module.type(id).element)
+        extents.push_back(static_cast<int>(module.type(id).count));
+    return extents;
+}
+
+/// The type with all array dimensions taken off.
+Id array_element(const Module& module, Id id) {
+    while (module.type(id).is_array()) id = module.type(id).element;
+    return id;
+}
+
+bool is_structure(const Module& module, Id id) {
+    return module.type(id).opcode == spv::OpTypeStruct;
+}
+
+/// Calls `visit(index, type)` for each member of a struct.
+template <class Visit>
+void for_each_member(const Module& module, Id structure, const Visit& visit) {
+    int index = 0;
+    for (const Id member : module.type(structure).members) visit(index++, member);
+}
+
+/// Every member, array and matrix of the struct states its offset and strides.
+bool is_laid_out(const Module& module, Id structure) {
+    bool result = true;
+    for_each_member(module, structure, [&](int index, Id member) {
+        Id id = member;
+        for (; module.type(id).is_array(); id = module.type(id).element)
+            result = result && module.decoration(id, spv::DecorationArrayStride);
+        result = result && module.decoration(structure, spv::DecorationOffset, index) &&
+                 (module.type(id).opcode != spv::OpTypeMatrix ||
+                  module.decoration(structure, spv::DecorationMatrixStride, index)) &&
+                 (!is_structure(module, id) || is_laid_out(module, id));
+    });
+    return result;
+}
+
+std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+/// Base alignment without std140's rounding of arrays and structs to 16, which block_size() does once at the
+/// end.
+std::int64_t alignment_of(const Module& module, Id id) {
+    const Type& type = module.type(array_element(module, id));
+    if (type.opcode != spv::OpTypeStruct) return type.value.column_alignment();
+    std::int64_t alignment = 1;
+    for (const Id member : type.members) alignment = std::max(alignment, alignment_of(module, member));
+    return alignment;
+}
+
+std::int64_t member_size(const Module& module, Id structure, int index, Id id);
+
+/// From the start of the struct to the end of the member that ends last.
+std::int64_t end_of_members(const Module& module, Id structure) {
+    std::int64_t end = 0;
+    for_each_member(module, structure, [&](int index, Id member) {
+        const int offset = decorated(module, spv::DecorationOffset, structure, index);
+        end = std::max(end, offset + member_size(module, structure, index, member));
+    });
+    return end;
+}
+
+/// In bytes, from the strides. A row-major matrix is stored as an array of its rows.
+std::int64_t member_size(const Module& module, Id structure, int index, Id id) {
+    const Type& type = module.type(id);
+    if (type.is_array()) return std::int64_t{decorated(module, spv::DecorationArrayStride, id)} * type.count;
+    if (type.opcode == spv::OpTypeStruct)
+        return rounded_up(end_of_members(module, id), alignment_of(module, id));
+    if (!type.value.is_matrix()) return type.value.column_size();
+    const bool is_row_major = module.decoration(structure, spv::DecorationRowMajor, index).has_value();
+    return std::int64_t{decorated(module, spv::DecorationMatrixStride, structure, index)} *
+           (is_row_major ? type.value.rows : type.value.columns);
+}
+
+/// Bytes from the start of a block to the end of its last member, rounded up to 16: what Mesa reports as
+/// UNIFORM_BLOCK_DATA_SIZE. An array without a size counts as empty.
+std::int64_t block_size(const Module& module, Id structure) {
+    return rounded_up(end_of_members(module, structure), 16);
+}
+
+/// Locations between stages. A vertex attribute of three or four doubles takes one, elsewhere two.
+int locations_of(const Module& module, Id id, bool is_attribute) {
+    const Type& type = module.type(id);
+    std::int64_t count = 1;
+    if (type.opcode == spv::OpTypeStruct) {
+        count = 0;
+        for (const Id member : type.members) count += locations_of(module, member, is_attribute);
+    } else if (type.is_array() || type.value.is_matrix()) {
+        // An empty struct counts as one here, so that nobody walks two thousand million of them for nothing.
+        count = std::int64_t{type.count} * std::max(locations_of(module, type.element, is_attribute), 1);
+    } else if (type.value.column_size() > 16 && !is_attribute) {
+        count = 2;
+    }
+    return static_cast<int>(std::min<std::int64_t>(count, kLargest));
 }
 
 std::vector<Member> members_of(const Module& module, Id structure) {
     std::vector<Member> members;
-    if (module.type(structure).opcode != spv::Op::OpTypeStruct) return members;
-    for (int i = 0; i < static_cast<int>(module.type(structure).members.size()); ++i) {
-        members.push_back(member_of(module, structure, i));
-    }
+    for_each_member(module, structure, [&](int index, Id id) {
+        const Id element = array_element(module, id);
+        Member member;
+        member.name = module.name(structure, index);
+        member.type = type_name(module, element);
+        member.offset = decorated(module, spv::DecorationOffset, structure, index);
+        member.array = array_extents(module, id);
+        member.array_stride = decorated(module, spv::DecorationArrayStride, id);
+        member.matrix_stride = decorated(module, spv::DecorationMatrixStride, structure, index);
+        member.row_major = module.decoration(structure, spv::DecorationRowMajor, index).has_value();
+        member.members = members_of(module, element);
+        members.push_back(std::move(member));
+    });
     return members;
-}
-
-bool is_block(const Module& module, Id type) {
-    return module.decoration(type, spv::Decoration::Block) ||
-           module.decoration(type, spv::Decoration::BufferBlock);
-}
-
-/// The location or binding point that the module states, or -1.
-int place(const Module& module, spv::Decoration kind, Id id, int member = spirv::whole) {
-    return std::min(module.decoration(id, kind, member).value_or(-1), most_locations);
-}
-
-std::int64_t element_count(const std::vector<int>& extents) {
-    std::int64_t count = 1;
-    for (const int extent : extents) count = std::min<std::int64_t>(count * extent, most_bindings + 1);
-    return count;
 }
 
 /// Every element of an array of blocks is a block of its own to OpenGL, on the binding points that follow.
@@ -103,29 +177,29 @@ class Reflection {
     Result<Interface> run() {
         if (module_.entry_points.empty())
             return fail(Fault::internal, "the SPIR-V module has no entry point");
-        const std::string stage = stage_name(module_.entry_points.front().model);
+        const std::string stage(stage_name(module_.entry_points.front().model));
         if (stage.empty()) return fail(Fault::internal, "the SPIR-V module is of an unknown kind of stage");
         interface_.stages = {stage};
-        for (const spirv::Variable& variable : module_.variables) {
+        for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
-        }
         if (!problem_.empty()) return fail(Fault::internal, problem_);
-        sort();
+        sort(interface_.blocks, interface_.storage_blocks, interface_.uniforms, interface_.samplers,
+             interface_.inputs, interface_.outputs);
         return std::move(interface_);
     }
 
   private:
     void add(const spirv::Variable& variable) {
         switch (variable.storage) {
-            case spv::StorageClass::Uniform:
-            case spv::StorageClass::StorageBuffer:
+            case spv::StorageClassUniform:
+            case spv::StorageClassStorageBuffer:
                 return add_block(variable);
-            case spv::StorageClass::UniformConstant:
-            case spv::StorageClass::AtomicCounter:
+            case spv::StorageClassUniformConstant:
+            case spv::StorageClassAtomicCounter:
                 return add_uniform(variable);
-            case spv::StorageClass::Input:
+            case spv::StorageClassInput:
                 return add_variables(variable, interface_.inputs);
-            case spv::StorageClass::Output:
+            case spv::StorageClassOutput:
                 return add_variables(variable, interface_.outputs);
             default:
                 return;
@@ -138,107 +212,79 @@ class Reflection {
         Block block;
         block.name = interface_name(module_, variable);
         if (!check_block(structure, extents, block.name)) return;
-        block.binding = place(module_, spv::Decoration::Binding, variable.id);
+        block.binding = stated(module_, spv::DecorationBinding, variable.id);
         block.size = static_cast<int>(block_size(module_, structure));
         block.stages = interface_.stages;
         block.members = members_of(module_, structure);
-        const bool storage = variable.storage == spv::StorageClass::StorageBuffer ||
-                             module_.decoration(structure, spv::Decoration::BufferBlock);
-        std::vector<Block>& blocks = storage ? interface_.storage_blocks : interface_.blocks;
+        const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
+                                module_.decoration(structure, spv::DecorationBufferBlock);
+        std::vector<Block>& blocks = is_storage ? interface_.storage_blocks : interface_.blocks;
         for (Block& element : elements_of(block, extents)) blocks.push_back(std::move(element));
     }
 
     bool check_block(Id structure, const std::vector<int>& extents, const std::string& name) {
-        if (module_.type(structure).opcode != spv::Op::OpTypeStruct || !is_laid_out(module_, structure)) {
+        std::int64_t count = 1;
+        for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostBindings + 1);
+        if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
             problem_ = fmt::format("block '{}' of the SPIR-V module has no layout", name);
-        } else if (block_size(module_, structure) > std::numeric_limits<int>::max()) {
+        else if (block_size(module_, structure) > kLargest)
             problem_ = fmt::format("block '{}' takes more than 2 GiB", name);
-        } else if (element_count(extents) > most_bindings) {
+        else if (count > kMostBindings)
             problem_ = fmt::format("block '{}' is an array of too many blocks", name);
-        }
         return problem_.empty();
     }
 
     void add_uniform(const spirv::Variable& variable) {
         const Id element = array_element(module_, variable.type);
-        if (is_opaque(module_.type(element))) return add_sampler(variable, element);
-        Uniform uniform;
-        uniform.name = module_.name(variable.id);
-        const bool counter = variable.storage == spv::StorageClass::AtomicCounter;
-        uniform.type = counter ? "atomic_uint" : glsl_name(module_, element);
-        uniform.location = place(module_, spv::Decoration::Location, variable.id);
-        uniform.array = array_extents(module_, variable.type);
-        uniform.members = members_of(module_, element);
-        uniform.stages = interface_.stages;
-        interface_.uniforms.push_back(std::move(uniform));
-    }
-
-    void add_sampler(const spirv::Variable& variable, Id element) {
-        Sampler sampler;
-        sampler.name = module_.name(variable.id);
-        sampler.type = glsl_name(module_, element);
-        sampler.binding = place(module_, spv::Decoration::Binding, variable.id);
-        sampler.array = array_extents(module_, variable.type);
-        sampler.stages = interface_.stages;
-        interface_.samplers.push_back(std::move(sampler));
+        const std::string name = module_.name(variable.id);
+        const std::vector<int> array = array_extents(module_, variable.type);
+        std::string type = type_name(module_, element);
+        if (module_.type(element).is_image() || module_.type(element).opcode == spv::OpTypeSampler) {
+            interface_.samplers.push_back(
+                {name, type, stated(module_, spv::DecorationBinding, variable.id), array, interface_.stages});
+            return;
+        }
+        if (variable.storage == spv::StorageClassAtomicCounter) type = "atomic_uint";
+        interface_.uniforms.push_back({name, type, stated(module_, spv::DecorationLocation, variable.id),
+                                       array, members_of(module_, element), interface_.stages});
     }
 
     void add_variables(const spirv::Variable& variable, std::vector<gobo::Variable>& list) {
-        const bool attribute =
-            variable.storage == spv::StorageClass::Input && interface_.stages.front() == "vertex";
+        const bool is_attribute =
+            variable.storage == spv::StorageClassInput && interface_.stages.front() == "vertex";
         const std::string name = interface_name(module_, variable);
-        if (location_count(module_, variable.type, attribute) > most_locations) {
+        if (locations_of(module_, variable.type, is_attribute) > kMostLocations) {
             problem_ = fmt::format("variable '{}' takes too many locations", name);
             return;
         }
-        add_paths(name, variable.type, place(module_, spv::Decoration::Location, variable.id), attribute,
-                  list);
+        int location = stated(module_, spv::DecorationLocation, variable.id);
+        add_paths(name, variable.type, location, is_attribute, list);
     }
 
-    /// Structs and blocks between stages are listed member by member, as OpenGL's queries do.
-    void add_paths(const std::string& path, Id type, int location, bool attribute,
+    /// Structs and blocks between stages are listed member by member, as OpenGL's queries do. Moves on a
+    /// stated location.
+    void add_paths(const std::string& path, Id id, int& location, bool is_attribute,
                    std::vector<gobo::Variable>& list) {
-        const Id element = array_element(module_, type);
-        const bool structure = module_.type(element).opcode == spv::Op::OpTypeStruct;
-        if (!structure) {
-            list.push_back({path, glsl_name(module_, element), location, array_extents(module_, type)});
-        } else if (is_array(module_.type(type))) {
-            add_elements(path, type, location, attribute, list);
+        const Type& type = module_.type(id);
+        const Id element = array_element(module_, id);
+        if (!is_structure(module_, element)) {
+            list.push_back({path, type_name(module_, element), location, array_extents(module_, id)});
+            if (location >= 0) location += locations_of(module_, id, is_attribute);
+        } else if (type.is_array()) {
+            for (std::uint32_t i = 0; i < type.count; ++i)
+                add_paths(fmt::format("{}[{}]", path, i), type.element, location, is_attribute, list);
         } else {
-            add_members(path, type, location, attribute, list);
+            for_each_member(module_, id, [&](int index, Id member) {
+                const int own = stated(module_, spv::DecorationLocation, id, index);
+                if (own >= 0) location = own;
+                add_paths(path + "." + module_.name(id, index), member, location, is_attribute, list);
+            });
         }
     }
 
-    void add_elements(const std::string& path, Id array, int location, bool attribute,
-                      std::vector<gobo::Variable>& list) {
-        const spirv::Type& type = module_.type(array);
-        const int step = location_count(module_, type.element, attribute);
-        for (int i = 0; i < type.count; ++i) {
-            add_paths(fmt::format("{}[{}]", path, i), type.element, location, attribute, list);
-            if (location >= 0) location += step;
-        }
-    }
-
-    void add_members(const std::string& path, Id structure, int location, bool attribute,
-                     std::vector<gobo::Variable>& list) {
-        const std::vector<Id>& members = module_.type(structure).members;
-        for (int i = 0; i < static_cast<int>(members.size()); ++i) {
-            const Id member = members[static_cast<std::size_t>(i)];
-            const int stated = place(module_, spv::Decoration::Location, structure, i);
-            if (stated >= 0) location = stated;
-            add_paths(path + "." + module_.name(structure, i), member, location, attribute, list);
-            if (location >= 0) location += location_count(module_, member, attribute);
-        }
-    }
-
-    void sort() {
-        const auto by_name = [](const auto& left, const auto& right) { return left.name < right.name; };
-        std::ranges::stable_sort(interface_.blocks, by_name);
-        std::ranges::stable_sort(interface_.storage_blocks, by_name);
-        std::ranges::stable_sort(interface_.uniforms, by_name);
-        std::ranges::stable_sort(interface_.samplers, by_name);
-        std::ranges::stable_sort(interface_.inputs, by_name);
-        std::ranges::stable_sort(interface_.outputs, by_name);
+    template <class... List>
+    static void sort(List&... lists) {
+        (std::ranges::stable_sort(lists, {}, &List::value_type::name), ...);
     }
 
     const Module& module_;
@@ -250,25 +296,21 @@ class Reflection {
 
 bool is_built_in(const Module& module, const spirv::Variable& variable) {
     const Id structure = array_element(module, variable.type);
-    return module.decoration(variable.id, spv::Decoration::BuiltIn).has_value() ||
-           module.decoration(structure, spv::Decoration::BuiltIn, 0).has_value() ||
-           std::string_view(module.name(variable.id)).starts_with("gl_") ||
-           std::string_view(module.name(structure)).starts_with("gl_");
+    return module.decoration(variable.id, spv::DecorationBuiltIn) ||
+           module.decoration(structure, spv::DecorationBuiltIn, 0) ||
+           module.name(variable.id).starts_with("gl_") || module.name(structure).starts_with("gl_");
 }
 
 std::string interface_name(const Module& module, const spirv::Variable& variable) {
     const Id structure = array_element(module, variable.type);
-    return module.name(is_block(module, structure) ? structure : variable.id);
+    const bool is_block = module.decoration(structure, spv::DecorationBlock) ||
+                          module.decoration(structure, spv::DecorationBufferBlock);
+    return module.name(is_block ? structure : variable.id);
 }
 
-Result<Interface> reflect_stage(const Module& module) {
+Result<Interface> reflect_stage(std::span<const std::uint32_t> words) {
+    GOBO_TRY(const Module module, spirv::read_module(words));
     return Reflection(module).run();
-}
-
-Result<Interface> reflect_stage(const std::vector<std::uint32_t>& words) {
-    const Result<Module> module = spirv::read_module(words);
-    if (!module) return tl::unexpected(module.error());
-    return reflect_stage(*module);
 }
 
 }  // namespace gobo

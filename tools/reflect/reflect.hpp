@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <span>
+#include <string>
 
-#include "core/diagnostic.hpp"
 #include "reflect/interface.hpp"
-#include "reflect/spirv_module.hpp"
+#include "spirv/module.hpp"
 
 namespace gobo {
 
@@ -14,8 +14,7 @@ namespace gobo {
 /// module's decorations state; names are those of the source. gl_PerVertex and other built-in variables are
 /// left out. Members of type `bool` in blocks read "uint" (see restore_bools()). Errors (Fault::internal): a
 /// malformed module, none or an unknown kind of entry point, a block without layout.
-[[nodiscard]] Result<Interface> reflect_stage(const std::vector<std::uint32_t>& words);
-[[nodiscard]] Result<Interface> reflect_stage(const spirv::Module& module);
+[[nodiscard]] Result<Interface> reflect_stage(std::span<const std::uint32_t> words);
 
 /// The variable is one of OpenGL's own: gl_Position, gl_PerVertex, gl_DepthRange.
 [[nodiscard]] bool is_built_in(const spirv::Module& module, const spirv::Variable& variable);

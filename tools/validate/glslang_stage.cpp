@@ -9,7 +9,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "reflect/reflect.hpp"
-#include "reflect/restore_bools.hpp"
 #include "validate/glsl_version.hpp"
 #include "validate/glslang_log.hpp"
 

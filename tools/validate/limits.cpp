@@ -4,29 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "spirv/glsl_type.hpp"
+
 namespace gobo {
 namespace {
-
-/// Components of a GLSL scalar, vector or matrix type: 4 for "vec4", 9 for "mat3", 1 for "float".
-int components_of(const std::string& type) {
-    const auto digit = type.find_first_of("234");
-    if (digit == std::string::npos) return 1;
-    const int columns = type[digit] - '0';
-    if (type.find("mat") == std::string::npos) return columns;
-    const bool is_rectangular = digit + 2 < type.size() && type[digit + 1] == 'x';
-    return columns * (is_rectangular ? type[digit + 2] - '0' : columns);
-}
-
-/// Locations of a type that is no array: one per column of a matrix, 1 for all others.
-int columns_of(const std::string& type) {
-    return type.find("mat") == std::string::npos ? 1 : type[type.find_first_of("234")] - '0';
-}
-
-int elements_of(const std::vector<int>& array) {
-    int count = 1;
-    for (const int extent : array) count *= extent;
-    return count;
-}
 
 class Checker {
   public:
@@ -47,7 +28,7 @@ class Checker {
                 fmt::format("uniform blocks in the {} stage:", name),
                 "MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS");
         int samplers = 0;
-        for (const Sampler& sampler : interface.samplers) samplers += elements_of(sampler.array);
+        for (const Sampler& sampler : interface.samplers) samplers += element_count(sampler.array);
         at_most(samplers, limits.samplers_per_stage, fmt::format("samplers in the {} stage:", name),
                 "MAX_TEXTURE_IMAGE_UNITS");
         for (const Block& block : interface.blocks) {
@@ -83,8 +64,8 @@ Diagnostics beyond_limits(const Interface& vertex, const Interface& fragment, co
     int components = 0;
     int vectors = 0;
     for (const Variable& input : fragment.inputs) {
-        components += components_of(input.type) * elements_of(input.array);
-        vectors += columns_of(input.type) * elements_of(input.array);
+        components += glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
+        vectors += location_count(input.type, input.array);
     }
     checker.at_most(components, limits.varying_components, "varying components:", "MAX_VARYING_COMPONENTS");
     if (components <= limits.varying_components)

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "family/diagnostic_groups.hpp"
-#include "reflect/merge.hpp"
+#include "reflect/interface.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/limits.hpp"
 #include "validate/spirv_val.hpp"
@@ -214,8 +214,8 @@ Validated validate(const Family& family, const Composition& composition, const V
 Interface interface_of(const Validated& validated, const Permutation& permutation) {
     if (permutation.vertex < 0) return stage_interface(validated, permutation.fragment);
     if (permutation.fragment < 0) return stage_interface(validated, permutation.vertex);
-    return merge(stage_interface(validated, permutation.vertex),
-                 stage_interface(validated, permutation.fragment));
+    return merge({stage_interface(validated, permutation.vertex),
+                  stage_interface(validated, permutation.fragment)});
 }
 
 }  // namespace gobo

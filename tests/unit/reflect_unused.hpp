@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "reflect/spirv_module.hpp"
 
 namespace gobo {
 
@@ -14,6 +13,5 @@ namespace gobo {
 /// instruction of its functions uses. Built-in variables are left out; members of a block may be unused.
 /// glslang drops functions that are never called, so what only they use is unused too.
 [[nodiscard]] Result<std::vector<std::string>> unused_variables(const std::vector<std::uint32_t>& words);
-[[nodiscard]] std::vector<std::string> unused_variables(const spirv::Module& module);
 
 }  // namespace gobo

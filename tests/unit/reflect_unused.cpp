@@ -1,4 +1,4 @@
-#include "reflect/unused.hpp"
+#include "reflect_unused.hpp"
 
 #include <algorithm>
 #include <set>
@@ -20,7 +20,7 @@ Operands from(Operands operands, std::size_t first, std::size_t count = std::dyn
 /// (SPIR-V specification, 2.16.1). Other operands are left alone: a literal there could look like a
 /// variable's id.
 Operands pointer_operands(const spirv::Instruction& instruction) {
-    const Operands operands = instruction.operands;
+    const Operands operands = instruction.words.subspan(1);
     switch (instruction.opcode) {
         case spv::Op::OpStore:
         case spv::Op::OpCopyMemory:
@@ -55,7 +55,7 @@ std::set<spirv::Id> used_pointers(const spirv::Module& module) {
         in_function = in_function || instruction.opcode == spv::Op::OpFunction;
         if (!in_function) continue;
         const Operands pointers = pointer_operands(instruction);
-        used.insert(pointers.begin(), pointers.end());
+        for (const std::uint32_t pointer : pointers) used.insert(spirv::Id{pointer});
     }
     return used;
 }
@@ -63,21 +63,19 @@ std::set<spirv::Id> used_pointers(const spirv::Module& module) {
 /// Variables of functions and of the module alone are nobody's interface.
 bool is_interface(spv::StorageClass storage) {
     switch (storage) {
-        case spv::StorageClass::Uniform:
-        case spv::StorageClass::UniformConstant:
-        case spv::StorageClass::StorageBuffer:
-        case spv::StorageClass::AtomicCounter:
-        case spv::StorageClass::Input:
-        case spv::StorageClass::Output:
+        case spv::StorageClassUniform:
+        case spv::StorageClassUniformConstant:
+        case spv::StorageClassStorageBuffer:
+        case spv::StorageClassAtomicCounter:
+        case spv::StorageClassInput:
+        case spv::StorageClassOutput:
             return true;
         default:
             return false;
     }
 }
 
-}  // namespace
-
-std::vector<std::string> unused_variables(const spirv::Module& module) {
+std::vector<std::string> unused_in(const spirv::Module& module) {
     const std::set<spirv::Id> used = used_pointers(module);
     std::vector<std::string> names;
     for (const spirv::Variable& variable : module.variables) {
@@ -88,10 +86,11 @@ std::vector<std::string> unused_variables(const spirv::Module& module) {
     return names;
 }
 
+}  // namespace
+
 Result<std::vector<std::string>> unused_variables(const std::vector<std::uint32_t>& words) {
-    const Result<spirv::Module> module = spirv::read_module(words);
-    if (!module) return tl::unexpected(module.error());
-    return unused_variables(*module);
+    GOBO_TRY(const spirv::Module module, spirv::read_module(words));
+    return unused_in(module);
 }
 
 }  // namespace gobo
