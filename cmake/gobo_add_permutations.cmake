@@ -2,12 +2,14 @@
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
 #                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
-#                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [LIBRARY folder])
+#                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [COMMENTS] [LIBRARY folder])
 #
 # Has gobo write the header of the selected permutations, NAME.hpp after the family's name, and puts it on the include
 # path of TARGET: of an executable for itself, of a library for those who link it too. FAMILY is a shipped name or a
 # .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
 # pieces before the family's own. LIBRARY holds shader_lib and templates, by default those that came with gobo.
+#
+# The shaders' comments stay out of the header unless COMMENTS is given.
 #
 # MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
 # choose by, by default the study that came with the family.
@@ -20,7 +22,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED;COMMENTS" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
@@ -130,7 +132,7 @@ function(_gobo_command_line arguments_variable inputs_variable)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
   endforeach()
-  foreach(option ALL RETIRED)
+  foreach(option ALL RETIRED COMMENTS)
     if(arg_${option})
       string(TOLOWER "--${option}" flag)
       list(APPEND arguments ${flag})

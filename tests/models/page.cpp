@@ -67,7 +67,7 @@ Result<Composition> compose_example(const FileSystem& files, const std::string& 
     SearchPath search;
     search.add(files, root + "/shader_lib", "shader_lib/", false);
     search.add(files, root + "/templates", "templates/", false);
-    return compose(family, {key}, search, Dialect::own);
+    return compose(family, {key}, search, Dialect::own, Comments::keep);
 }
 
 /// The comment that a piece begins with.

@@ -29,7 +29,8 @@ struct Composed {
 
 class Compose : public testing::Test {
   protected:
-    Result<Composition> all_of(const std::vector<std::string>& keys, Dialect dialect = Dialect::glsl450) {
+    Result<Composition> all_of(const std::vector<std::string>& keys, Dialect dialect = Dialect::glsl450,
+                               Comments comments = Comments::remove) {
         const MemoryFileSystem disk(files);
         SearchPath search;
         for (const std::string& folder : folders)
@@ -37,7 +38,7 @@ class Compose : public testing::Test {
         const Family family = family_of(body);
         std::vector<Key> read;
         for (const std::string& text : keys) read.push_back(parse_key(family, text).value());
-        return compose(family, read, search, dialect);
+        return compose(family, read, search, dialect, comments);
     }
 
     Composed stage(const std::string& key, StageKind kind, Dialect dialect = Dialect::glsl450) {
@@ -79,6 +80,19 @@ TEST_F(Compose, KeepsLineNumbers) {
     EXPECT_EQ(fragment("default").source, "#version 450 core\nfloat a;\n\n\n\nvoid main() {}\n");
     EXPECT_EQ(stage("default", StageKind::fragment, Dialect::own).source,
               "#version 330 core\nfloat a;\n\n\n\nvoid main() {}\n");
+}
+
+TEST_F(Compose, ShipsCommentsOnlyOnRequest) {
+    files["tiny.frag"] = "// head\nvoid main() {} // b\n";
+    const auto source = [&](Comments comments) {
+        const Composition composition = all_of({"default"}, Dialect::glsl450, comments).value();
+        const int stage = composition.permutations.front().fragment;
+        return source_of(composition, composition.stages.at(static_cast<std::size_t>(stage)));
+    };
+    EXPECT_EQ(source(Comments::remove), "#version 450 core\n\nvoid main() {}\n");
+    EXPECT_EQ(source(Comments::keep), "#version 450 core\n// head\nvoid main() {} // b\n");
+    const Composition composition = all_of({"default"}).value();
+    EXPECT_EQ(line_of(composition.pieces.at(1), 2), "void main() {} // b") << "as messages quote it";
 }
 
 TEST_F(Compose, TakesTheValueThatTheKeyChooses) {
@@ -141,7 +155,8 @@ TEST_F(Compose, APrologueHoldsOnlyWhatItsStageMentions) {
     EXPECT_EQ(vertex("point=3 bump=on").source,
               "#version 450 core\n#define POINTS 3\n#if POINTS > 1\n#endif\nvoid main() {}\n");
     EXPECT_EQ(fragment("point=3 bump=on").source.substr(0, 37), "#version 450 core\n#define USE_BUMP 1\n");
-    EXPECT_EQ(fragment("point=3").source.substr(0, 21), "#version 450 core\n// ") << "off is not defined";
+    EXPECT_EQ(fragment("point=3").source.substr(0, 26), "#version 450 core\n\n#ifdef ")
+        << "off is not defined";
     EXPECT_EQ(vertex("default").source.substr(0, 35), "#version 450 core\n#define POINTS 0\n");
 }
 

@@ -15,7 +15,9 @@ TEST(ScanPiece, BlanksDirectivesAndKeepsLines) {
                                    "#include \"common/math.glsl\"\n\nfloat f() { return 1.0; }",
                                    "a.glsl")
                                    .value();
-    EXPECT_EQ(piece.text, "// head\n\n\n\n\nfloat f() { return 1.0; }\n") << "with a newline at its end";
+    EXPECT_EQ(piece.text, "// head\n                  // as it was\n\n\n\nfloat f() { return 1.0; }\n")
+        << "with a newline at its end";
+    EXPECT_EQ(piece.code, "\n\n\n\n\nfloat f() { return 1.0; }\n");
     EXPECT_EQ(piece.version, "330 core");
     ASSERT_EQ(piece.includes.size(), 2u);
     EXPECT_TRUE(piece.includes[0].of_feature);
@@ -36,6 +38,44 @@ TEST(ScanPiece, SeesNothingInComments) {
     EXPECT_TRUE(piece.version.empty());
     EXPECT_THAT(piece.identifiers, testing::ElementsAre("int", "seen"));
 }
+
+struct CommentRow {
+    const char* name;
+    const char* text;
+    const char* code;
+};
+
+class Comment : public testing::TestWithParam<CommentRow> {};
+
+TEST_P(Comment, BecomesBlanks) {
+    EXPECT_EQ(scan_piece(GetParam().text, "a.glsl").value().code, GetParam().code);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, Comment,
+    testing::Values(
+        CommentRow{"behind_code", "int a; // b\nint c; /* d */\n", "int a;\nint c;\n"},
+        CommentRow{"between_tokens", "int/**/a = 1 /* b */ + 2;\n", "int    a = 1         + 2;\n"},
+        CommentRow{"over_lines", "/* a\n * b\n */ int c;\n", "\n\n    int c;\n"},
+        CommentRow{"behind_code_over_lines", "int a; /* b\n c */\n", "int a;\n\n"},
+        CommentRow{"amid_a_directive_over_lines", "#define A 1 /* b\n c */ + 2\n",
+                   "#define A 1 /*\n   */ + 2\n"},
+        CommentRow{"amid_a_joined_directive", "#define A \\\n/* b\n*/ 2\n", "#define A \\\n/*\n*/ 2\n"},
+        CommentRow{"of_comments", "/**//*/ /* // */ int a; //* b\nint c; // /*\nint d;\n",
+                   "                 int a;\nint c;\nint d;\n"},
+        CommentRow{"at_the_end", "int a; // b", "int a;\n"},
+        CommentRow{"with_windows_line_ends", "int a; // b\r\n/* c\r\n */\r\n#define A \\\r\n 1\r\n",
+                   "int a;\n\n\n#define A \\\n 1\n"},
+        CommentRow{"with_old_line_ends", "int a; // b\rint c;\n", "int a;     \rint c;\n"},
+        CommentRow{"behind_a_backslash", "#define A \\ // b\nint a;\n#define B \\ \nint c;\n",
+                   "#define A \\ \nint a;\n#define B \\ \nint c;\n"},
+        CommentRow{"that_may_go_on", "int a; // b \\\nint c; // d\n", "int a; // b \\\nint c; // d\n"},
+        CommentRow{"that_may_go_on_windows", "// b \\\r\nint c;\n", "// b \\\nint c;\n"},
+        CommentRow{"begun_on_two_lines", "int a; /\\\n/ b\n// c\n", "int a; /\\\n/ b\n// c\n"},
+        CommentRow{"ended_on_two_lines", "/* a *\\\n/ int b; /* */\n", "/* a *\\\n/ int b; /* */\n"},
+        CommentRow{"that_may_be_a_string", "#error \"see // a\" b\n", "#error \"see // a\" b\n"},
+        CommentRow{"with_a_quote", "int a; // don't \"b\n", "int a;\n"}),
+    [](const auto& row) { return row.param.name; });
 
 TEST(ScanPiece, ReadsWindowsLineEndsAndByteOrderMarks) {
     const ScannedPiece piece =
@@ -93,6 +133,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadPieceRow{"renaming_without_a_name", "#include \"a.glsl\" with one as\n",
                     "a.glsl:1:1: error: malformed renaming\n    #include \"a.glsl\" with one as\n    ^\n"
                     "  help: write #include \"folder/piece.glsl\" with name as otherName, ...\n"},
+        BadPieceRow{
+            "open_comment", "int a;\nint b; /* c */ /* d\n\n",
+            "a.glsl:2: error: a comment has no end\n    int b; /* c */ /* d\n  help: close it with */\n"},
         BadPieceRow{"nul_byte", std::string("int a;\n\0", 8),
                     "a.glsl:2: error: holds a NUL byte and is no text\n  help: name a GLSL file\n"},
         BadPieceRow{"nested_over_lines",

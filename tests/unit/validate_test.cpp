@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
+#include "compose/dialect.hpp"
 #include "family/selection.hpp"
 #include "small_families.hpp"
 
@@ -178,6 +179,86 @@ INSTANTIATE_TEST_SUITE_P(
         LimitRow{"binding_36_in_330", Dialect::glsl330, plain_vertex, binds_36,
                  "uniform buffer bindings up to that of 'B': 37, OpenGL guarantees only 36"}),
     [](const auto& row) { return row.param.name; });
+
+/// Comments where they could mean something. Both shaders compile to the same module or to none.
+struct HostileRow {
+    const char* name;
+    const char* text;  ///< before main(), which reads A
+    bool compiles_in_330 = true;
+    bool compiles_in_450 = true;
+};
+
+void PrintTo(const HostileRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class HostileComment : public testing::TestWithParam<std::tuple<Dialect, HostileRow>> {};
+
+TEST_P(HostileComment, MeansTheSameWhenItIsGone) {
+    const auto& [dialect, row] = GetParam();
+    const Files files = {
+        {"tiny.vert", plain_vertex},
+        {"tiny.frag",
+         std::string(row.text) + "\nlayout(location = 0) out vec4 c;\nvoid main() { c = vec4(A); }\n"}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("");
+    ValidateOptions options;
+    options.keep_spirv = options.debug_information = true;
+    std::vector<SpirvModule> modules;
+    std::vector<std::string> sources;
+    for (const Comments comments : {Comments::keep, Comments::remove}) {
+        const Composition composition = compose(family, {{}}, search, dialect, comments).value();
+        const Validated validated = validate(family, composition, options);
+        const auto fragment = static_cast<std::size_t>(composition.permutations.front().fragment);
+        modules.push_back(validated.stages[fragment].spirv);
+        sources.push_back(source_of(composition, composition.stages[fragment]));
+        EXPECT_EQ(exit_status(validated.diagnostics) == 0,
+                  dialect == Dialect::glsl330 ? row.compiles_in_330 : row.compiles_in_450)
+            << first_text(validated.diagnostics) << sources.back();
+    }
+    EXPECT_EQ(modules[0], modules[1]) << sources[1];
+    EXPECT_EQ(std::count(sources[0].begin(), sources[0].end(), '\n'),
+              std::count(sources[1].begin(), sources[1].end(), '\n'));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, HostileComment,
+    testing::Combine(
+        testing::Values(Dialect::glsl330, Dialect::glsl450),
+        testing::Values(
+            HostileRow{"between_tokens", "const/**/float A/* b */=/* c */1.0;// d"},
+            HostileRow{"within_a_number", "const float A = 1/**/.0;", false, false},
+            HostileRow{"within_an_operator", "const float A = 1.0 +/**/+ 2.0;"},
+            HostileRow{"before_a_parameter_list", "#define F/* a */(x) x\nconst float x = 1.0, A = F(x);",
+                       false, false},
+            HostileRow{"before_an_object_like_body", "#define F/* a */(2.0)\nconst float A = F;"},
+            HostileRow{"before_a_directive", "/* a\n */ #define A 1.0"},
+            HostileRow{"within_a_directive", "# /* a */ define /* b */ A 1.0 // c"},
+            HostileRow{"over_lines_within_a_directive", "#define A 1.0 /* a\n b */ + 2.0"},
+            HostileRow{"over_lines_behind_a_directive", "#define A 1.0 /* a\n b */\nconst int b = 1;"},
+            HostileRow{"over_lines_before_a_number_sign", "const int b = 1; /* a\n */ #define A 1.0", false,
+                       false},
+            HostileRow{"in_a_joined_directive", "#define A 1.0 /* a */ \\\n + 2.0", false, true},
+            HostileRow{"over_lines_in_a_joined_directive", "#define A \\\n/* a\n */ 1.0", false, true},
+            HostileRow{"behind_a_backslash", "#define A 1.0\n#if 0\n\\ // a\n#endif\nconst int b = 1;"},
+            HostileRow{"that_ends_in_a_backslash", "const int b = 1; // a \\\nconst float A = 1.0;", true,
+                       false},
+            HostileRow{"that_hides_a_line_in_450", "#define A 1.0\n// a \\\nconst float A = 2.0;\n", false,
+                       true},
+            HostileRow{"begun_on_two_lines", "#define A 1.0\n/\\\n/ a\n", false, true},
+            HostileRow{"in_a_skipped_group",
+                       "#if 0\n/* don't\n#endif\n// */ \"\n#endif\nconst float A = 1.0;"},
+            HostileRow{"in_a_skipped_message", "#if 0\n#error \"http://a\"\n#endif\nconst float A = 1.0;"},
+            HostileRow{"in_a_condition", "#if 1 /* a */ && /* b\n */ 0\n#else\nconst float A = 1.0;\n#endif"},
+            HostileRow{"behind_an_else", "#if 0\n#else // a\nconst float A = 1.0;\n#endif /* b */"},
+            HostileRow{"of_comments", "/*/ /* // */const float A = 1.0; //* a\n/**//**/"},
+            HostileRow{"with_windows_line_ends", "const float\r\n// a\r\nA /* b\r\n */ = 1.0;\r\n"},
+            HostileRow{"with_old_line_ends", "// a\rconst float A = 1.0;"})),
+    [](const auto& row) {
+        return std::string(std::get<1>(row.param).name) + "_" + std::string(name_of(std::get<0>(row.param)));
+    });
 
 /// Loose shaders of every version that glslang knows, whether or not SPIR-V does.
 struct VersionRow {

@@ -39,8 +39,10 @@ std::vector<std::string> identifiers_of_interest(const Family& family) {
 
 class Composer {
   public:
-    Composer(const Family& family, const SearchPath& search, Dialect dialect)
-        : family_(family), dialect_(dialect), library_(family, search, identifiers_of_interest(family)) {}
+    Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments)
+        : family_(family),
+          dialect_(dialect),
+          library_(family, search, identifiers_of_interest(family), comments) {}
 
     Diagnostics add(const Key& key) {
         Permutation permutation;
@@ -292,8 +294,8 @@ class Composer {
 }  // namespace
 
 Result<Composition> compose(const Family& family, const std::vector<Key>& keys, const SearchPath& search,
-                            Dialect dialect) {
-    Composer composer(family, search, dialect);
+                            Dialect dialect, Comments comments) {
+    Composer composer(family, search, dialect, comments);
     for (const Key& key : keys) {
         Diagnostics errors = composer.add(key);
         if (!errors.empty()) return tl::unexpected(std::move(errors));

@@ -12,6 +12,7 @@ namespace gobo {
 /// Errors name the include's file and line: a missing piece (with the folders searched and the nearest file),
 /// an unknown feature, an include cycle (printed whole), a path that leaves the folders searched.
 [[nodiscard]] Result<Composition> compose(const Family& family, const std::vector<Key>& keys,
-                                          const SearchPath& search, Dialect dialect);
+                                          const SearchPath& search, Dialect dialect,
+                                          Comments comments = Comments::remove);
 
 }  // namespace gobo

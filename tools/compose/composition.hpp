@@ -23,17 +23,23 @@ enum class Dialect {
     es300,    ///< OpenGL ES 3.0 and WebGL 2
 };
 
+/// Whether a composition's texts keep the comments of the files. Lines and columns are the same either way.
+enum class Comments { remove, keep };
+
 /// One text of a stage. All pieces of a stage, one after the other, are its source.
 struct Piece {
     std::string name;  ///< portable: "shader_lib/fog/linear.glsl", or relative to the folder it was found in
     std::string path;  ///< as diagnostics and depfiles show it; for a generated piece, the file it comes from
-    std::string text;  ///< includes blanked, so line numbers are those of the file
-    bool on_disk = false;  ///< read from a file that a depfile must name
-    std::string code =
-        {};  ///< `text` without its comments, line for line, quicker to parse; empty: there is none
+    std::string
+        text;  ///< what is validated and shipped: includes blanked, so line numbers are those of the file
+    bool on_disk = false;        ///< read from a file that a depfile must name
+    std::string file_text = {};  ///< `text` with the file's comments, for messages; empty: `text` has them
 
     friend bool operator==(const Piece&, const Piece&) = default;
 };
+
+/// A line of a piece as its file has it.
+[[nodiscard]] std::string_view line_of(const Piece& piece, int number);
 
 /// A stage is a list of pieces: the prologue first, then each piece once, depth first.
 struct Stage {

@@ -29,8 +29,9 @@ bool is_part(const Include& include) {
 
 }  // namespace
 
-PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, std::vector<std::string> interest)
-    : family_(family), search_(search), interest_(std::move(interest)) {}
+PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, std::vector<std::string> interest,
+                           Comments comments)
+    : family_(family), search_(search), interest_(std::move(interest)), comments_(comments) {}
 
 Result<std::optional<int>> PieceLibrary::load(const std::string& path) {
     if (const auto known = by_path_.find(path); known != by_path_.end()) return known->second;
@@ -41,7 +42,10 @@ Result<std::optional<int>> PieceLibrary::load(const std::string& path) {
     Result<ScannedPiece> scanned = scan_piece(std::move(piece.text), piece.path);
     if (!scanned) return tl::unexpected(scanned.error());
     piece.text = std::move(scanned->text);
-    piece.code = std::move(scanned->code);
+    if (comments_ == Comments::remove) {
+        piece.file_text = std::move(piece.text);
+        piece.text = std::move(scanned->code);
+    }
     Entry entry{std::move(piece), std::move(scanned->version), std::move(scanned->includes), {}};
     for (const std::string& identifier : interest_) {
         entry.mentions.push_back(scanned->identifiers.contains(identifier) ? 1 : 0);

@@ -27,7 +27,8 @@ class PieceLibrary {
     };
 
     /// `interest` lists the identifiers that mentions() will be asked for.
-    PieceLibrary(const Family& family, const SearchPath& search, std::vector<std::string> interest);
+    PieceLibrary(const Family& family, const SearchPath& search, std::vector<std::string> interest,
+                 Comments comments);
 
     /// The piece of a template or of a fixed include: PATH.STAGE.EXTENSION where there is one, else PATH.
     [[nodiscard]] Result<int> fixed(const std::string& path, StageKind stage, const Include* from);
@@ -53,6 +54,7 @@ class PieceLibrary {
     const Family& family_;
     const SearchPath& search_;
     std::vector<std::string> interest_;
+    Comments comments_;
     std::deque<Entry> entries_;  ///< not a vector: who holds an entry may load more of them
     std::map<std::string, int> stated_bindings_;
     Diagnostics warnings_;

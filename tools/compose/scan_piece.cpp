@@ -25,26 +25,61 @@ tl::unexpected<Diagnostics> error_at(const Place& place, std::string_view line, 
     return fail(std::move(diagnostic));
 }
 
-/// The text with each comment's characters replaced by blanks; lines and columns stay true.
-std::string without_comments(std::string_view text) {
+/// The line that a character of the text stands on.
+int line_at(std::string_view text, std::size_t at) {
+    return 1 +
+           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+bool is_blank(std::string_view text) {
+    return text.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+/// Whether what stands before a place on its line, or on one that '\\' joins to it, is more than blanks.
+bool follows_code(std::string_view text, std::size_t at) {
+    const std::size_t start = text.substr(0, at).rfind('\n') + 1;
+    return !is_blank(text.substr(start, at - start)) || text.substr(0, start).ends_with("\\\n") ||
+           text.substr(0, start).ends_with("\\\r\n");
+}
+
+/// The text with blanks for the characters of comments, so that lines and columns stay true. `unclosed` is
+/// where a comment without an end starts.
+std::string without_comments(std::string_view text, std::size_t& unclosed) {
     std::string bare(text);
-    std::size_t i = 0;
-    const auto blank_until = [&](std::size_t end) {
-        for (; i < end; ++i) {
+    unclosed = std::string::npos;
+    const auto blank = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
             if (bare[i] != '\n') bare[i] = ' ';
-        }
+        return end;
     };
-    while (i + 1 < bare.size()) {
+    for (std::size_t i = 0; i + 1 < bare.size();) {
         if (bare[i] == '/' && bare[i + 1] == '/') {
-            blank_until(std::min(bare.find('\n', i), bare.size()));
+            i = blank(i, std::min(bare.find_first_of("\r\n", i), bare.size()));
         } else if (bare[i] == '/' && bare[i + 1] == '*') {
-            const std::size_t end = bare.find("*/", i + 2);
-            blank_until(end == std::string::npos ? bare.size() : end + 2);
+            const std::size_t close = bare.find("*/", i + 2);
+            if (close == std::string::npos) unclosed = i;
+            const std::size_t end = close == std::string::npos ? bare.size() : close + 2;
+            const std::string_view rest = std::string_view(bare).substr(end, bare.find('\n', end) - end);
+            // A directive goes on behind a comment that spans lines: without one it would end early.
+            const bool joins = bare.find('\n', i) < end && follows_code(bare, i) && !is_blank(rest);
+            i = joins ? blank(i + 2, end - 2) + 2 : blank(i, end);
         } else {
             ++i;
         }
     }
     return bare;
+}
+
+/// Whether readers of GLSL may disagree on what is a comment: since 4.2 and ES 3.0 a '\\' joins two lines
+/// even there, and glslang takes what stands in double quotes for a string.
+bool are_disputed(std::string_view text, std::string_view bare) {
+    if (bare.find('"') != std::string_view::npos) return true;
+    for (std::size_t at = text.find('\\'); at < text.size(); at = text.find('\\', at + 1)) {
+        const bool joins = text.substr(at + 1).starts_with('\n') || text.substr(at + 1).starts_with("\r\n");
+        const bool parts = at > 0 && (text[at - 1] == '/' || text[at - 1] == '*');
+        if (joins && (parts || bare[at] != '\\')) return true;
+    }
+    return false;
 }
 
 std::set<std::string, std::less<>> identifiers_of(std::string_view bare) {
@@ -86,8 +121,7 @@ Diagnostics unstated_layouts(const std::string& bare, std::string_view text, con
         if ((*at)[2].str().find("std140") != std::string::npos) continue;
         Diagnostic diagnostic;
         diagnostic.severity = Severity::warning;
-        diagnostic.place = {
-            path, 1 + static_cast<int>(std::count(bare.begin(), bare.begin() + at->position(3), '\n')), 0};
+        diagnostic.place = {path, line_at(bare, static_cast<std::size_t>(at->position(3))), 0};
         diagnostic.quoted_line = line_of(text, diagnostic.place.line);
         diagnostic.message = fmt::format(
             "the uniform block '{}' does not state std140: drivers lay it out as they like", (*at)[3].str());
@@ -122,11 +156,17 @@ std::optional<Directive> directive_of(std::string_view bare_line) {
 /// Walks over the lines of one file, collecting into `result`.
 class Scanner {
   public:
-    Scanner(std::string text, const std::string& path) : path_(path), bare_(without_comments(text)) {
+    Scanner(std::string text, const std::string& path)
+        : path_(path), bare_(without_comments(text, unclosed_)) {
         result_.text = std::move(text);
     }
 
     Result<ScannedPiece> run() {
+        if (unclosed_ != std::string::npos) {
+            const int line = line_at(result_.text, unclosed_);
+            return error_at({path_, line, 0}, line_of(result_.text, line), "a comment has no end",
+                            "close it with */");
+        }
         std::size_t start = 0;
         for (int number = 1; start < bare_.size(); ++number) {
             const std::size_t end = std::min(bare_.find('\n', start), bare_.size());
@@ -138,7 +178,7 @@ class Scanner {
         if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos) {
             result_.bindings = bindings_of(bare_);
         }
-        result_.code = bare_;
+        result_.code = are_disputed(result_.text, bare_) ? result_.text : bare_;
         result_.warnings = unstated_layouts(bare_, result_.text, path_);
         return std::move(result_);
     }
@@ -223,28 +263,31 @@ class Scanner {
     }
 
     void blank(std::size_t start, std::size_t end) {
-        for (std::size_t i = start; i < end; ++i) result_.text[i] = bare_[i] = ' ';
+        for (std::size_t i = start; i < end; ++i)
+            if (bare_[i] != ' ') result_.text[i] = bare_[i] = ' ';
     }
 
     std::string path_;
+    std::size_t unclosed_ = 0;
     std::string bare_;
     ScannedPiece result_;
     bool seen_code_ = false;
     int depth_ = 0;
 };
 
-/// Blanks left where a directive stood would only swell the header.
-std::string without_trailing_blanks(const std::string& text) {
+/// Blanks left where a comment or directive stood would only swell the header. Behind a '\\' one stays: it
+/// keeps the next line from being joined to this one.
+std::string without_trailing_blanks(std::string_view text) {
     std::string result;
     result.reserve(text.size() + 1);
-    std::size_t start = 0;
-    while (start < text.size()) {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        const std::size_t last = text.find_last_not_of(" \t\r", end == 0 ? 0 : end - 1);
-        if (last != std::string::npos && last >= start && last < end)
-            result.append(text, start, last + 1 - start);
-        result += '\n';
-        start = end + 1;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        const std::string_view kept = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        const std::string_view rest = line.substr(kept.size());
+        result += kept;
+        result += kept.ends_with('\\') && !rest.empty() && rest != "\r" ? " \n" : "\n";
+        text.remove_prefix(std::min(end + 1, text.size()));
     }
     return result;
 }
@@ -254,9 +297,8 @@ std::string without_trailing_blanks(const std::string& text) {
 Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     if (const auto nul = text.find('\0'); nul != std::string::npos) {
-        const auto line = 1 + static_cast<int>(std::count(
-                                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n'));
-        return error_at({path, line, 0}, "", "holds a NUL byte and is no text", "name a GLSL file");
+        return error_at({path, line_at(text, nul), 0}, "", "holds a NUL byte and is no text",
+                        "name a GLSL file");
     }
     Result<ScannedPiece> piece = Scanner(std::move(text), path).run();
     if (piece) {

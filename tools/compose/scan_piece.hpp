@@ -31,8 +31,9 @@ struct Include {
 
 /// One GLSL file as the composer sees it.
 struct ScannedPiece {
-    std::string text;     ///< the file with #include and #version lines blanked, ending in a newline
-    std::string code;     ///< `text` without its comments, line for line
+    std::string text;  ///< the file with #include and #version lines blanked, ending in a newline
+    std::string code;  ///< `text` with blanks for its comments, line for line and column for column; `text`
+                       ///< itself where GLSL's versions may disagree on what is a comment
     std::string version;  ///< "330 core" of its #version line, or empty
     std::vector<Include> includes;
     std::set<std::string, std::less<>> identifiers;  ///< outside comments
@@ -40,8 +41,8 @@ struct ScannedPiece {
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 
-/// Scans a file. Errors: an include after code, a malformed include, brackets nested so deeply that parsing
-/// the shader could exhaust the stack, bytes that are no text.
+/// Scans a file. Errors: an include after code, a malformed include, a comment without an end, brackets
+/// nested so deeply that parsing the shader could exhaust the stack, bytes that are no text.
 [[nodiscard]] Result<ScannedPiece> scan_piece(std::string text, const std::string& path);
 
 }  // namespace gobo

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/file_system.hpp"
 #include "compose/composition.hpp"
+#include "core/file_system.hpp"
 
 namespace gobo {
 

@@ -27,6 +27,7 @@ struct BuildOptions {
     std::string folder;
     std::string cpp_namespace;
     std::string depfile_target;
+    bool comments = false;
 };
 
 /// The interface of the whole family: what any permutation of the composition declares.
@@ -110,7 +111,8 @@ Outcome run(const BuildOptions& options, const World& world) {
     if (!family) return failed(family.error());
     const Result<Chosen> chosen = choose_keys(options, world, *family, *dialect);
     if (!chosen) return failed(chosen.error());
-    const Result<Composition> composition = compose(family->family, chosen->keys, family->search, *dialect);
+    const Result<Composition> composition = compose(family->family, chosen->keys, family->search, *dialect,
+                                                    options.comments ? Comments::keep : Comments::remove);
     if (!composition) return failed(composition.error());
     ValidateOptions validate_options;
     validate_options.jobs = options.common.jobs;
@@ -142,6 +144,7 @@ Command build_command(CLI::App& gobo) {
                     "What the depfile says is made, by default the header: a stamp, for build tools that "
                     "compare times")
         ->type_name("FILE");
+    add_comments_option(*app, options->comments);
     add_selection_options(*app, options->selection);
     add_budget_options(*app, options->budget);
     add_dialect_option(*app, options->dialect);

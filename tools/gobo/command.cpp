@@ -124,6 +124,10 @@ void add_dialect_option(CLI::App& app, std::string& dialect) {
         ->type_name("450|330|es300");
 }
 
+void add_comments_option(CLI::App& app, bool& comments) {
+    app.add_flag("--comments", comments, "Keep the comments of the shaders; without it, blanks replace them");
+}
+
 Result<std::string> read_input(const World& world, const std::string& path) {
     if (path != "-") return world.disk.read(path);
     Result<std::string> text = world.disk.read("/dev/stdin");
@@ -213,10 +217,10 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family, con
 }
 
 Result<Composition> load_composition(const World& world, LoadedFamily& family,
-                                     const SelectionOptions& options, Dialect dialect) {
+                                     const SelectionOptions& options, Dialect dialect, Comments comments) {
     const Result<std::vector<Key>> keys = load_keys(world, family, options, dialect);
     if (!keys) return tl::unexpected(keys.error());
-    return compose(family.family, *keys, family.search, dialect);
+    return compose(family.family, *keys, family.search, dialect, comments);
 }
 
 Outcome failed(Diagnostics diagnostics) {

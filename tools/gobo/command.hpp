@@ -76,6 +76,8 @@ struct SelectionOptions {
 void add_common_options(CLI::App& app, CommonOptions& options);
 void add_selection_options(CLI::App& app, SelectionOptions& options);
 void add_dialect_option(CLI::App& app, std::string& dialect);
+void add_comments_option(CLI::App& app, bool& comments);
+void add_comments_option(CLI::App& app, bool& comments);
 
 /// A family with where its pieces are found and the files read so far.
 struct LoadedFamily {
@@ -94,7 +96,8 @@ struct LoadedFamily {
 
 /// load_keys() and compose() in one.
 [[nodiscard]] Result<Composition> load_composition(const World& world, LoadedFamily& family,
-                                                   const SelectionOptions& options, Dialect dialect);
+                                                   const SelectionOptions& options, Dialect dialect,
+                                                   Comments comments = Comments::remove);
 
 /// A file, or standard input where the path is `-`.
 [[nodiscard]] Result<std::string> read_input(const World& world, const std::string& path);

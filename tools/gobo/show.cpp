@@ -14,6 +14,7 @@ struct ShowOptions {
     std::string stage;
     std::string dialect;
     bool pieces = false;
+    bool comments = false;
 };
 
 std::string shown(const Composition& composition, const Stage& stage, const ShowOptions& options) {
@@ -31,7 +32,8 @@ Outcome run(const ShowOptions& options, const World& world) {
     if (!family) return failed(family.error());
     SelectionOptions selection;
     selection.keys = {options.key};
-    const Result<Composition> composition = load_composition(world, *family, selection, *dialect);
+    const Result<Composition> composition = load_composition(
+        world, *family, selection, *dialect, options.comments ? Comments::keep : Comments::remove);
     if (!composition) return failed(composition.error());
     const Permutation& permutation = composition->permutations.front();
     const Stage& vertex = composition->stages[static_cast<std::size_t>(permutation.vertex)];
@@ -56,6 +58,7 @@ Command show_command(CLI::App& gobo) {
         ->type_name("vertex|fragment")
         ->check(CLI::IsMember({"vertex", "fragment", "vert", "frag"}));
     app->add_flag("--pieces", options->pieces, "Print the pieces' names instead of their text");
+    add_comments_option(*app, options->comments);
     add_dialect_option(*app, options->dialect);
     add_common_options(*app, options->common);
     app->footer(

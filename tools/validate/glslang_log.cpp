@@ -59,7 +59,7 @@ Diagnostic diagnostic_of(Severity severity, std::string_view message, const std:
     if (!head) return diagnostic;
     diagnostic.place = {head->piece->path, head->line, 0};
     // A generated piece carries the lines of the file it comes from only where it stands for one.
-    diagnostic.quoted_line = line_of(head->piece->text, head->line);
+    diagnostic.quoted_line = line_of(*head->piece, head->line);
     return diagnostic;
 }
 

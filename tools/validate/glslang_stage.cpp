@@ -124,8 +124,7 @@ std::unique_ptr<GlslangStage::Shader> GlslangStage::parse_as(const std::string& 
     auto parsed = std::make_unique<Shader>(language_of(kind_));
     parsed->prologue = prologue;
     for (const Piece* piece : pieces_) {
-        const std::string& code = piece->code.empty() ? piece->text : piece->code;
-        const std::string& text = piece == pieces_.front() ? parsed->prologue : code;
+        const std::string& text = piece == pieces_.front() ? parsed->prologue : piece->text;
         parsed->texts.push_back(text.data());
         parsed->lengths.push_back(static_cast<int>(text.size()));
         parsed->names.push_back(piece->path.c_str());

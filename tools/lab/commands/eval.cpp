@@ -43,7 +43,7 @@ Result<evaluate::Program> program_of(const Subject& subject, const std::string& 
 evaluate::SourceLine quote_pieces(const Composition& composition) {
     return [&composition](const Place& place) -> std::string {
         for (const Piece& piece : composition.pieces)
-            if (piece.path == place.file) return std::string(line_of(piece.text, place.line));
+            if (piece.path == place.file) return std::string(line_of(piece, place.line));
         return {};
     };
 }

@@ -67,7 +67,7 @@ Result<Subject> subject_of(const SanitizeCommandOptions& options, const World& w
 std::string quoted_line(const Composition& composition, const Place& place) {
     const auto piece = std::find_if(composition.pieces.begin(), composition.pieces.end(),
                                     [&](const Piece& other) { return other.path == place.file; });
-    return piece == composition.pieces.end() ? "" : std::string(line_of(piece->text, place.line));
+    return piece == composition.pieces.end() ? "" : std::string(line_of(*piece, place.line));
 }
 
 /// "1.linear.glsl.15.toml": the last part of the place's path, and its line.

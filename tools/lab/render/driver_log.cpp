@@ -80,7 +80,7 @@ Diagnostics diagnostics_of_log(std::string_view log, const StageText& stage) {
         diagnostic.message = line.message;
         if (const Piece* piece = piece_at(stage.pieces, line.string, line.line)) {
             diagnostic.place = {piece->path, line.line, 0};
-            diagnostic.quoted_line = line_of(piece->text, line.line);
+            diagnostic.quoted_line = line_of(*piece, line.line);
         }
         diagnostics.push_back(std::move(diagnostic));
     }
