@@ -1,4 +1,4 @@
-// The versines of cones against those of known angles.
+// One minus the cosine of half angles against that of known ones.
 #include <cmath>
 
 #include <gobo/spot_cone.hpp>
@@ -9,7 +9,7 @@ namespace {
 struct Angle {
     const char* name;
     double degrees;
-    double versine;
+    double one_minus_cosine;
 };
 
 constexpr Angle angles[] = {{"nothing", 0, 0},      {"a third", 60, 0.5},
@@ -19,12 +19,17 @@ constexpr Angle angles[] = {{"nothing", 0, 0},      {"a third", 60, 0.5},
 /// 2^-23: the float that is returned is rounded once, and the angle before it.
 constexpr double rounding = 0x1p-23;
 
-TEST(SpotCone, HasTheVersineOfAnAngle) {
+TEST(SpotCone, HasOneMinusTheCosineOfAnAngle) {
     for (const Angle& row : angles) {
-        EXPECT_NEAR(gobo::versine_of_degrees(row.degrees), row.versine, rounding * row.versine) << row.name;
+        EXPECT_NEAR(gobo::one_minus_cosine_of_degrees(row.degrees), row.one_minus_cosine,
+                    rounding * row.one_minus_cosine)
+            << row.name;
         const double radians = row.degrees * std::acos(-1.0) / 180;
-        EXPECT_NEAR(gobo::versine_of_angle(radians), row.versine, rounding * row.versine) << row.name;
-        EXPECT_NEAR(gobo::versine_of_cosine(1 - row.versine), row.versine, rounding * row.versine)
+        EXPECT_NEAR(gobo::one_minus_cosine_of_radians(radians), row.one_minus_cosine,
+                    rounding * row.one_minus_cosine)
+            << row.name;
+        EXPECT_NEAR(gobo::one_minus_cosine(1 - row.one_minus_cosine), row.one_minus_cosine,
+                    rounding * row.one_minus_cosine)
             << row.name << ", by a cosine in double precision";
     }
 }
