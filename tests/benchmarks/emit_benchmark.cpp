@@ -4,8 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/file_system.hpp"
-#include "emit/header.hpp"
-#include "emit/manifest.hpp"
+#include "emit/emit.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {

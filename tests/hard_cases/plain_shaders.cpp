@@ -11,7 +11,7 @@
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "compose/compose.hpp"
-#include "compose/loose_files.hpp"
+#include "compose/search_path.hpp"
 #include "lab/evaluate/images.hpp"
 #include "validate/validate.hpp"
 

@@ -9,7 +9,7 @@
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "compose/compose.hpp"
-#include "compose/loose_files.hpp"
+#include "compose/search_path.hpp"
 #include "lab/evaluate/program.hpp"
 #include "validate/validate.hpp"
 

@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
                        true},
             HostileRow{"begun_on_two_lines", "#define A 1.0\n/\\\n/ a\n", false, true},
             HostileRow{"in_a_skipped_group",
-                       "#if 0\n/* don't\n#endif\n// */ \"\n#endif\nconst float A = 1.0;"},
+                       "#if 0\n/* don't\n#endif\n// \" */\n#endif\nconst float A = 1.0;"},
             HostileRow{"in_a_skipped_message", "#if 0\n#error \"http://a\"\n#endif\nconst float A = 1.0;"},
             HostileRow{"in_a_condition", "#if 1 /* a */ && /* b\n */ 0\n#else\nconst float A = 1.0;\n#endif"},
             HostileRow{"behind_an_else", "#if 0\n#else // a\nconst float A = 1.0;\n#endif /* b */"},

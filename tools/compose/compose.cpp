@@ -1,104 +1,248 @@
 #include "compose/compose.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <map>
-#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
-#include "compose/piece_library.hpp"
+#include "compose/scan_piece.hpp"
 #include "core/text.hpp"
+#include "family/key.hpp"
 
 namespace gobo {
 namespace {
 
 /// Includes nested deeper than this are refused: a chain of that length is a mistake.
-constexpr std::size_t deepest_include = 100;
+constexpr std::size_t kDeepestInclude = 100;
+
+tl::unexpected<Diagnostics> fail_at(const Include& include, std::string message, std::string help) {
+    return fail(include.place, include.line, std::move(message), std::move(help));
+}
+
+template <class List, class Item>
+bool has(const List& list, const Item& item) {
+    return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+/// The pieces read so far, each scanned once, and the resolution of includes to them. Whatever does not
+/// depend on the key is computed once.
+class PieceLibrary {
+  public:
+    /// A file with what the composer asks of it again and again.
+    struct Entry {
+        Piece piece;
+        std::string version;
+        std::vector<Include> includes;
+        std::vector<char> mentions;  ///< per identifier of interest
+    };
+
+    PieceLibrary(const Family& family, const SearchPath& search, Comments comments)
+        : family_(family), search_(search), comments_(comments) {
+        for (const Feature& feature : family.features)
+            if (!feature.macro.empty()) interest_.push_back(feature.macro);
+        for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
+    }
+
+    /// The piece of a template or of a fixed include: PATH.STAGE.EXTENSION where there is one, else PATH.
+    Result<int> fixed(const std::string& path, StageKind stage, const Include& from) {
+        if (!stays_inside(path)) {
+            return fail_at(
+                from, fmt::format("the path '{}' leaves the folders searched", path),
+                "write a path relative to one of them, without '..' in front; name further folders with -I");
+        }
+        const bool is_template = from.place.line == 0;  // no line of a file includes it
+        GOBO_TRY(const std::optional<int> piece, first_of({with_infix(path, stage), path}));
+        if (piece) return *piece;
+        return missing(path, from, fmt::format("no {} '{}'", is_template ? "template" : "piece", path));
+    }
+
+    /// The piece that an include of a feature means for a value; nothing for a count of 0.
+    Result<std::optional<int>> chosen(const Include& include, const Key& key, StageKind stage) {
+        const std::string wanted = include.target.substr(0, include.target.find('/'));
+        const auto index = family_.index_of(wanted);
+        if (!index) {
+            std::vector<std::string> names = {"varyings"};
+            for (const Feature& feature : family_.features) names.push_back(feature.name);
+            return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, wanted),
+                           suggestion(wanted, names));
+        }
+        const auto at = static_cast<std::size_t>(*index);
+        const auto choice = std::tuple(include.target, key[at], stage);
+        if (const auto known = by_choice_.find(choice); known != by_choice_.end()) return known->second;
+        GOBO_TRY(const std::optional<int> piece, find_value(include, family_.features[at], key[at], stage));
+        return by_choice_[choice] = piece;
+    }
+
+    /// The number of a generated text; equal texts have equal numbers.
+    int generated(Piece piece) {
+        const auto [at, is_new] =
+            by_generated_text_.try_emplace(piece.text, static_cast<int>(entries_.size()));
+        if (is_new) entries_.push_back({std::move(piece), {}, {}, std::vector<char>(interest_.size(), 0)});
+        return at->second;
+    }
+
+    [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
+
+    /// Whether one of the pieces mentions an identifier that the dialects' prologues or the family ask for.
+    [[nodiscard]] bool mentions(const std::vector<int>& pieces, std::string_view identifier) const {
+        const auto index = static_cast<std::size_t>(
+            std::find(interest_.begin(), interest_.end(), identifier) - interest_.begin());
+        return index < interest_.size() && std::any_of(pieces.begin(), pieces.end(), [&](int piece) {
+                   return entry(piece).mentions[index] != 0;
+               });
+    }
+
+    /// Hands over pieces, files, bindings and warnings.
+    void move_to(Composition& composition) {
+        for (Entry& entry : entries_) {
+            if (entry.piece.on_disk) composition.files.push_back(entry.piece.path);
+            composition.pieces.push_back(std::move(entry.piece));
+        }
+        std::vector<std::string>& files = composition.files;
+        std::sort(files.begin(), files.end());
+        files.erase(std::unique(files.begin(), files.end()), files.end());
+        composition.stated_bindings = std::move(stated_bindings_);
+        composition.warnings = std::move(warnings_);
+    }
+
+  private:
+    /// "surface/normal.glsl" -> "surface/normal.frag.glsl"
+    static std::string with_infix(const std::string& path, StageKind stage) {
+        const auto dot = path.rfind('.');
+        const auto slash = path.rfind('/');
+        if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path;
+        return fmt::format("{}.{}{}", path.substr(0, dot), stage == StageKind::vertex ? "vert" : "frag",
+                           path.substr(dot));
+    }
+
+    Result<std::optional<int>> load(const std::string& path) {
+        if (const auto known = by_path_.find(path); known != by_path_.end()) return known->second;
+        GOBO_TRY(std::optional<Piece> piece, search_.find(path));
+        if (!piece) return by_path_[path] = std::nullopt;
+        piece->file_text = piece->text;
+        GOBO_TRY(ScannedPiece scanned, scan_piece(std::move(piece->text), piece->path));
+        piece->text = std::move(comments_ == Comments::keep ? scanned.text : scanned.code);
+        Entry entry{std::move(*piece), std::move(scanned.version), std::move(scanned.includes), {}};
+        for (const std::string& identifier : interest_)
+            entry.mentions.push_back(scanned.identifiers.contains(identifier) ? 1 : 0);
+        entries_.push_back(std::move(entry));
+        stated_bindings_.merge(scanned.bindings);
+        warnings_.insert(warnings_.end(), scanned.warnings.begin(), scanned.warnings.end());
+        return by_path_[path] = static_cast<int>(entries_.size()) - 1;
+    }
+
+    Result<std::optional<int>> first_of(const std::vector<std::string>& paths) {
+        for (const std::string& path : paths) {
+            GOBO_TRY(const std::optional<int> piece, load(path));
+            if (piece) return piece;
+        }
+        return std::nullopt;
+    }
+
+    Result<std::optional<int>> find_value(const Include& include, const Feature& feature, int value,
+                                          StageKind stage) {
+        const bool is_count = feature.kind == FeatureKind::count;
+        if (is_count && value == 0) return std::nullopt;
+        const std::string& value_name =
+            is_count ? feature.name : feature.values[static_cast<std::size_t>(value)];
+        const std::string path = fmt::format("{}/{}.glsl", include.target, value_name);
+        std::vector<std::string> candidates = {with_infix(path, stage), path};
+        // `#include <feature/part>`: values without a file of their own share FEATURE/PART.glsl.
+        if (include.target.find('/') != std::string::npos) candidates.push_back(include.target + ".glsl");
+        GOBO_TRY(const std::optional<int> piece, first_of(candidates));
+        if (piece) return piece;
+        return missing(path, include,
+                       is_count ? fmt::format("count '{}' has no piece '{}'", feature.name, path)
+                                : fmt::format("value '{}' of feature '{}' has no piece '{}'", value_name,
+                                              feature.name, path));
+    }
+
+    tl::unexpected<Diagnostics> missing(const std::string& wanted, const Include& from,
+                                        std::string message) const {
+        std::string help = fmt::format("searched {}", join(search_.folders(), ", "));
+        if (const auto near = nearest(wanted, search_.all_include_paths()))
+            help += fmt::format("; nearest: '{}'", *near);
+        return fail_at(from, std::move(message), std::move(help));
+    }
+
+    const Family& family_;
+    const SearchPath& search_;
+    Comments comments_;
+    /// What mentions() is asked for.
+    std::vector<std::string> interest_ = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
+                                          "SAMPLER", "DEPTH",   "early_fragment_tests"};
+    std::deque<Entry> entries_;  ///< not a vector: who holds an entry may load more of them
+    std::map<std::string, int> stated_bindings_;
+    Diagnostics warnings_;
+    std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
+    std::map<std::string, int, std::less<>> by_generated_text_;
+    /// Target of the include, value, stage.
+    std::map<std::tuple<std::string, int, StageKind>, std::optional<int>, std::less<>> by_choice_;
+};
 
 /// A stage being put together: the pieces placed so far and the includes that lead to the one being placed.
 struct Placement {
     const Key& key;
     StageKind stage;
-    std::vector<int> placed;
-    std::map<int, std::vector<Renaming>> names;  ///< of the pieces placed under other names
-    std::vector<int> open;                       ///< pieces whose includes are being followed
-    bool wants_varyings = false;                 ///< an `#include <varyings>` was met
-    const std::vector<int>* varyings = nullptr;  ///< to write, in the vertex stage
+    const std::vector<int>* varyings;  ///< to write, in the vertex stage
+    std::vector<int> placed = {};
+    std::map<int, std::vector<Renaming>> names = {};  ///< of the pieces placed under other names
+    std::vector<int> open = {};                       ///< pieces whose includes are being followed
+    bool wants_varyings = false;                      ///< an `#include <varyings>` was met
 };
-
-std::vector<std::string> identifiers_of_interest(const Family& family) {
-    std::vector<std::string> names = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
-                                      "SAMPLER", "DEPTH",   "early_fragment_tests"};
-    for (const Feature& feature : family.features) {
-        if (!feature.macro.empty()) names.push_back(feature.macro);
-    }
-    for (const Varying& varying : family.varyings) names.push_back(varying.name);
-    return names;
-}
 
 class Composer {
   public:
     Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments)
-        : family_(family),
-          dialect_(dialect),
-          library_(family, search, identifiers_of_interest(family), comments) {}
+        : family_(family), library_(family, search, comments) {
+        composition_.dialect = dialect;
+    }
 
-    Diagnostics add(const Key& key) {
-        Permutation permutation;
-        permutation.key = key;
-        Result<Placement> fragment = place_template(key, StageKind::fragment, family_.fragment, nullptr);
-        if (!fragment) return fragment.error();
-        const std::vector<int> read = varyings_read(fragment->placed);
-        Result<Placement> vertex = place_template(key, StageKind::vertex, family_.vertex, &read);
-        if (!vertex) return vertex.error();
-        permutation.vertex = finish(*vertex, read);
-        permutation.fragment = finish(*fragment, read);
-        permutations_.push_back(std::move(permutation));
+    Result<void> add(const Key& key) {
+        Placement fragment{key, StageKind::fragment, nullptr};
+        GOBO_TRY_DO(place_template(fragment, family_.fragment));
+        const std::vector<int> read = varyings_read(fragment.placed);
+        Placement vertex{key, StageKind::vertex, &read};
+        GOBO_TRY_DO(place_template(vertex, family_.vertex));
+        const int vertex_stage = finish(vertex, read);
+        composition_.permutations.push_back({key, vertex_stage, finish(fragment, read)});
         return {};
     }
 
     Composition result() && {
-        Composition composition;
-        composition.pieces = library_.pieces();
-        composition.stages = std::move(stages_);
-        composition.permutations = std::move(permutations_);
-        composition.files = library_.files();
-        composition.stated_bindings = library_.stated_bindings();
-        composition.warnings = library_.warnings();
-        composition.dialect = dialect_;
-        return composition;
+        library_.move_to(composition_);
+        return std::move(composition_);
     }
 
   private:
-    Result<Placement> place_template(const Key& key, StageKind stage, const std::string& path,
-                                     const std::vector<int>* varyings) {
-        Placement placement{key, stage, {}, {}, {}, false, varyings};
-        if (path.empty()) return placement;
-        const Result<int> piece = library_.fixed(path, stage, nullptr);
-        if (!piece) return tl::unexpected(piece.error());
-        Diagnostics errors = place(placement, *piece, nullptr);
-        if (!errors.empty()) return tl::unexpected(std::move(errors));
-        return placement;
+    Result<void> place_template(Placement& placement, const std::string& path) {
+        if (path.empty()) return {};
+        const Include from{false, path, {family_.path, 0, 0}, ""};
+        GOBO_TRY(const int piece, library_.fixed(path, placement.stage, from));
+        return place(placement, piece, from);
     }
 
     /// Places a piece after everything it includes, once.
-    Diagnostics place(Placement& placement, int piece, const Include* from) {
-        const std::vector<Renaming> renamings = from != nullptr ? from->renamings : std::vector<Renaming>{};
-        if (std::find(placement.placed.begin(), placement.placed.end(), piece) != placement.placed.end())
-            return renamings.empty() || placement.names[piece] == renamings ? Diagnostics{}
-                                                                            : two_names(piece, *from);
-        if (std::find(placement.open.begin(), placement.open.end(), piece) != placement.open.end()) {
-            return cycle(placement, piece, *from);
+    Result<void> place(Placement& placement, int piece, const Include& from) {
+        if (has(placement.placed, piece)) {
+            if (from.renamings.empty() || placement.names[piece] == from.renamings) return {};
+            return fail_at(from,
+                           fmt::format("'{}' is in this stage already, under other names",
+                                       library_.entry(piece).piece.name),
+                           "include it with the same renaming everywhere; a stage holds each piece once");
         }
-        if (placement.open.size() > deepest_include) return too_deep(*from);
+        if (has(placement.open, piece)) return cycle(placement, piece, from);
+        if (placement.open.size() > kDeepestInclude) {
+            return fail_at(from, fmt::format("includes are nested more than {} deep", kDeepestInclude),
+                           "include the piece from the template");
+        }
         placement.open.push_back(piece);
-        for (const Include& include : library_.entry(piece).includes) {
-            Diagnostics errors = follow(placement, include);
-            if (!errors.empty()) return errors;
-        }
+        for (const Include& include : library_.entry(piece).includes) GOBO_TRY_DO(follow(placement, include));
         placement.open.pop_back();
-        put(placement, piece, renamings);
+        put(placement, piece, from.renamings);
         return {};
     }
 
@@ -117,85 +261,48 @@ class Composer {
         placement.names[piece] = renamings;
     }
 
-    Diagnostics two_names(int piece, const Include& from) const {
-        Diagnostic diagnostic;
-        diagnostic.place = from.place;
-        diagnostic.quoted_line = from.line;
-        diagnostic.message =
-            fmt::format("'{}' is in this stage already, under other names", library_.entry(piece).piece.name);
-        diagnostic.help = "include it with the same renaming everywhere; a stage holds each piece once";
-        return {diagnostic};
-    }
-
-    Diagnostics follow(Placement& placement, const Include& include) {
-        if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings")) {
+    Result<void> follow(Placement& placement, const Include& include) {
+        if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings"))
             return follow_varyings(placement);
-        }
         if (!include.of_feature) {
-            const Result<int> piece = library_.fixed(include.target, placement.stage, &include);
-            return piece ? place(placement, *piece, &include) : piece.error();
+            GOBO_TRY(const int piece, library_.fixed(include.target, placement.stage, include));
+            return place(placement, piece, include);
         }
-        const Result<std::optional<int>> piece = library_.chosen(include, placement.key, placement.stage);
-        if (!piece) return piece.error();
-        return *piece ? place(placement, **piece, &include) : Diagnostics{};
+        GOBO_TRY(const std::optional<int> piece, library_.chosen(include, placement.key, placement.stage));
+        return piece ? place(placement, *piece, include) : Result<void>{};
     }
 
     /// `#include <varyings>` in the vertex stage: the pieces that the written varyings need, then their
     /// declarations.
-    Diagnostics follow_varyings(Placement& placement) {
+    Result<void> follow_varyings(Placement& placement) {
         if (placement.varyings == nullptr) return {};  // the fragment stage's stand behind its prologue
         placement.wants_varyings = true;
         for (const int index : *placement.varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             if (varying.piece.empty()) continue;
             const Include needed{false, varying.piece, varying.place, ""};  // the family file asks for it
-            const Result<int> piece = library_.fixed(varying.piece, placement.stage, &needed);
-            Diagnostics errors = piece ? place(placement, *piece, &needed) : piece.error();
-            if (!errors.empty()) return errors;
+            GOBO_TRY(const int piece, library_.fixed(varying.piece, placement.stage, needed));
+            GOBO_TRY_DO(place(placement, piece, needed));
         }
         placement.placed.push_back(
             library_.generated(varyings_piece(*placement.varyings, placement.key, StageKind::vertex)));
         return {};
     }
 
-    Diagnostics cycle(const Placement& placement, int piece, const Include& from) const {
+    tl::unexpected<Diagnostics> cycle(const Placement& placement, int piece, const Include& from) const {
         std::string path;
-        const auto first = std::find(placement.open.begin(), placement.open.end(), piece);
-        for (auto at = first; at != placement.open.end(); ++at)
+        for (auto at = std::find(placement.open.begin(), placement.open.end(), piece);
+             at != placement.open.end(); ++at)
             path += library_.entry(*at).piece.name + " -> ";
-        path += library_.entry(piece).piece.name;
-        Diagnostic diagnostic;
-        diagnostic.place = from.place;
-        diagnostic.quoted_line = from.line;
-        diagnostic.message = "include cycle: " + path;
-        diagnostic.help = "move what both need into a piece of its own";
-        return {diagnostic};
-    }
-
-    static Diagnostics too_deep(const Include& from) {
-        Diagnostic diagnostic;
-        diagnostic.place = from.place;
-        diagnostic.quoted_line = from.line;
-        diagnostic.message = fmt::format("includes are nested more than {} deep", deepest_include);
-        diagnostic.help = "include the piece from the template";
-        return {diagnostic};
-    }
-
-    [[nodiscard]] bool mentions(const std::vector<int>& placed, std::string_view identifier) const {
-        const auto& names = library_.interest();
-        const auto index =
-            static_cast<std::size_t>(std::find(names.begin(), names.end(), identifier) - names.begin());
-        return index < names.size() && std::any_of(placed.begin(), placed.end(), [&](int piece) {
-                   return library_.entry(piece).mentions[index] != 0;
-               });
+        return fail_at(from, "include cycle: " + path + library_.entry(piece).piece.name,
+                       "move what both need into a piece of its own");
     }
 
     /// Indices of the varyings that some piece of the fragment stage mentions.
     [[nodiscard]] std::vector<int> varyings_read(const std::vector<int>& fragment) const {
         std::vector<int> read;
-        for (std::size_t i = 0; i < family_.varyings.size(); ++i) {
-            if (mentions(fragment, family_.varyings[i].name)) read.push_back(static_cast<int>(i));
-        }
+        for (std::size_t i = 0; i < family_.varyings.size(); ++i)
+            if (library_.mentions(fragment, family_.varyings[i].name)) read.push_back(static_cast<int>(i));
         return read;
     }
 
@@ -206,18 +313,25 @@ class Composer {
                                        StageKind stage) const {
         std::map<int, std::string> lines;
         std::string calls;
+        std::string path = family_.path;
         int behind = 0;  // the first location that is still free
         for (const int index : varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
-            const std::string qualifier = varying.interpolation.empty() ? "" : varying.interpolation + " ";
+            if (index == varyings.front()) path = varying.place.file;
+            const bool is_counted = !varying.counts.empty();
+            int values = 0;
+            for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
+            const int elements = (values + varying.values_per_element - 1) / varying.values_per_element;
+            const int location = is_counted ? behind : varying.location;
+            behind = location + std::max(elements, 1);
             std::string& line = lines[varying.place.line];
-            const int size = size_of(varying, key);
-            const int location = varying.counts.empty() ? varying.location : behind;
-            behind = location + std::max(size, 1);
-            line += fmt::format("{}VARYING({}) {} {}{};", qualifier, location, varying.type, varying.name,
-                                varying.counts.empty() ? "" : fmt::format("[{}]", size));
+            line += fmt::format("{}{}VARYING({}) {} {}{};", varying.interpolation,
+                                varying.interpolation.empty() ? "" : " ", location, varying.type,
+                                varying.name, is_counted ? fmt::format("[{}]", elements) : "");
             if (stage == StageKind::fragment) continue;
-            const std::string writer = writer_of(varying);
+            std::string writer = "writeVarying" + varying.name;
+            char& initial = writer[writer.size() - varying.name.size()];
+            if (initial >= 'a' && initial <= 'z') initial = static_cast<char>(initial - 'a' + 'A');
             line += fmt::format(" void {}() {{ {} = {}; }}", writer, varying.name, varying.value);
             calls += fmt::format("    {}();\n", writer);
         }
@@ -229,39 +343,21 @@ class Composer {
             at = line + 1;
         }
         if (stage == StageKind::vertex) text += fmt::format("void writeVaryings() {{\n{}}}\n", calls);
-        const std::string& path =
-            varyings.empty() ? family_.path
-                             : family_.varyings[static_cast<std::size_t>(varyings.front())].place.file;
-        return {fmt::format("{}[varyings]", family_.name), path, std::move(text), false};
-    }
-
-    /// How many elements a counted varying has.
-    static int size_of(const Varying& varying, const Key& key) {
-        int values = 0;
-        for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
-        return (values + varying.values_per_element - 1) / varying.values_per_element;
-    }
-
-    /// eyePosition -> writeVaryingEyePosition
-    static std::string writer_of(const Varying& varying) {
-        std::string name = varying.name;
-        if (name.front() >= 'a' && name.front() <= 'z')
-            name.front() = static_cast<char>(name.front() - 'a' + 'A');
-        return "writeVarying" + name;
+        return {fmt::format("{}[varyings]", family_.name), std::move(path), std::move(text), false};
     }
 
     [[nodiscard]] Piece prologue(const Placement& placement, bool has_varyings) const {
         const std::string& version = library_.entry(placement.placed.back()).version;
-        const Mentions asks = [&](std::string_view name) {
-            return (has_varyings && name == "VARYING") || mentions(placement.placed, name);
-        };
-        std::string text = dialect_prologue(dialect_, placement.stage, version, asks);
+        std::string text =
+            dialect_prologue(composition_.dialect, placement.stage, version, [&](std::string_view name) {
+                return (has_varyings && name == "VARYING") || library_.mentions(placement.placed, name);
+            });
         for (std::size_t i = 0; i < family_.features.size(); ++i) {
             const Feature& feature = family_.features[i];
             const int value = placement.key[i];
             const bool is_defined =
                 feature.kind == FeatureKind::count || (feature.kind == FeatureKind::define && value != 0);
-            if (is_defined && mentions(placement.placed, feature.macro))
+            if (is_defined && library_.mentions(placement.placed, feature.macro))
                 text += fmt::format("#define {} {}\n", feature.macro, value);
         }
         return {"prologue", "prologue", std::move(text), false};
@@ -273,34 +369,64 @@ class Composer {
         const bool is_fragment = placement.stage == StageKind::fragment;
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
         Stage stage{placement.stage, {library_.generated(prologue(placement, declares))}};
-        if (is_fragment && declares) {
+        if (is_fragment && declares)
             stage.pieces.push_back(
                 library_.generated(varyings_piece(read, placement.key, StageKind::fragment)));
-        }
         stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), placement.placed.end());
-        const auto [at, is_new] = numbers_.try_emplace(stage.pieces, static_cast<int>(stages_.size()));
-        if (is_new) stages_.push_back(std::move(stage));
+        const auto [at, is_new] =
+            numbers_.try_emplace(stage.pieces, static_cast<int>(composition_.stages.size()));
+        if (is_new) composition_.stages.push_back(std::move(stage));
         return at->second;
     }
 
     const Family& family_;
-    Dialect dialect_;
     PieceLibrary library_;
-    std::vector<Stage> stages_;
-    std::vector<Permutation> permutations_;
+    Composition composition_;
     std::map<std::vector<int>, int> numbers_;
 };
 
 }  // namespace
 
+std::string_view name_of(StageKind kind) {
+    return kind == StageKind::vertex ? "vertex" : "fragment";
+}
+
+std::string_view line_of(const Piece& piece, int number) {
+    return line_of(piece.file_text.empty() ? piece.text : piece.file_text, number);
+}
+
+std::string source_of(const Composition& composition, const Stage& stage) {
+    std::string source;
+    for (const int piece : stage.pieces) source += composition.pieces[static_cast<std::size_t>(piece)].text;
+    return source;
+}
+
 Result<Composition> compose(const Family& family, const std::vector<Key>& keys, const SearchPath& search,
                             Dialect dialect, Comments comments) {
     Composer composer(family, search, dialect, comments);
-    for (const Key& key : keys) {
-        Diagnostics errors = composer.add(key);
-        if (!errors.empty()) return tl::unexpected(std::move(errors));
-    }
+    for (const Key& key : keys) GOBO_TRY_DO(composer.add(key));
     return std::move(composer).result();
+}
+
+Diagnostics same_stages(const Family& family, const Composition& composition) {
+    std::map<std::pair<int, int>, const Permutation*> first_of;
+    std::string example;
+    int more = -1;
+    for (const Permutation& permutation : composition.permutations) {
+        const auto [at, is_new] =
+            first_of.try_emplace({permutation.vertex, permutation.fragment}, &permutation);
+        if (is_new || ++more > 0) continue;
+        example = fmt::format("the keys '{}' and '{}' compose to the same stages",
+                              key_text(family, at->second->key), key_text(family, permutation.key));
+    }
+    if (example.empty()) return {};
+    Diagnostic diagnostic;
+    diagnostic.severity = Severity::warning;
+    diagnostic.place.file = family.path;
+    diagnostic.message = more == 0 ? example : fmt::format("{}; so do {} more", example, more);
+    diagnostic.help =
+        "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there";
+    return {diagnostic};
 }
 
 }  // namespace gobo

@@ -30,10 +30,10 @@ enum class Comments { remove, keep };
 struct Piece {
     std::string name;  ///< portable: "shader_lib/fog/linear.glsl", or relative to the folder it was found in
     std::string path;  ///< as diagnostics and depfiles show it; for a generated piece, the file it comes from
-    std::string
-        text;  ///< what is validated and shipped: includes blanked, so line numbers are those of the file
+    std::string text;  ///< what is validated and shipped, line for line as the file: includes are blanked
     bool on_disk = false;        ///< read from a file that a depfile must name
-    std::string file_text = {};  ///< `text` with the file's comments, for messages; empty: `text` has them
+    std::string file_text = {};  ///< all that its file holds, for messages that quote a line; of a generated
+                                 ///< piece empty
 
     friend bool operator==(const Piece&, const Piece&) = default;
 };

@@ -1,38 +1,68 @@
 #include "compose/dialect.hpp"
 
-#include <array>
+#include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
+
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
 
-enum class When { always, in_vertex, in_fragment };
-
-/// A macro of the prologue. Empty text: the dialect needs none.
+/// A macro of the prologue.
 struct Macro {
     std::string_view name;
     std::string_view parameters;
-    When when;
+    std::optional<StageKind> stage;  ///< the only one that has it, if so
     std::string_view glsl450;
     std::string_view glsl330;
     std::string_view es300;
 };
 
-constexpr std::array macros = {
-    Macro{"BLOCK", "binding_, name_", When::always, "layout(std140, binding = binding_) uniform name_",
-          "layout(std140) uniform name_", "layout(std140) uniform name_"},
-    Macro{"VARYING", "location_", When::in_vertex, "layout(location = location_) out", "out", "out"},
-    Macro{"VARYING", "location_", When::in_fragment, "layout(location = location_) in", "in", "in"},
-    Macro{"ATTRIBUTE", "location_", When::always, "layout(location = location_) in",
-          "layout(location = location_) in", "layout(location = location_) in"},
-    Macro{"OUTPUT", "location_", When::always, "layout(location = location_) out",
-          "layout(location = location_) out", "layout(location = location_) out"},
-    Macro{"SAMPLER", "binding_, type_", When::always, "layout(binding = binding_) uniform type_",
-          "uniform type_", "uniform highp type_"},
-    Macro{"DEPTH", "qualifier_", When::always, "layout(qualifier_)", "layout(qualifier_)",
-          "layout(qualifier_)"},
+constexpr std::string_view kPlainBlock = "layout(std140) uniform name_";
+constexpr std::string_view kInput = "layout(location = location_) in";
+constexpr std::string_view kOutput = "layout(location = location_) out";
+constexpr std::string_view kDepth = "layout(qualifier_)";
+constexpr Macro kMacros[] = {
+    {"BLOCK",
+     "binding_, name_",
+     {},
+     "layout(std140, binding = binding_) uniform name_",
+     kPlainBlock,
+     kPlainBlock},
+    {"VARYING", "location_", StageKind::vertex, kOutput, "out", "out"},
+    {"VARYING", "location_", StageKind::fragment, kInput, "in", "in"},
+    {"ATTRIBUTE", "location_", {}, kInput, kInput, kInput},
+    {"OUTPUT", "location_", {}, kOutput, kOutput, kOutput},
+    {"SAMPLER",
+     "binding_, type_",
+     {},
+     "layout(binding = binding_) uniform type_",
+     "uniform type_",
+     "uniform highp type_"},
+    {"DEPTH", "qualifier_", {}, kDepth, kDepth, kDepth},
 };
+
+struct DialectRow {
+    Dialect dialect;
+    std::string_view name;
+    std::string_view version;
+    std::string_view Macro::*spelling;
+};
+
+constexpr DialectRow kDialects[] = {
+    {Dialect::glsl450, "450", "450 core", &Macro::glsl450},
+    {Dialect::glsl330, "330", "330 core", &Macro::glsl330},
+    {Dialect::es300, "es300", "300 es", &Macro::es300},
+};
+
+/// That of Dialect::own is 450's.
+const DialectRow& row_of(Dialect dialect) {
+    const auto row = std::find_if(std::begin(kDialects), std::end(kDialects),
+                                  [&](const DialectRow& other) { return other.dialect == dialect; });
+    return row == std::end(kDialects) ? kDialects[0] : *row;
+}
 
 /// What the DEPTH macro's qualifiers need before 4.2, where they became core.
 std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
@@ -42,58 +72,48 @@ std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
                                      : "#extension GL_ARB_conservative_depth : enable\n";
 }
 
-std::string_view text_for(const Macro& macro, Dialect dialect) {
-    if (dialect == Dialect::glsl330) return macro.glsl330;
-    return dialect == Dialect::es300 ? macro.es300 : macro.glsl450;
-}
-
-/// The dialect whose macros suit a template's own version: explicit bindings and locations came with 4.2.
-Dialect spelling_of(Dialect dialect, std::string_view own_version) {
-    if (dialect != Dialect::own) return dialect;
-    if (own_version.find("es") != std::string_view::npos) return Dialect::es300;
-    return !own_version.empty() && own_version < "420" ? Dialect::glsl330 : Dialect::glsl450;
-}
-
-std::string version_line(Dialect dialect, std::string_view own_version) {
-    switch (dialect) {
-        case Dialect::own:
-            return fmt::format("#version {}\n", own_version.empty() ? "450 core" : own_version);
-        case Dialect::glsl450:
-            return "#version 450 core\n";
-        case Dialect::glsl330:
-            return "#version 330 core\n";
-        case Dialect::es300:
-            return "#version 300 es\n";
-    }
-    return "";
+/// The dialect whose macros suit a version line: explicit bindings and locations came with 4.2.
+Dialect spelling_of(std::string_view version_line) {
+    const GlslVersion version = version_of(version_line);
+    if (version.profile == "es") return Dialect::es300;
+    return version.number < 420 ? Dialect::glsl330 : Dialect::glsl450;
 }
 
 }  // namespace
 
 std::string_view name_of(Dialect dialect) {
-    if (dialect == Dialect::glsl330) return "330";
-    return dialect == Dialect::es300 ? "es300" : "450";
+    return row_of(dialect).name;
 }
 
 std::optional<Dialect> dialect_of(std::string_view name) {
-    if (name == "450") return Dialect::glsl450;
-    if (name == "330") return Dialect::glsl330;
-    if (name == "es300") return Dialect::es300;
+    for (const DialectRow& row : kDialects)
+        if (row.name == name) return row.dialect;
     return std::nullopt;
+}
+
+GlslVersion version_of(std::string_view source) {
+    GlslVersion version;
+    constexpr std::string_view directive = "#version ";
+    const auto found = source.find(directive);
+    if (found == std::string_view::npos) return version;
+    const std::string_view rest = source.substr(found + directive.size());
+    const std::string_view line = trim(rest.substr(0, rest.find('\n')));
+    const auto parsed = std::from_chars(line.data(), line.data() + line.size(), version.number);
+    version.profile = trim(line.substr(static_cast<std::size_t>(parsed.ptr - line.data())));
+    version.es = version.profile == "es" || version.number == 100;
+    return version;
 }
 
 std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
                              const Mentions& mentions) {
-    std::string text = version_line(dialect, own_version);
-    const Dialect spelling = spelling_of(dialect, own_version);
-    text += depth_extension(spelling, mentions);
+    const bool is_own = dialect == Dialect::own && !own_version.empty();
+    std::string text = fmt::format("#version {}\n", is_own ? own_version : row_of(dialect).version);
+    const DialectRow& row = row_of(is_own ? spelling_of(text) : dialect);
+    text += depth_extension(row.dialect, mentions);
     if (dialect == Dialect::es300) text += "precision highp float;\nprecision highp int;\n";
-    for (const Macro& macro : macros) {
-        const bool other_stage = (macro.when == When::in_vertex && stage != StageKind::vertex) ||
-                                 (macro.when == When::in_fragment && stage != StageKind::fragment);
-        if (other_stage || !mentions(macro.name)) continue;
-        text += fmt::format("#define {}({}) {}\n", macro.name, macro.parameters, text_for(macro, spelling));
-    }
+    for (const Macro& macro : kMacros)
+        if (macro.stage.value_or(stage) == stage && mentions(macro.name))
+            text += fmt::format("#define {}({}) {}\n", macro.name, macro.parameters, macro.*row.spelling);
     return text;
 }
 

@@ -15,6 +15,16 @@ namespace gobo {
 [[nodiscard]] std::string_view name_of(Dialect dialect);
 [[nodiscard]] std::optional<Dialect> dialect_of(std::string_view name);
 
+/// A `#version` line: 330 and "core"; 300 and "es".
+struct GlslVersion {
+    int number = 110;  ///< what GLSL means where no version is stated
+    bool es = false;
+    std::string profile;
+};
+
+/// The version that a source states.
+[[nodiscard]] GlslVersion version_of(std::string_view source);
+
 /// Asks whether a stage mentions an identifier.
 using Mentions = std::function<bool(std::string_view)>;
 

@@ -13,17 +13,7 @@ namespace {
 
 /// glslang 12 recurses once per bracket and overflows its stack on hostile input; no honest shader comes
 /// near.
-constexpr int deepest_nesting = 200;
-
-tl::unexpected<Diagnostics> error_at(const Place& place, std::string_view line, std::string message,
-                                     std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.place = place;
-    diagnostic.quoted_line = line;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return fail(std::move(diagnostic));
-}
+constexpr int kDeepestNesting = 200;
 
 /// The line that a character of the text stands on.
 int line_at(std::string_view text, std::size_t at) {
@@ -84,15 +74,10 @@ bool are_disputed(std::string_view text, std::string_view bare) {
 
 std::set<std::string, std::less<>> identifiers_of(std::string_view bare) {
     std::set<std::string, std::less<>> found;
-    std::size_t i = 0;
-    while (i < bare.size()) {
-        if (!is_identifier_part(bare[i])) {
-            ++i;
-            continue;
-        }
-        const std::size_t start = i;
-        while (i < bare.size() && is_identifier_part(bare[i])) ++i;
-        if (is_identifier_start(bare[start])) found.emplace(bare.substr(start, i - start));
+    for (auto at = bare.begin(); at != bare.end();) {
+        const auto start = std::find_if(at, bare.end(), is_identifier_part);
+        at = std::find_if_not(start, bare.end(), is_identifier_part);
+        if (start != at && is_identifier_start(*start)) found.emplace(start, at);
     }
     return found;
 }
@@ -138,143 +123,6 @@ bool is_feature_or_part(std::string_view target) {
            (slash == std::string_view::npos || is_identifier(target.substr(slash + 1)));
 }
 
-/// The word after `#`, and what follows it, where the line is a directive.
-struct Directive {
-    std::string_view name;
-    std::string_view rest;
-};
-
-std::optional<Directive> directive_of(std::string_view bare_line) {
-    std::string_view line = trim(bare_line);
-    if (!line.starts_with('#')) return std::nullopt;
-    line = trim(line.substr(1));
-    const auto end = std::find_if_not(line.begin(), line.end(), is_identifier_part) - line.begin();
-    return Directive{line.substr(0, static_cast<std::size_t>(end)),
-                     trim(line.substr(static_cast<std::size_t>(end)))};
-}
-
-/// Walks over the lines of one file, collecting into `result`.
-class Scanner {
-  public:
-    Scanner(std::string text, const std::string& path)
-        : path_(path), bare_(without_comments(text, unclosed_)) {
-        result_.text = std::move(text);
-    }
-
-    Result<ScannedPiece> run() {
-        if (unclosed_ != std::string::npos) {
-            const int line = line_at(result_.text, unclosed_);
-            return error_at({path_, line, 0}, line_of(result_.text, line), "a comment has no end",
-                            "close it with */");
-        }
-        std::size_t start = 0;
-        for (int number = 1; start < bare_.size(); ++number) {
-            const std::size_t end = std::min(bare_.find('\n', start), bare_.size());
-            Diagnostics errors = line(number, start, end);
-            if (!errors.empty()) return tl::unexpected(std::move(errors));
-            start = end + 1;
-        }
-        result_.identifiers = identifiers_of(bare_);
-        if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos) {
-            result_.bindings = bindings_of(bare_);
-        }
-        result_.code = are_disputed(result_.text, bare_) ? result_.text : bare_;
-        result_.warnings = unstated_layouts(bare_, result_.text, path_);
-        return std::move(result_);
-    }
-
-  private:
-    Diagnostics line(int number, std::size_t start, std::size_t end) {
-        const std::string_view bare = std::string_view(bare_).substr(start, end - start);
-        const std::string_view shown = line_of(std::string_view(result_.text).substr(start, end - start), 1);
-        const auto directive = directive_of(bare);
-        const auto column = static_cast<int>(std::min(bare.find_first_not_of(" \t"), bare.size())) + 1;
-        const Place place{path_, number, column};
-        if (directive && directive->name == "version") {
-            result_.version = directive->rest;
-            blank(start, end);
-        } else if (directive && directive->name == "include") {
-            if (seen_code_) {
-                return error_at(place, shown, "#include after code",
-                                "includes stand at the top of a piece, after comments only")
-                    .value();
-            }
-            auto include = parse_include(*directive, place, shown);
-            if (!include) return include.error();
-            result_.includes.push_back(std::move(*include));
-            blank(start, end);
-        } else if (!trim(bare).empty() && !(directive && directive->name == "extension")) {
-            seen_code_ = true;
-        }
-        return nesting(bare, place, shown);
-    }
-
-    /// "a as b, c as d"
-    static std::optional<std::vector<Renaming>> parse_renamings(std::string_view text) {
-        std::vector<Renaming> renamings;
-        while (true) {
-            const std::size_t end = std::min(text.find(','), text.size());
-            const std::string_view one = trim(text.substr(0, end));
-            const std::size_t middle = one.find(" as ");
-            if (middle == std::string_view::npos) return std::nullopt;
-            const std::string from(trim(one.substr(0, middle)));
-            const std::string to(trim(one.substr(middle + 4)));
-            if (!is_identifier(from) || !is_identifier(to)) return std::nullopt;
-            renamings.push_back({from, to});
-            if (end == text.size()) return renamings;
-            text.remove_prefix(end + 1);
-        }
-    }
-
-    static Result<Include> parse_include(const Directive& directive, const Place& place,
-                                         std::string_view shown) {
-        std::string_view rest = directive.rest;
-        std::optional<std::vector<Renaming>> renamings = std::vector<Renaming>{};
-        const std::size_t close = rest.size() > 1 ? rest.find_first_of(">\"", 1) : std::string_view::npos;
-        if (close != std::string_view::npos && trim(rest.substr(close + 1)).starts_with("with ")) {
-            renamings = parse_renamings(trim(rest.substr(close + 1)).substr(5));
-            rest = rest.substr(0, close + 1);
-            if (!renamings) {
-                return error_at(place, shown, "malformed renaming",
-                                "write #include \"folder/piece.glsl\" with name as otherName, ...");
-            }
-        }
-        const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
-        const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
-        const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
-        if (target.empty() || (angle && !is_feature_or_part(target))) {
-            return error_at(place, shown, "malformed #include",
-                            "write #include <feature> or #include \"folder/piece.glsl\"");
-        }
-        return Include{angle, target, place, std::string(shown), std::move(*renamings)};
-    }
-
-    Diagnostics nesting(std::string_view bare, const Place& place, std::string_view shown) {
-        for (const char c : bare) {
-            if (c == '(' || c == '[' || c == '{') ++depth_;
-            if (c == ')' || c == ']' || c == '}') depth_ = std::max(0, depth_ - 1);
-            if (depth_ <= deepest_nesting) continue;
-            return error_at({place.file, place.line, 0}, shown.substr(0, 80),
-                            fmt::format("brackets are nested more than {} deep", deepest_nesting),
-                            "split the expression or the function")
-                .value();
-        }
-        return {};
-    }
-
-    void blank(std::size_t start, std::size_t end) {
-        for (std::size_t i = start; i < end; ++i)
-            if (bare_[i] != ' ') result_.text[i] = bare_[i] = ' ';
-    }
-
-    std::string path_;
-    std::size_t unclosed_ = 0;
-    std::string bare_;
-    ScannedPiece result_;
-    bool seen_code_ = false;
-    int depth_ = 0;
-};
-
 /// Blanks left where a comment or directive stood would only swell the header. Behind a '\\' one stays: it
 /// keeps the next line from being joined to this one.
 std::string without_trailing_blanks(std::string_view text) {
@@ -292,20 +140,124 @@ std::string without_trailing_blanks(std::string_view text) {
     return result;
 }
 
+/// "a as b, c as d"
+std::optional<std::vector<Renaming>> parse_renamings(std::string_view text) {
+    std::vector<Renaming> renamings;
+    for (const std::string& one : split(text, ',')) {
+        const std::size_t middle = one.find(" as ");
+        if (middle == std::string::npos) return std::nullopt;
+        const std::string from(trim(std::string_view(one).substr(0, middle)));
+        const std::string to(trim(std::string_view(one).substr(middle + 4)));
+        if (!is_identifier(from) || !is_identifier(to)) return std::nullopt;
+        renamings.push_back({from, to});
+    }
+    return renamings;
+}
+
+Result<Include> parse_include(std::string_view rest, const Place& place, std::string_view shown) {
+    std::optional<std::vector<Renaming>> renamings = std::vector<Renaming>{};
+    const std::size_t close = rest.size() > 1 ? rest.find_first_of(">\"", 1) : std::string_view::npos;
+    if (close != std::string_view::npos && trim(rest.substr(close + 1)).starts_with("with ")) {
+        renamings = parse_renamings(trim(rest.substr(close + 1)).substr(5));
+        rest = rest.substr(0, close + 1);
+        if (!renamings) {
+            return fail(place, shown, "malformed renaming",
+                        "write #include \"folder/piece.glsl\" with name as otherName, ...");
+        }
+    }
+    const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
+    const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
+    const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
+    if (target.empty() || (angle && !is_feature_or_part(target))) {
+        return fail(place, shown, "malformed #include",
+                    "write #include <feature> or #include \"folder/piece.glsl\"");
+    }
+    return Include{angle, target, place, std::string(shown), std::move(*renamings)};
+}
+
+/// Walks over the lines of one file, collecting into `result`.
+class Scanner {
+  public:
+    Scanner(std::string text, const std::string& path)
+        : path_(path), bare_(without_comments(text, unclosed_)) {
+        result_.text = std::move(text);
+    }
+
+    Result<ScannedPiece> run() {
+        if (unclosed_ != std::string::npos) {
+            const int line = line_at(result_.text, unclosed_);
+            return fail({path_, line, 0}, line_of(result_.text, line), "a comment has no end",
+                        "close it with */");
+        }
+        std::size_t start = 0;
+        for (int number = 1; start < bare_.size(); ++number) {
+            const std::size_t end = std::min(bare_.find('\n', start), bare_.size());
+            GOBO_TRY_DO(scan_line(number, start, end));
+            start = end + 1;
+        }
+        result_.identifiers = identifiers_of(bare_);
+        if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos)
+            result_.bindings = bindings_of(bare_);
+        result_.warnings = unstated_layouts(bare_, result_.text, path_);
+        result_.code = without_trailing_blanks(are_disputed(result_.text, bare_) ? result_.text : bare_);
+        result_.text = without_trailing_blanks(result_.text);
+        return std::move(result_);
+    }
+
+  private:
+    Result<void> scan_line(int number, std::size_t start, std::size_t end) {
+        const std::string_view bare = std::string_view(bare_).substr(start, end - start);
+        const std::string shown(line_of(std::string_view(result_.text).substr(start, end - start), 1));
+        const std::size_t first = std::min(bare.find_first_not_of(" \t"), bare.size());
+        const Place place{path_, number, static_cast<int>(first) + 1};
+        std::string_view rest = trim(bare);
+        std::string_view directive;  // the word after `#`
+        if (rest.starts_with('#')) {
+            rest = trim(rest.substr(1));
+            directive = {rest.begin(), std::find_if_not(rest.begin(), rest.end(), is_identifier_part)};
+            rest = trim(rest.substr(directive.size()));
+        }
+        for (const char c : bare) {
+            if (c == '(' || c == '[' || c == '{') ++depth_;
+            if (c == ')' || c == ']' || c == '}') depth_ = std::max(0, depth_ - 1);
+            if (depth_ <= kDeepestNesting) continue;
+            return fail({path_, number, 0}, shown.substr(0, 80),
+                        fmt::format("brackets are nested more than {} deep", kDeepestNesting),
+                        "split the expression or the function");
+        }
+        if (directive == "version") result_.version = rest;
+        if (directive == "include") {
+            if (seen_code_) {
+                return fail(place, shown, "#include after code",
+                            "includes stand at the top of a piece, after comments only");
+            }
+            GOBO_TRY(Include include, parse_include(rest, place, shown));
+            result_.includes.push_back(std::move(include));
+        }
+        if (directive == "version" || directive == "include") {
+            for (std::size_t i = start; i < end; ++i)
+                if (bare_[i] != ' ') result_.text[i] = bare_[i] = ' ';
+        } else if (!trim(bare).empty() && directive != "extension") {
+            seen_code_ = true;
+        }
+        return {};
+    }
+
+    std::string path_;
+    std::size_t unclosed_ = 0;
+    std::string bare_;
+    ScannedPiece result_;
+    bool seen_code_ = false;
+    int depth_ = 0;
+};
+
 }  // namespace
 
 Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    if (const auto nul = text.find('\0'); nul != std::string::npos) {
-        return error_at({path, line_at(text, nul), 0}, "", "holds a NUL byte and is no text",
-                        "name a GLSL file");
-    }
-    Result<ScannedPiece> piece = Scanner(std::move(text), path).run();
-    if (piece) {
-        piece->text = without_trailing_blanks(piece->text);
-        piece->code = without_trailing_blanks(piece->code);
-    }
-    return piece;
+    if (const auto nul = text.find('\0'); nul != std::string::npos)
+        return fail({path, line_at(text, nul), 0}, "", "holds a NUL byte and is no text", "name a GLSL file");
+    return Scanner(std::move(text), path).run();
 }
 
 }  // namespace gobo

@@ -79,6 +79,16 @@ tl::unexpected<Diagnostics> fail(Diagnostic diagnostic) {
     return tl::unexpected(Diagnostics{std::move(diagnostic)});
 }
 
+tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_line, std::string message,
+                                 std::string help) {
+    Diagnostic diagnostic;
+    diagnostic.place = place;
+    diagnostic.quoted_line = quoted_line;
+    diagnostic.message = std::move(message);
+    diagnostic.help = std::move(help);
+    return fail(std::move(diagnostic));
+}
+
 std::string to_text(const Diagnostic& diagnostic, bool color) {
     const std::string_view on = color ? color_of(diagnostic.severity) : "";
     const std::string_view off = color ? "\033[0m" : "";

@@ -51,6 +51,9 @@ using Result = tl::expected<T, Diagnostics>;
 /// An error of the given fault, ready to be returned from a function whose type is Result<T>.
 [[nodiscard]] tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string help = {});
 [[nodiscard]] tl::unexpected<Diagnostics> fail(Diagnostic diagnostic);
+/// An error in the input at a place, whose line is quoted.
+[[nodiscard]] tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_line,
+                                               std::string message, std::string help = {});
 
 #define GOBO_JOIN_(a, b) a##b
 #define GOBO_JOIN(a, b) GOBO_JOIN_(a, b)

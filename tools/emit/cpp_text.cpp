@@ -1,17 +1,37 @@
 #include "emit/cpp_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
+
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr std::size_t line_width = 110;
+constexpr std::size_t kLineWidth = 110;
 /// MSVC takes 16,380 bytes; what is left is for delimiters.
-constexpr std::size_t literal_limit = 16000;
+constexpr std::size_t kLiteralLimit = 16000;
 /// An octal escape: the most that one byte can take.
-constexpr std::size_t longest_escape = 4;
+constexpr std::size_t kLongestEscape = 4;
+
+/// Keywords of C++17 and C++20 and their alternative tokens; then what headers define as macros: those of the
+/// compilers and the standard library (`linux` and `unix` in GNU mode), <windows.h>, <X11/Xlib.h>.
+constexpr std::string_view kReserved =
+    " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t "
+    "class "
+    "co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue "
+    "decltype "
+    "default delete do double dynamic_cast else enum explicit export extern false float for friend goto if "
+    "inline "
+    "int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public "
+    "register reinterpret_cast requires return short signed sizeof static static_assert static_cast struct "
+    "switch "
+    "template this thread_local throw true try typedef typeid typename union unsigned using virtual void "
+    "volatile "
+    "wchar_t while xor xor_eq "
+    "EOF INFINITY NAN NULL assert errno i386 linux major minor offsetof stderr stdin stdout unix ";
 
 bool is_plain(char character) {
     return (character >= ' ' && character <= '~') || character == '\n' || character == '\t';
@@ -57,25 +77,20 @@ std::string cpp_literal(std::string_view text) {
 std::string cpp_list(const std::vector<std::string>& items) {
     if (items.empty()) return {};
     std::string text = "{";
-    std::size_t column = line_width;
+    std::size_t column = kLineWidth;
     for (const std::string& item : items) {
-        if (column + item.size() + 2 > line_width) {
-            text += "\n        ";
-            column = 8;
-        } else {
-            text += ' ';
-        }
+        const bool breaks = column + item.size() + 2 > kLineWidth;
+        if (breaks) column = 8;
+        text += breaks ? "\n        " : " ";
         text += item;
         text += ',';
         column += item.size() + 2;
     }
-    text += "\n    }";
-    return text;
+    return text + "\n    }";
 }
 
 std::vector<std::string_view> cut_for_literals(std::string_view text) {
-    const bool raw = fits_raw_literal(text);
-    const std::size_t limit = raw ? literal_limit : literal_limit / longest_escape;
+    const std::size_t limit = fits_raw_literal(text) ? kLiteralLimit : kLiteralLimit / kLongestEscape;
     std::vector<std::string_view> parts;
     while (text.size() > limit) {
         const auto line_end = text.rfind('\n', limit - 1);
@@ -85,6 +100,48 @@ std::vector<std::string_view> cut_for_literals(std::string_view text) {
     }
     if (!text.empty() || parts.empty()) parts.push_back(text);
     return parts;
+}
+
+std::string cpp_identifier(std::string_view name) {
+    std::string result;
+    for (const char character : name) {
+        const char kept = is_identifier_part(character) ? character : '_';
+        if (kept == '_' && (result.empty() || result.back() == '_')) continue;
+        result += kept;
+    }
+    if (result.empty()) return "unnamed";
+    if (!is_identifier_start(result.front())) result.insert(0, 1, '_');
+    if (kReserved.find(" " + result + " ") != std::string_view::npos) result += '_';
+    return result;
+}
+
+std::string cpp_type_name(std::string_view name) {
+    std::string result;
+    bool starts_word = true;
+    for (const char character : name) {
+        const bool parts = !is_identifier_part(character) || character == '_';
+        if (!parts)
+            result += starts_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(character)))
+                                  : character;
+        starts_word = parts;
+    }
+    return cpp_identifier(result);
+}
+
+bool is_cpp_identifier(std::string_view name) {
+    return is_identifier(name) && cpp_identifier(name) == name;
+}
+
+std::string CppScope::claim(const std::string& identifier, std::string_view suffix) {
+    std::string result = identifier;
+    for (int number = 1; !taken_.insert(result).second; ++number) {
+        // `default_` and a second `_` would make a name that C++ reserves.
+        const bool doubled = identifier.back() == '_' && suffix.starts_with('_');
+        result = identifier;
+        result += doubled ? suffix.substr(1) : suffix;
+        if (number > 1) result += std::to_string(number);
+    }
+    return result;
 }
 
 }  // namespace gobo

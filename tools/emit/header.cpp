@@ -1,63 +1,21 @@
-#include "emit/header.hpp"
+#include <algorithm>
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
 #include "compose/dialect.hpp"
-#include "emit/check_section.hpp"
-#include "emit/interface_section.hpp"
-#include "emit/key_section.hpp"
-#include "emit/permutation_section.hpp"
-#include "emit/state_section.hpp"
-#include "emit/struct_section.hpp"
+#include "core/text.hpp"
+#include "emit/emit.hpp"
+#include "emit/sections.hpp"
 #include "family/key.hpp"
 
 namespace gobo {
 namespace {
 
 /// Names that header.hpp.in uses in the namespace or as local names: nothing of the family's may hide them.
-CppScope header_scope() {
-    return CppScope({"Key",
-                     "Permutation",
-                     "Stage",
-                     "attribute",
-                     "attributes",
-                     "bits",
-                     "block",
-                     "blocks",
-                     "canonical",
-                     "detail",
-                     "find",
-                     "describe_missing",
-                     "glm",
-                     "gobo",
-                     "key",
-                     "key_text",
-                     "left",
-                     "output",
-                     "outputs",
-                     "permutations",
-                     "position",
-                     "reason",
-                     "right",
-                     "sampler",
-                     "samplers",
-                     "std",
-                     "std140",
-                     "uniforms",
-                     "wanted",
-                     "found",
-                     "before",
-                     "changed",
-                     "count",
-                     "check",
-                     "select",
-                     "SceneState",
-                     "State",
-                     "Settings",
-                     "state",
-                     "settings"});
-}
+constexpr std::string_view kHeaderNames =
+    "Key Permutation SceneState Settings Stage State attribute attributes before bits block blocks canonical "
+    "changed check count describe_missing detail find found glm gobo key key_text left output outputs "
+    "permutations position reason right sampler samplers select settings state std std140 uniforms wanted";
 
 Result<std::string> namespace_of(const EmitInput& input) {
     if (input.cpp_namespace.empty()) return cpp_identifier(input.family.name);
@@ -73,52 +31,54 @@ Result<std::string> namespace_of(const EmitInput& input) {
     }
 }
 
-std::vector<Rule> rules_of(const Family& family, Dialect dialect) {
-    std::vector<Rule> rules;
-    for (const Rule& rule : family.rules) {
-        if (applies_in(rule, name_of(dialect))) rules.push_back(rule);
-    }
-    return rules;
-}
-
 }  // namespace
 
-std::string version_of(const Composition& composition) {
-    if (composition.dialect != Dialect::own || composition.pieces.empty()) {
-        return std::string(name_of(composition.dialect));
+Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
+    HeaderTemplates templates;
+    templates.header.name = folder + "/header.hpp.in";
+    templates.structure.name = folder + "/struct.hpp.in";
+    for (TextTemplate* part : {&templates.header, &templates.structure}) {
+        GOBO_TRY(part->text, files.read(part->name));
     }
-    constexpr std::string_view directive = "#version ";
+    return templates;
+}
+
+std::string version_of(const Composition& composition) {
+    if (composition.dialect != Dialect::own) return std::string(name_of(composition.dialect));
     for (const Piece& piece : composition.pieces) {
-        const auto found = piece.text.find(directive);
-        if (found == std::string::npos) continue;
-        const auto begin = found + directive.size();
-        const std::string version(
-            trim(std::string_view(piece.text).substr(begin, piece.text.find('\n', begin) - begin)));
-        return version == "300 es" ? "es300" : version.substr(0, version.find(" core"));
+        if (piece.text.find("#version ") == std::string::npos) continue;
+        const GlslVersion version = version_of(piece.text);
+        if (version.es && version.number == 300) return "es300";
+        const bool has_profile = !version.profile.empty() && version.profile != "core";
+        return fmt::format("{}{}{}", version.number, has_profile ? " " : "",
+                           has_profile ? version.profile : "");
     }
     return std::string(name_of(composition.dialect));
 }
 
+void add_table(TemplateValues& values, const std::string& name, const std::vector<std::string>& rows) {
+    values[name + "_count"] = std::to_string(rows.size());
+    values[name + "s"] = cpp_list(rows);
+}
+
 Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
-    const Result<std::string> cpp_namespace = namespace_of(input);
-    if (!cpp_namespace) return cpp_namespace;
+    const Family& family = input.family;
     TemplateValues values;
-    values["family"] = input.family.name;
-    values["namespace"] = *cpp_namespace;
+    values["family"] = family.name;
+    GOBO_TRY(values["namespace"], namespace_of(input));
     values["dialect"] = version_of(input.composition);
 
-    CppScope scope = header_scope();
-    const CppKey key = name_key(input.family, scope);
-    describe_key(input.family, rules_of(input.family, input.composition.dialect), key, values);
+    const std::vector<std::string> taken = split(kHeaderNames, ' ');
+    CppScope scope({taken.begin(), taken.end()});
+    const CppKey key = name_key(family, scope);
+    std::vector<Rule> rules;
+    std::copy_if(family.rules.begin(), family.rules.end(), std::back_inserter(rules),
+                 [&](const Rule& rule) { return applies_in(rule, name_of(input.composition.dialect)); });
+    key_section(rules, key, values);
     const Interface interface = with_places(input.interface);
-    Result<StructSection> structs =
-        struct_section(interface.blocks, input.family.domains, templates.structure, scope);
-    if (!structs) return tl::make_unexpected(structs.error());
-    values["structs"] = std::move(structs->text);
-    values["checks"] = check_section(structs->blocks, input.family.domains);
-    describe_interface(interface, input.family.domains, values);
-    describe_permutations(input.composition, key, values);
-    describe_state(input.family, key, values);
+    GOBO_TRY_DO(block_section(interface.blocks, family.domains, templates.structure, scope, values));
+    interface_section(interface, family.domains, values);
+    permutation_section(input.composition, key, values);
     return fill(templates.header, values);
 }
 

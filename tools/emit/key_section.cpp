@@ -1,51 +1,66 @@
-#include "emit/key_section.hpp"
-
 #include <algorithm>
+#include <bit>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "emit/cpp_text.hpp"
+#include "emit/sections.hpp"
 
 namespace gobo {
 namespace {
 
-std::string_view role_text(const Feature& feature) {
-    switch (feature.role) {
-        case Role::effect:
-            return "effect";
-        case Role::quality:
-            return feature.default_place == 0 ? "quality, most accurate first"
-                                              : "quality, most accurate first behind the default";
-        case Role::pipeline:
-            return "pipeline";
-    }
-    return "";
+constexpr int kWordBits = 64;
+
+std::string cpp_condition(const Expression& condition, const CppKey& key);
+
+std::string cpp_comparison(const Expression& condition, const CppKey& key) {
+    constexpr std::string_view operators[] = {"==", "!=", "<", "<=", ">", ">="};  // as Comparison lists them
+    std::vector<std::string> terms;
+    for (const int feature : condition.features) terms.push_back("key." + key[feature].member);
+    return fmt::format("{} {} {}", fmt::join(terms, " + "),
+                       operators[static_cast<std::size_t>(condition.comparison)],
+                       key[condition.features.front()].value(condition.value));
 }
 
-std::string enum_text(const Feature& feature, const CppFeature& named) {
+std::string cpp_parts(const Expression& condition, const CppKey& key) {
+    std::vector<std::string> parts;
+    for (const auto& part : condition.parts) {
+        const bool is_list =
+            part->kind == Expression::Kind::conjunction || part->kind == Expression::Kind::disjunction;
+        const std::string text = cpp_condition(*part, key);
+        parts.push_back(is_list ? "(" + text + ")" : text);
+    }
+    return fmt::format("{}",
+                       fmt::join(parts, condition.kind == Expression::Kind::conjunction ? " && " : " || "));
+}
+
+/// The C++ of a condition over a key named `key`.
+std::string cpp_condition(const Expression& condition, const CppKey& key) {
+    switch (condition.kind) {
+        case Expression::Kind::constant:
+            return condition.constant ? "true" : "false";
+        case Expression::Kind::compare:
+            return cpp_comparison(condition, key);
+        case Expression::Kind::negation:
+            return "!(" + cpp_condition(*condition.parts.front(), key) + ")";
+        case Expression::Kind::conjunction:
+        case Expression::Kind::disjunction:
+            return cpp_parts(condition, key);
+    }
+    return "true";
+}
+
+std::string enum_text(const CppFeature& named) {
+    const Feature& feature = *named.feature;
+    std::string_view order;
+    if (feature.role == Role::quality)
+        order =
+            feature.default_place == 0 ? ", most accurate first" : ", most accurate first behind the default";
     // A quarter thousand values fit in a byte; nobody has more, but an enum must not depend on that.
     const std::string_view type = feature.values.size() < 256 ? "std::uint8_t" : "std::uint16_t";
-    return fmt::format("/// {} ({}).\nenum class {} : {} {{ {} }};\n\n", feature.name, role_text(feature),
-                       named.type, type, fmt::join(named.enumerators, ", "));
-}
-
-std::string member_text(const Feature& feature, const CppFeature& named) {
-    std::string comment;
-    if (feature.kind == FeatureKind::count)
-        comment = fmt::format("  ///< 0 to {}", feature.values.size() - 1);
-    return fmt::format("    {} {} = {};{}\n", named.type, named.member, cpp_value(named, feature.kind, 0),
-                       comment);
-}
-
-std::string range_text(const Feature& feature, const CppFeature& named) {
-    const std::size_t count = feature.values.size();
-    if (feature.kind == FeatureKind::define) return {};
-    if (feature.kind == FeatureKind::choice) {
-        return fmt::format("static_cast<unsigned>(key.{}) < {}U", named.member, count);
-    }
-    return fmt::format("key.{0} >= 0 && key.{0} <= {1}", named.member, count - 1);
+    return fmt::format("/// {} ({}{}).\nenum class {} : {} {{ {} }};\n\n", feature.name,
+                       name_of(feature.role), order, named.type, type, fmt::join(named.enumerators, ", "));
 }
 
 std::string packed_text(const CppKey& key) {
@@ -53,54 +68,38 @@ std::string packed_text(const CppKey& key) {
     for (const CppFeature& feature : key.features) {
         if (feature.bits == 0) continue;
         std::string& word = words[static_cast<std::size_t>(feature.word)];
-        if (feature.shift == 0) word.clear();
-        if (!word.empty()) word += " |\n           ";
-        word += fmt::format("static_cast<std::uint64_t>(key.{}) << {}U", feature.member, feature.shift);
+        const std::string shifted =
+            fmt::format("static_cast<std::uint64_t>(key.{}) << {}U", feature.member, feature.shift);
+        word = feature.shift == 0 ? shifted : word + " |\n           " + shifted;
     }
     if (words.size() == 1) return words.front();
     return fmt::format("{{{{{}}}}}", fmt::join(words, ",\n           "));
 }
 
-std::string unpacked_text(const CppKey& key) {
-    std::string text;
-    for (const CppFeature& feature : key.features) {
-        if (feature.bits == 0) continue;
-        const std::string word = key.words == 1 ? "bits" : fmt::format("bits.words[{}]", feature.word);
-        text += fmt::format("    key.{} = static_cast<{}>({} >> {}U & {}U);\n", feature.member, feature.type,
-                            word, feature.shift, (std::uint64_t{1} << feature.bits) - 1);
-    }
-    return text;
-}
-
-void collect_features(const Expression& condition, std::set<int>& features) {
-    features.insert(condition.features.begin(), condition.features.end());
-    for (const auto& part : condition.parts) collect_features(*part, features);
-}
-
 /// Whether a rule changes what an earlier one, or it itself, looks at: one pass may then not be enough.
 bool need_repetition(const std::vector<Rule>& rules) {
     std::set<int> looked_at;
-    for (const Rule& rule : rules) {
-        if (rule.kind != Rule::Kind::defaults) continue;
-        collect_features(rule.when, looked_at);
-        const auto is_looked_at = [&looked_at](int feature) { return looked_at.contains(feature); };
-        if (std::any_of(rule.defaults.begin(), rule.defaults.end(), is_looked_at)) return true;
-    }
-    return false;
+    const auto look = [&](const auto& self, const Expression& condition) -> void {
+        looked_at.insert(condition.features.begin(), condition.features.end());
+        for (const auto& part : condition.parts) self(self, *part);
+    };
+    return std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+        if (rule.kind != Rule::Kind::defaults) return false;
+        look(look, rule.when);
+        return std::any_of(rule.defaults.begin(), rule.defaults.end(),
+                           [&](int feature) { return looked_at.contains(feature); });
+    });
 }
 
-std::string default_rules_text(const Family& family, const std::vector<Rule>& rules, const CppKey& key) {
+std::string default_rules_text(const std::vector<Rule>& rules, const CppKey& key) {
     const bool repeated = need_repetition(rules);
     const std::string indent(repeated ? 8 : 4, ' ');
     std::string text;
     for (const Rule& rule : rules) {
         if (rule.kind != Rule::Kind::defaults) continue;
-        text += fmt::format("{}if ({}) {{\n", indent, cpp_condition(rule.when, family, key));
-        for (const int index : rule.defaults) {
-            const auto feature = static_cast<std::size_t>(index);
-            text += fmt::format("{}    key.{} = {};\n", indent, key.features[feature].member,
-                                cpp_value(key.features[feature], family.features[feature].kind, 0));
-        }
+        text += fmt::format("{}if ({}) {{\n", indent, cpp_condition(rule.when, key));
+        for (const int feature : rule.defaults)
+            text += fmt::format("{}    key.{} = {};\n", indent, key[feature].member, key[feature].value(0));
         text += fmt::format("{}}}\n", indent);
     }
     if (!repeated) return text;
@@ -110,54 +109,110 @@ std::string default_rules_text(const Family& family, const std::vector<Rule>& ru
         text);
 }
 
-std::string forbid_rules_text(const Family& family, const std::vector<Rule>& rules, const CppKey& key) {
-    std::string text;
-    for (const Rule& rule : rules) {
-        if (rule.kind != Rule::Kind::forbid) continue;
-        text += fmt::format("    if ({}) return {};\n", cpp_condition(rule.when, family, key),
-                            cpp_literal(rule.reason));
-    }
-    return text;
-}
-
-std::string feature_row(const Feature& feature, std::size_t first_name) {
-    constexpr std::string_view kinds[] = {"choice", "count", "define"};
-    return fmt::format("{{{}, gobo::runtime::FeatureKind::{}, {}, {}}}", cpp_literal(feature.name),
-                       kinds[static_cast<std::size_t>(feature.kind)], feature.values.size(), first_name);
-}
-
-void describe_tables(const Family& family, TemplateValues& values) {
-    std::vector<std::string> rows;
-    std::vector<std::string> names;
-    for (const Feature& feature : family.features) {
-        rows.push_back(feature_row(feature, names.size()));
-        if (feature.kind == FeatureKind::count) continue;
-        for (const std::string& value : feature.values) names.push_back(cpp_literal(value));
-    }
-    values["feature_count"] = std::to_string(rows.size());
-    values["features"] = cpp_list(rows);
-    values["value_name_count"] = std::to_string(names.size());
-    values["value_names"] = cpp_list(names);
+/// Takes a feature's value from a state that has a member of its name; one that has none is left alone.
+std::string taker_text(const CppFeature& named) {
+    return fmt::format(
+        "template <class State>\n"
+        "constexpr auto take_{0}(const State& state, Key& key, int) -> decltype(void(state.{0}), "
+        "std::true_type{{}}) {{\n"
+        "    key.{0} = gobo::runtime::value_from<{1}>(state.{0});\n"
+        "    return {{}};\n"
+        "}}\n"
+        "template <class State>\n"
+        "constexpr std::false_type take_{0}(const State&, Key&, long) {{\n"
+        "    return {{}};\n"
+        "}}\n",
+        named.member, named.type);
 }
 
 }  // namespace
 
-void describe_key(const Family& family, const std::vector<Rule>& rules, const CppKey& key,
-                  TemplateValues& values) {
-    std::string& enums = values["enums"];
-    std::string& members = values["key_members"];
+std::string_view name_of(Role role) {
+    if (role == Role::pipeline) return "pipeline";
+    return role == Role::quality ? "quality" : "effect";
+}
+
+std::string_view name_of(FeatureKind kind) {
+    if (kind == FeatureKind::define) return "define";
+    return kind == FeatureKind::count ? "count" : "choice";
+}
+
+std::string CppFeature::value(int number) const {
+    if (feature->kind == FeatureKind::count) return std::to_string(number);
+    if (feature->kind == FeatureKind::define) return number == 0 ? "false" : "true";
+    return type + "::" + enumerators[static_cast<std::size_t>(number)];
+}
+
+CppKey name_key(const Family& family, CppScope& scope) {
+    CppKey key;
+    CppScope members({"Key"});
+    for (const Feature& feature : family.features) {
+        key.features.push_back({&feature, members.claim(cpp_identifier(feature.name)), {}, {}});
+        // A member may not have the name of a type that Key uses.
+        scope.claim(key.features.back().member);
+    }
+    int used = 0;
+    for (CppFeature& named : key.features) {
+        const Feature& feature = *named.feature;
+        named.type = feature.kind == FeatureKind::count ? "int" : "bool";
+        if (feature.kind == FeatureKind::choice) {
+            const std::string& name = feature.enum_name.empty() ? feature.name : feature.enum_name;
+            named.type = scope.claim(cpp_type_name(name));
+            CppScope enumerators;
+            for (const std::string& value : feature.values)
+                named.enumerators.push_back(enumerators.claim(cpp_identifier(value)));
+        }
+        const std::size_t count = feature.values.size();
+        named.bits = count < 2 ? 0 : static_cast<int>(std::bit_width(count - 1));
+        // No feature straddles two words, so that each is read with one shift.
+        if (used + named.bits > kWordBits) {
+            ++key.words;
+            used = 0;
+        }
+        named.word = key.words - 1;
+        named.shift = used;
+        used += named.bits;
+    }
+    return key;
+}
+
+void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValues& values) {
+    for (const char* part : {"enums", "key_members", "unpacked", "forbid_rules", "state_members",
+                             "state_takers", "state_taken", "state_takes_any"})
+        values[part].clear();
     std::vector<std::string> equal;
     std::vector<std::string> ranges;
     std::vector<std::string> numbers;
-    for (std::size_t index = 0; index < key.features.size(); ++index) {
-        const Feature& feature = family.features[index];
-        const CppFeature& named = key.features[index];
-        if (feature.kind == FeatureKind::choice) enums += enum_text(feature, named);
-        members += member_text(feature, named);
-        equal.push_back(fmt::format("left.{0} == right.{0}", named.member));
-        if (std::string range = range_text(feature, named); !range.empty())
-            ranges.push_back(std::move(range));
-        numbers.push_back(fmt::format("static_cast<int>(key.{})", named.member));
+    std::vector<std::string> rows;
+    std::vector<std::string> names;
+    for (const CppFeature& named : key.features) {
+        const Feature& feature = *named.feature;
+        const std::size_t count = feature.values.size();
+        const bool is_count = feature.kind == FeatureKind::count;
+        const std::string& member = named.member;
+        const std::string declaration = fmt::format("    {} {} = {};", named.type, member, named.value(0));
+        values["key_members"] += declaration + (is_count ? fmt::format("  ///< 0 to {}\n", count - 1) : "\n");
+        equal.push_back(fmt::format("left.{0} == right.{0}", member));
+        numbers.push_back(fmt::format("static_cast<int>(key.{})", member));
+        if (is_count) ranges.push_back(fmt::format("key.{0} >= 0 && key.{0} <= {1}", member, count - 1));
+        if (feature.kind == FeatureKind::choice) {
+            values["enums"] += enum_text(named);
+            ranges.push_back(fmt::format("static_cast<unsigned>(key.{}) < {}U", member, count));
+        }
+        rows.push_back(fmt::format("{{{}, gobo::runtime::FeatureKind::{}, {}, {}}}",
+                                   cpp_literal(feature.name), name_of(feature.kind), count, names.size()));
+        if (!is_count)
+            std::transform(feature.values.begin(), feature.values.end(), std::back_inserter(names),
+                           cpp_literal);
+        if (named.bits > 0)
+            values["unpacked"] +=
+                fmt::format("    key.{} = static_cast<{}>({} >> {}U & {}U);\n", member, named.type,
+                            key.words == 1 ? "bits" : fmt::format("bits.words[{}]", named.word), named.shift,
+                            (std::uint64_t{1} << named.bits) - 1);
+        if (feature.role == Role::effect) values["state_members"] += declaration + "\n";
+        values["state_takers"] += taker_text(named);
+        values["state_taken"] += fmt::format("    take_{}(state, key, 0);\n", member);
+        values["state_takes_any"] += fmt::format(" || decltype(take_{}(state, key, 0))::value", member);
     }
     const auto all_of = [](const std::vector<std::string>& parts, std::string_view separator) {
         return parts.empty() ? "true" : fmt::format("{}", fmt::join(parts, separator));
@@ -168,10 +223,13 @@ void describe_key(const Family& family, const std::vector<Rule>& rules, const Cp
     values["packed_type"] =
         key.words == 1 ? "std::uint64_t" : fmt::format("gobo::runtime::WideKey<{}>", key.words);
     values["packed"] = packed_text(key);
-    values["unpacked"] = unpacked_text(key);
-    values["default_rules"] = default_rules_text(family, rules, key);
-    values["forbid_rules"] = forbid_rules_text(family, rules, key);
-    describe_tables(family, values);
+    values["default_rules"] = default_rules_text(rules, key);
+    for (const Rule& rule : rules)
+        if (rule.kind == Rule::Kind::forbid)
+            values["forbid_rules"] += fmt::format("    if ({}) return {};\n", cpp_condition(rule.when, key),
+                                                  cpp_literal(rule.reason));
+    add_table(values, "feature", rows);
+    add_table(values, "value_name", names);
 }
 
 }  // namespace gobo

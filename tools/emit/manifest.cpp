@@ -1,12 +1,13 @@
-#include "emit/manifest.hpp"
-
+// The manifest and the depfile.
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "emit/interface_section.hpp"
+#include "emit/emit.hpp"
+#include "emit/sections.hpp"
 #include "family/key.hpp"
 #include "reflect/interface_format.hpp"
 
@@ -15,47 +16,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int indent = 2;
+constexpr int kIndent = 2;
 
 /// As JSON; bytes that are no UTF-8 (a file's name may hold any) become U+FFFD.
 std::string text_of(const Json& value, int indentation = -1) {
     return value.dump(indentation, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string_view role_name(Role role) {
-    switch (role) {
-        case Role::effect:
-            return "effect";
-        case Role::quality:
-            return "quality";
-        case Role::pipeline:
-            return "pipeline";
-    }
-    return "";
-}
-
-std::string_view kind_name(FeatureKind kind) {
-    switch (kind) {
-        case FeatureKind::choice:
-            return "choice";
-        case FeatureKind::count:
-            return "count";
-        case FeatureKind::define:
-            return "define";
-    }
-    return "";
-}
-
 std::vector<std::string> feature_rows(const Family& family) {
     std::vector<std::string> rows;
-    for (const Feature& feature : family.features) {
-        Json row;
-        row["name"] = feature.name;
-        row["role"] = role_name(feature.role);
-        row["kind"] = kind_name(feature.kind);
-        row["values"] = feature.values;
-        rows.push_back(text_of(row));
-    }
+    for (const Feature& feature : family.features)
+        rows.push_back(text_of(Json{{"name", feature.name},
+                                    {"role", name_of(feature.role)},
+                                    {"kind", name_of(feature.kind)},
+                                    {"values", feature.values}}));
     return rows;
 }
 
@@ -83,25 +57,21 @@ std::string choice_text(const std::vector<QualityChoice>& qualities, const Key& 
     return "";
 }
 
-std::vector<std::string> permutation_rows(const Family& family, const Composition& composition,
-                                          const std::vector<QualityChoice>& qualities) {
+std::vector<std::string> permutation_rows(const EmitInput& input) {
     std::vector<std::pair<std::string, const Permutation*>> sorted;
-    for (const Permutation& permutation : composition.permutations) {
-        sorted.emplace_back(key_text(family, permutation.key), &permutation);
-    }
+    for (const Permutation& permutation : input.composition.permutations)
+        sorted.emplace_back(key_text(input.family, permutation.key), &permutation);
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::string> rows;
-    for (const auto& [key, permutation] : sorted) {
+    for (const auto& [key, permutation] : sorted)
         rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}{}}}", text_of(key),
                                    permutation->vertex, permutation->fragment,
-                                   choice_text(qualities, permutation->key)));
-    }
+                                   choice_text(input.qualities, permutation->key)));
     return rows;
 }
 
 std::string array_text(const std::vector<std::string>& rows) {
-    if (rows.empty()) return "[]";
-    return fmt::format("[\n    {}\n  ]", fmt::join(rows, ",\n    "));
+    return rows.empty() ? "[]" : fmt::format("[\n    {}\n  ]", fmt::join(rows, ",\n    "));
 }
 
 /// A text of several lines, as a value within the manifest's outermost object.
@@ -109,7 +79,20 @@ std::string indented(const std::string& text) {
     std::string result;
     for (const char character : text) {
         result += character;
-        if (character == '\n') result.append(indent, ' ');
+        if (character == '\n') result.append(kIndent, ' ');
+    }
+    return result;
+}
+
+/// As GCC writes names: a blank or '#' takes a backslash, and backslashes just before one are doubled.
+std::string escaped(std::string_view path) {
+    std::string result;
+    std::size_t backslashes = 0;
+    for (const char character : path) {
+        if (character == ' ' || character == '\t' || character == '#') result.append(backslashes + 1, '\\');
+        if (character == '$') result += '$';
+        backslashes = character == '\\' ? backslashes + 1 : 0;
+        result += character;
     }
     return result;
 }
@@ -122,9 +105,18 @@ std::string emit_manifest(const EmitInput& input) {
         "{{\n  \"family\": {},\n  \"dialect\": {},\n  \"features\": {},\n  \"interface\": {},\n"
         "  \"stages\": {},\n  \"permutations\": {}\n}}\n",
         text_of(input.family.name), text_of(version_of(input.composition)),
-        array_text(feature_rows(input.family)), indented(text_of(interface, indent)),
-        array_text(stage_rows(input.composition)),
-        array_text(permutation_rows(input.family, input.composition, input.qualities)));
+        array_text(feature_rows(input.family)), indented(text_of(interface, kIndent)),
+        array_text(stage_rows(input.composition)), array_text(permutation_rows(input)));
+}
+
+std::string emit_depfile(const std::vector<std::string>& outputs, const std::vector<std::string>& files) {
+    std::vector<std::string> targets;
+    std::transform(outputs.begin(), outputs.end(), std::back_inserter(targets), escaped);
+    std::string text = fmt::format("{}:", fmt::join(targets, " "));
+    std::set<std::string_view> named;
+    for (const std::string& file : files)
+        if (named.insert(file).second) text += " \\\n  " + escaped(file);
+    return text + '\n';
 }
 
 }  // namespace gobo

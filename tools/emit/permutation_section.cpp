@@ -1,5 +1,3 @@
-#include "emit/permutation_section.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -8,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "emit/cpp_text.hpp"
+#include "emit/sections.hpp"
 
 namespace gobo {
 namespace {
@@ -18,136 +16,103 @@ using Numbers = std::vector<std::size_t>;
 
 PackedKey pack(const Key& values, const CppKey& key) {
     PackedKey words(static_cast<std::size_t>(key.words));
-    for (std::size_t index = 0; index < key.features.size(); ++index) {
-        const CppFeature& feature = key.features[index];
-        if (feature.bits == 0) continue;
-        words[static_cast<std::size_t>(feature.word)] |= static_cast<std::uint64_t>(values[index])
-                                                         << feature.shift;
+    for (std::size_t i = 0; i < key.features.size(); ++i) {
+        const CppFeature& feature = key.features[i];
+        if (feature.bits > 0)
+            words[static_cast<std::size_t>(feature.word)] |= static_cast<std::uint64_t>(values[i])
+                                                             << feature.shift;
     }
     return words;
 }
 
-/// A decimal literal without suffix is signed: one with the top bit set would have no type.
-std::string literal_of(std::uint64_t word) {
-    const bool is_signed = word <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    return fmt::format("{}{}", word, is_signed ? "" : "U");
-}
-
 std::string packed_text(const PackedKey& words) {
-    std::vector<std::string> literals(words.size());
-    std::transform(words.begin(), words.end(), literals.begin(), literal_of);
+    std::vector<std::string> literals;
+    for (const std::uint64_t word : words) {
+        // A decimal literal without suffix is signed: one with the top bit set would have no type.
+        const bool is_signed = word <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+        literals.push_back(fmt::format("{}{}", word, is_signed ? "" : "U"));
+    }
     if (literals.size() == 1) return literals.front();
     return fmt::format("{{{{{}}}}}", fmt::join(literals, ", "));
 }
 
-/// Marks what is used, then numbers it in order.
-struct Renumbering {
-    std::vector<bool> used;
-    Numbers number;
-
-    explicit Renumbering(std::size_t count) : used(count), number(count) {}
-    void use(int index) { used[static_cast<std::size_t>(index)] = true; }
-};
-
 std::string numbers_text(const Numbers& numbers) {
+    if (numbers.empty()) return {};
     std::string text = "{";
-    for (std::size_t index = 0; index < numbers.size(); ++index) {
-        text += index % 20 == 0 ? "\n        " : " ";
-        fmt::format_to(std::back_inserter(text), "{},", numbers[index]);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        text += i % 20 == 0 ? "\n        " : " ";
+        fmt::format_to(std::back_inserter(text), "{},", numbers[i]);
     }
     return text + "\n    }";
 }
 
-/// The texts of the pieces in use. Each piece's number becomes that of its first text; `parts` counts its
-/// texts.
-std::vector<std::string> piece_rows(const Composition& composition, Renumbering& pieces, Numbers& parts) {
-    std::vector<std::string> rows;
-    for (std::size_t index = 0; index < composition.pieces.size(); ++index) {
-        if (!pieces.used[index]) continue;
-        const Piece& piece = composition.pieces[index];
-        pieces.number[index] = rows.size();
-        int line = 1;
-        for (const std::string_view text : cut_for_literals(piece.text)) {
-            rows.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name), cpp_literal(text),
-                                       text.size(), line));
-            line += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-            ++parts[index];
-        }
+/// Adds the texts of a piece, which fits no single literal where it is long.
+void add_texts(const Piece& piece, std::vector<std::string>& rows) {
+    int line = 1;
+    for (const std::string_view text : cut_for_literals(piece.text)) {
+        rows.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name), cpp_literal(text),
+                                   text.size(), line));
+        line += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
     }
-    return rows;
 }
 
-/// The lists of all stages one after the other, and where each begins.
-struct StageLists {
-    Numbers begins;
-    Numbers pieces;
-};
+}  // namespace
 
-StageLists stage_lists(const Composition& composition, Renumbering& stages, const Renumbering& pieces,
-                       const Numbers& parts) {
-    StageLists lists;
-    for (std::size_t index = 0; index < composition.stages.size(); ++index) {
-        if (!stages.used[index]) continue;
-        stages.number[index] = lists.begins.size();
-        lists.begins.push_back(lists.pieces.size());
-        for (const int piece : composition.stages[index].pieces) {
-            const auto number = static_cast<std::size_t>(piece);
-            for (std::size_t part = 0; part < parts[number]; ++part) {
-                lists.pieces.push_back(pieces.number[number] + part);
-            }
-        }
-    }
-    lists.begins.push_back(lists.pieces.size());
-    return lists;
-}
-
-void add_permutations(const Composition& composition, const CppKey& key, const Renumbering& stages,
-                      TemplateValues& values) {
+void permutation_section(const Composition& composition, const CppKey& key, TemplateValues& values) {
+    std::vector<bool> is_used(composition.stages.size());
     std::vector<std::pair<PackedKey, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
+        for (const int stage : {permutation.vertex, permutation.fragment})
+            is_used[static_cast<std::size_t>(stage)] = true;
         sorted.emplace_back(pack(permutation.key, key), &permutation);
     }
     std::sort(sorted.begin(), sorted.end(),
               [](const auto& left, const auto& right) { return left.first < right.first; });
+
+    std::vector<bool> is_named(composition.pieces.size());
+    for (std::size_t i = 0; i < composition.stages.size(); ++i)
+        for (const int piece : composition.stages[i].pieces)
+            if (is_used[i]) is_named[static_cast<std::size_t>(piece)] = true;
+    std::vector<std::string> texts;
+    Numbers first_text;  // of each piece, and at the end their number
+    for (std::size_t i = 0; i < composition.pieces.size(); ++i) {
+        first_text.push_back(texts.size());
+        if (is_named[i]) add_texts(composition.pieces[i], texts);
+    }
+    first_text.push_back(texts.size());
+
+    Numbers stage_begins;
+    Numbers piece_lists;
+    Numbers stage_numbers;
+    for (std::size_t i = 0; i < composition.stages.size(); ++i) {
+        stage_numbers.push_back(stage_begins.size());
+        if (!is_used[i]) continue;
+        stage_begins.push_back(piece_lists.size());
+        for (const int piece : composition.stages[i].pieces) {
+            const auto at = static_cast<std::size_t>(piece);
+            for (std::size_t text = first_text[at]; text < first_text[at + 1]; ++text)
+                piece_lists.push_back(text);
+        }
+    }
+    stage_begins.push_back(piece_lists.size());
+
     std::vector<std::string> keys;
     std::vector<std::string> rows;
     for (const auto& [packed, permutation] : sorted) {
         keys.push_back(packed_text(packed));
         rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}}}", keys.back(),
-                                   stages.number[static_cast<std::size_t>(permutation->vertex)],
-                                   stages.number[static_cast<std::size_t>(permutation->fragment)]));
+                                   stage_numbers[static_cast<std::size_t>(permutation->vertex)],
+                                   stage_numbers[static_cast<std::size_t>(permutation->fragment)]));
     }
-    values["permutation_count"] = std::to_string(rows.size());
+    const bool is_wide = texts.size() > std::numeric_limits<std::uint16_t>::max();
+    values["index_type"] = is_wide ? "std::uint32_t" : "std::uint16_t";
+    values["stage_begin_count"] = std::to_string(stage_begins.size());
+    values["stage_begins"] = numbers_text(stage_begins);
+    values["index_count"] = std::to_string(piece_lists.size());
+    values["piece_lists"] = numbers_text(piece_lists);
     values["keys"] = cpp_list(keys);
-    values["permutations"] = cpp_list(rows);
-}
-
-}  // namespace
-
-void describe_permutations(const Composition& composition, const CppKey& key, TemplateValues& values) {
-    Renumbering stages(composition.stages.size());
-    for (const Permutation& permutation : composition.permutations) {
-        stages.use(permutation.vertex);
-        stages.use(permutation.fragment);
-    }
-    Renumbering pieces(composition.pieces.size());
-    for (std::size_t index = 0; index < composition.stages.size(); ++index) {
-        if (!stages.used[index]) continue;
-        for (const int piece : composition.stages[index].pieces) pieces.use(piece);
-    }
-    Numbers parts(composition.pieces.size());
-    const std::vector<std::string> rows = piece_rows(composition, pieces, parts);
-    const StageLists lists = stage_lists(composition, stages, pieces, parts);
-
-    const bool wide = rows.size() > std::numeric_limits<std::uint16_t>::max();
-    values["index_type"] = wide ? "std::uint32_t" : "std::uint16_t";
-    values["piece_count"] = std::to_string(rows.size());
-    values["pieces"] = cpp_list(rows);
-    values["stage_begin_count"] = std::to_string(lists.begins.size());
-    values["stage_begins"] = numbers_text(lists.begins);
-    values["index_count"] = std::to_string(lists.pieces.size());
-    values["piece_lists"] = lists.pieces.empty() ? "" : numbers_text(lists.pieces);
-    add_permutations(composition, key, stages, values);
+    add_table(values, "piece", texts);
+    add_table(values, "permutation", rows);
 }
 
 }  // namespace gobo

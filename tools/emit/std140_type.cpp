@@ -18,7 +18,7 @@ std::string_view number_of(Scalar scalar) {
         case Scalar::float64:
             return "double";
         case Scalar::boolean:
-            return "std140::Bool";
+            return "std140::Bool32";
         default:
             return "float";
     }

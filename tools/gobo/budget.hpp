@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/header.hpp"
+#include "emit/emit.hpp"
 #include "gobo/command.hpp"
 
 namespace gobo {

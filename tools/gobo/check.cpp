@@ -1,7 +1,7 @@
 // gobo check: composes and validates a selection; says nothing when all is well.
 #include <fmt/format.h>
 
-#include "compose/same_stages.hpp"
+#include "compose/compose.hpp"
 #include "gobo/commands.hpp"
 #include "validate/validate.hpp"
 

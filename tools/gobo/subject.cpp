@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "compose/compose.hpp"
-#include "compose/loose_files.hpp"
+#include "compose/search_path.hpp"
 
 namespace gobo {
 namespace {

@@ -1,6 +1,7 @@
 #include "validate/glslang_stage.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 
 #include <fmt/format.h>
@@ -8,14 +9,96 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "reflect/reflect.hpp"
-#include "validate/glsl_version.hpp"
-#include "validate/glslang_log.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr auto spirv_rules = static_cast<EShMessages>(EShMsgSpvRules);
+constexpr auto kSpirvRules = static_cast<EShMessages>(EShMsgSpvRules);
+
+/// The texture functions of before GLSL 1.30, which carried their sampler's type in their name.
+constexpr std::string_view kRenamedFunctions =
+    "#define texture1D texture\n"
+    "#define texture1DProj textureProj\n"
+    "#define texture1DLod textureLod\n"
+    "#define texture2D texture\n"
+    "#define texture2DProj textureProj\n"
+    "#define texture2DLod textureLod\n"
+    "#define texture2DProjLod textureProjLod\n"
+    "#define texture3D texture\n"
+    "#define texture3DProj textureProj\n"
+    "#define texture3DLod textureLod\n"
+    "#define textureCube texture\n"
+    "#define textureCubeLod textureLod\n";
+
+/// Whether glslang makes SPIR-V of the version as it is.
+bool makes_spirv(const GlslVersion& version) {
+    return version.number >= (version.es ? 310 : 330) && version.profile != "compatibility";
+}
+
+/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the functions
+/// that have since been renamed defined by their new names.
+std::string raised_for_spirv(std::string_view prologue) {
+    const GlslVersion version = version_of(prologue);
+    const auto end = prologue.find('\n');
+    const std::string_view rest =
+        prologue.starts_with("#version") && end != std::string_view::npos ? prologue.substr(end) : "\n";
+    // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
+    const bool is_first_es = version.es && version.number == 100;
+    const bool has_old_names = is_first_es || (!version.es && version.number < 130);
+    return fmt::format("#version {}{}{}{}", version.es && !is_first_es ? "310 es" : "330 core",
+                       has_old_names ? "\n" : "", has_old_names ? kRenamedFunctions : "", rest);
+}
+
+/// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
+/// searched for.
+void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
+    const std::string message = diagnostic.message;
+    for (const Piece* piece : pieces) {
+        if (!message.starts_with(piece->path + ":")) continue;
+        int line = 0;
+        const char* end = message.data() + message.size();
+        const auto parsed = std::from_chars(message.data() + piece->path.size() + 1, end, line);
+        if (parsed.ec != std::errc{} || parsed.ptr == end || *parsed.ptr != ':') continue;
+        diagnostic.message = trim({parsed.ptr + 1, end});
+        diagnostic.place = {piece->path, line, 0};
+        // A generated piece carries the lines of the file it comes from only where it stands for one.
+        diagnostic.quoted_line = line_of(*piece, line);
+        return;
+    }
+}
+
+/// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
+/// with the line quoted; the rest (those of linking) stand at `otherwise`.
+Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
+                               const Place& otherwise) {
+    constexpr std::string_view given_up = "'' : compilation terminated";
+    // Where glslang gives up, every condition that is open seems to lack its end.
+    const bool gave_up = log.find(given_up) != std::string_view::npos;
+    const auto says_nothing = [&](std::string_view line) {
+        const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
+        return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
+               (gave_up && holds("'' : missing #endif"));
+    };
+    Diagnostics diagnostics;
+    for (const std::string& full_line : split(log, '\n')) {
+        const std::string_view line = full_line;
+        if (says_nothing(line)) continue;
+        const bool is_error = line.starts_with("ERROR: ");
+        if (is_error || line.starts_with("WARNING: ")) {
+            Diagnostic& diagnostic = diagnostics.emplace_back();
+            diagnostic.severity = is_error ? Severity::error : Severity::warning;
+            diagnostic.place = otherwise;
+            diagnostic.message = trim(line.substr(line.find(' ')));
+            locate(diagnostic, pieces);
+        } else if (!diagnostics.empty()) {  // a message that goes on
+            diagnostics.back().message += fmt::format(" {}", line);
+        }
+    }
+    return diagnostics;
+}
 
 EShLanguage language_of(StageKind kind) {
     return kind == StageKind::vertex ? EShLangVertex : EShLangFragment;
@@ -79,18 +162,14 @@ Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     for (Diagnostic& diagnostic : diagnostics) {
         diagnostic.help = fmt::format(
             "glslang makes no SPIR-V of GLSL {}, so gobo reads it as 330 (ES: 310), which lacks this; write "
-            "it "
-            "with what 330 has",
+            "it with what 330 has",
             version.number);
     }
     return diagnostics;
 }
 
 tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
-    Diagnostic diagnostic;
-    diagnostic.fault = Fault::internal;
-    diagnostic.message = fmt::format("glslang refuses a stage that it parsed: {}", log);
-    return fail(std::move(diagnostic));
+    return fail(Fault::internal, fmt::format("glslang refuses a stage that it parsed: {}", log));
 }
 
 }  // namespace
@@ -141,7 +220,7 @@ std::unique_ptr<GlslangStage::Shader> GlslangStage::parse_as(const std::string& 
     shader.setAutoMapBindings(map_bindings);
     bindings_mapped_ = map_bindings;
     const bool is_fine =
-        shader.parse(GetDefaultResources(), 110, false, for_spirv ? spirv_rules : EShMsgDefault);
+        shader.parse(GetDefaultResources(), 110, false, for_spirv ? kSpirvRules : EShMsgDefault);
     diagnostics_ = diagnostics_of_log(shader.getInfoLog(), pieces_, {pieces_.back()->path, 0, 0});
     if (!is_fine && !has_errors(diagnostics_)) {
         diagnostics_ = fail(Fault::internal, "glslang refuses a stage without saying why").value();
@@ -163,11 +242,8 @@ bool GlslangStage::parse() {
     }
     const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
     shader_ = parse_as(prologue, true, !can_state_bindings);
-    const bool wants_bindings =
-        std::any_of(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& diagnostic) {
-            return diagnostic.message.find("layout(binding=X)") != std::string::npos;
-        });
-    if (wants_bindings) shader_ = parse_as(prologue, true, true);
+    // That a binding is not stated is an error unless glslang may choose it.
+    if (has_errors(diagnostics_) && can_state_bindings) shader_ = parse_as(prologue, true, true);
     return !has_errors(diagnostics_);
 }
 
@@ -175,7 +251,7 @@ Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {
     glslang::TProgram program;
     program.addShader(&vertex.shader_->shader);
     program.addShader(&fragment.shader_->shader);
-    const bool is_fine = program.link(spirv_rules);
+    const bool is_fine = program.link(kSpirvRules);
     Diagnostics found = diagnostics_of_log(program.getInfoLog(), {}, {fragment.pieces_.back()->path, 0, 0});
     if (!is_fine && found.empty())
         return fail(Fault::internal, "glslang refuses to link without saying why").value();
@@ -185,27 +261,25 @@ Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {
 Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
-    if (!program.link(spirv_rules)) return glslang_fault(program.getInfoLog());
+    if (!program.link(kSpirvRules)) return glslang_fault(program.getInfoLog());
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
-    Result<Interface> interface = reflect_stage(stage.spirv);
-    if (!interface) return tl::unexpected(interface.error());
-    if (bindings_mapped_ || may_hold_bools(*interface)) {
+    GOBO_TRY(stage.interface, reflect_stage(stage.spirv));
+    if (bindings_mapped_ || may_hold_bools(stage.interface)) {
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |
                                 EShReflectionSeparateBuffers);
-        *interface = restore_bools(std::move(*interface), gl_types(program));
+        stage.interface = restore_bools(std::move(stage.interface), gl_types(program));
     }
     if (bindings_mapped_) {
         const std::map<std::string, int> stated = stated_bindings(program);
-        forget_assigned(interface->blocks, stated);
-        forget_assigned(interface->samplers, stated);
+        forget_assigned(stage.interface.blocks, stated);
+        forget_assigned(stage.interface.samplers, stated);
     }
-    if (bindings_mapped_ || lacks_locations(*interface)) {
+    if (bindings_mapped_ || lacks_locations(stage.interface)) {
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());
         stage.spirv = spirv_of(intermediate, debug_information);
     }
-    stage.interface = std::move(*interface);
     return stage;
 }
 

@@ -5,10 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostic.hpp"
-#include "compose/composition.hpp"
-#include "reflect/interface.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 

@@ -5,21 +5,22 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+#include <spirv-tools/libspirv.hpp>
+
 #include "family/diagnostic_groups.hpp"
 #include "reflect/interface.hpp"
+#include "spirv/glsl_type.hpp"
 #include "validate/glslang_stage.hpp"
-#include "validate/limits.hpp"
-#include "validate/spirv_val.hpp"
 
 namespace gobo {
 namespace {
 
-/// A vertex and a fragment stage that some permutation puts together.
+/// A vertex and a fragment stage that some permutation puts together; -1 where it has none.
 using Pair = std::pair<int, int>;
 
 /// A stage's way through glslang. Parsed by the first pair that needs it, dropped by the last: so no more
@@ -33,30 +34,118 @@ struct Job {
     Diagnostics diagnostics;
 };
 
-/// The distinct pairs, in the order in which the permutations first need them.
-std::vector<Pair> distinct_pairs(const Composition& composition) {
-    std::vector<Pair> pairs;
-    std::set<Pair> seen;
-    for (const Permutation& permutation : composition.permutations) {
-        const Pair pair(permutation.vertex, permutation.fragment);
-        if (seen.insert(pair).second) pairs.push_back(pair);
+void append(Diagnostics& all, const Diagnostics& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+Interface stage_interface(const Validated& validated, int stage) {
+    return stage < 0 ? Interface{} : validated.stages[static_cast<std::size_t>(stage)].interface;
+}
+
+/// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
+/// made; empty where it is valid.
+Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
+    Diagnostics found;
+    const auto add = [&](std::string message) {
+        Diagnostic& diagnostic = found.emplace_back();
+        diagnostic.fault = Fault::internal;
+        diagnostic.place = place;
+        diagnostic.message = std::move(message);
+    };
+    spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
+    tools.SetMessageConsumer(
+        [&](spv_message_level_t level, const char*, const spv_position_t& position, const char* message) {
+            if (level <= SPV_MSG_ERROR)
+                add(fmt::format("spirv-val: {} (instruction {})", message, position.index));
+        });
+    if (!tools.Validate(module) && found.empty()) add("spirv-val refuses the module without saying why");
+    return found;
+}
+
+/// What a program needs beyond the least that every driver of the dialect offers (OpenGL 4.5 core,
+/// tables 23.53 to 23.64; OpenGL 3.3 core, table 6.40 ff.; OpenGL ES 3.0, tables 6.29 to 6.33), one error
+/// each.
+Diagnostics beyond_limits(const Interface& vertex, const Interface& fragment, Dialect dialect,
+                          const Place& place) {
+    constexpr int kBlockBytes = 16384;
+    constexpr int kBlocksOfStage = 12;
+    constexpr int kSamplersOfStage = 16;
+    constexpr int kVaryingComponents = 60;
+    constexpr int kVaryingVectors = 15;  // locations of four components each
+    constexpr int kAttributes = 16;
+    const int bindings = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
+
+    Diagnostics found;
+    const auto at_most = [&](int limit, int needed, const std::string& what, std::string_view constant) {
+        if (needed > limit)
+            append(found,
+                   fail(place, "",
+                        fmt::format("{} {}, OpenGL guarantees only {} ({})", what, needed, limit, constant),
+                        "use fewer, or forbid the combination by a rule of the family")
+                       .value());
+    };
+    for (const auto& [interface, name] : {std::pair(&vertex, "vertex"), std::pair(&fragment, "fragment")}) {
+        at_most(kBlocksOfStage, static_cast<int>(interface->blocks.size()),
+                fmt::format("uniform blocks in the {} stage:", name),
+                "MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS");
+        int samplers = 0;
+        for (const Sampler& sampler : interface->samplers) samplers += element_count(sampler.array);
+        at_most(kSamplersOfStage, samplers, fmt::format("samplers in the {} stage:", name),
+                "MAX_TEXTURE_IMAGE_UNITS");
+        for (const Block& block : interface->blocks) {
+            at_most(kBlockBytes, block.size, fmt::format("bytes of the uniform block '{}':", block.name),
+                    "MAX_UNIFORM_BLOCK_SIZE");
+            at_most(bindings, block.binding + 1,
+                    fmt::format("uniform buffer bindings up to that of '{}':", block.name),
+                    "MAX_UNIFORM_BUFFER_BINDINGS");
+        }
     }
-    return pairs;
+    int components = 0;
+    int vectors = 0;
+    for (const Variable& input : fragment.inputs) {
+        components += glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
+        vectors += location_count(input.type, input.array);
+    }
+    at_most(kVaryingComponents, components, "varying components:", "MAX_VARYING_COMPONENTS");
+    if (components <= kVaryingComponents)
+        at_most(kVaryingVectors, vectors, "varying vectors:", "MAX_VARYING_VECTORS");
+    at_most(kAttributes, static_cast<int>(vertex.inputs.size()), "vertex attributes:", "MAX_VERTEX_ATTRIBS");
+    return found;
+}
+
+/// What the fragment stage reads that the vertex stage does not write, matched by location where both state
+/// one, otherwise by name: OpenGL refuses to link it.
+Diagnostics unwritten_inputs(const Interface& vertex, const Interface& fragment, const Place& place) {
+    Diagnostics found;
+    for (const Variable& input : fragment.inputs) {
+        const auto writes = [&](const Variable& output) {
+            return input.location >= 0 && output.location >= 0 ? input.location == output.location
+                                                               : input.name == output.name;
+        };
+        if (std::any_of(vertex.outputs.begin(), vertex.outputs.end(), writes)) continue;
+        append(found,
+               fail(place, "",
+                    fmt::format("the fragment stage reads '{} {}', which the vertex stage does not write",
+                                input.type, input.name),
+                    "declare and write it as an output of the vertex stage")
+                   .value());
+    }
+    return found;
 }
 
 class Validator {
   public:
     Validator(const Composition& composition, const ValidateOptions& options)
-        : composition_(composition),
-          options_(options),
-          pairs_(distinct_pairs(composition)),
-          jobs_(composition.stages.size()),
-          pair_diagnostics_(pairs_.size()) {
-        result_.stages.resize(composition.stages.size());
-        for (const auto& [vertex, fragment] : pairs_) {
-            if (vertex >= 0) ++job(vertex).pairs_left;
-            if (fragment >= 0) ++job(fragment).pairs_left;
+        : composition_(composition), options_(options), jobs_(composition.stages.size()) {
+        validated_.stages.resize(composition.stages.size());
+        for (const Permutation& permutation : composition.permutations) {
+            const Pair pair(permutation.vertex, permutation.fragment);
+            if (!numbers_.try_emplace(pair, pairs_.size()).second) continue;
+            pairs_.push_back(pair);
+            for (const int stage : {pair.first, pair.second})
+                if (stage >= 0) ++job(stage).pairs_left;
         }
+        of_pairs_.resize(pairs_.size());
     }
 
     /// Works off all pairs by several threads.
@@ -74,17 +163,35 @@ class Validator {
         work();
     }
 
-    /// The messages with the pair they belong to, or with the stage (a pair of it and -1).
-    [[nodiscard]] const std::vector<Pair>& pairs() const { return pairs_; }
-    [[nodiscard]] const Diagnostics& of_stage(int stage) const {
-        return jobs_[static_cast<std::size_t>(stage)].diagnostics;
+    /// What glslang said of a permutation's stages and of the pair, and what lies beyond the dialect's
+    /// limits.
+    [[nodiscard]] Diagnostics diagnostics_of(const Permutation& permutation) {
+        const auto [vertex, fragment] = Pair(permutation.vertex, permutation.fragment);
+        Diagnostics all;
+        if (vertex >= 0) append(all, job(vertex).diagnostics);
+        if (fragment >= 0) append(all, job(fragment).diagnostics);
+        append(all, of_pairs_[numbers_.at({vertex, fragment})]);
+        if (exit_status(all) != 0) return all;
+        const Interface of_vertex = stage_interface(validated_, vertex);
+        const Interface of_fragment = stage_interface(validated_, fragment);
+        const Place place = template_of(fragment >= 0 ? fragment : vertex);
+        append(all, beyond_limits(of_vertex, of_fragment, composition_.dialect, place));
+        if (vertex >= 0 && fragment >= 0) append(all, unwritten_inputs(of_vertex, of_fragment, place));
+        return all;
     }
-    [[nodiscard]] const Diagnostics& of_pair(std::size_t pair) const { return pair_diagnostics_[pair]; }
-    [[nodiscard]] Validated take_result() { return std::move(result_); }
+
+    [[nodiscard]] Validated take_result() { return std::move(validated_); }
 
   private:
     Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
-    ValidatedStage& output(int stage) { return result_.stages[static_cast<std::size_t>(stage)]; }
+
+    [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
+        std::vector<const Piece*> pieces;
+        for (const int piece : composition_.stages[static_cast<std::size_t>(stage)].pieces)
+            pieces.push_back(&composition_.pieces[static_cast<std::size_t>(piece)]);
+        return pieces;
+    }
+    [[nodiscard]] Place template_of(int stage) const { return {pieces_of(stage).back()->path, 0, 0}; }
 
     void validate_pair(std::size_t index) {
         const auto [vertex, fragment] = pairs_[index];
@@ -92,29 +199,25 @@ class Validator {
         const bool has_fragment = fragment >= 0 && is_parsed(fragment);
         if (has_vertex && has_fragment) {
             const std::scoped_lock lock(job(vertex).mutex, job(fragment).mutex);
-            pair_diagnostics_[index] = link(*job(vertex).glslang, *job(fragment).glslang);
-            if (exit_status(pair_diagnostics_[index]) != 0) {
+            of_pairs_[index] = link(*job(vertex).glslang, *job(fragment).glslang);
+            if (exit_status(of_pairs_[index]) != 0) {
                 // glslang keeps a failed link's errors in the stages, which other pairs may share.
                 job(vertex).glslang->parse();
                 job(fragment).glslang->parse();
             }
         }
-        if (vertex >= 0) release(vertex);
-        if (fragment >= 0) release(fragment);
+        for (const int stage : {vertex, fragment})
+            if (stage >= 0) release(stage);
     }
 
     bool is_parsed(int stage) {
         Job& at = job(stage);
         const std::scoped_lock lock(at.mutex);
-        if (at.is_parsed) return at.is_fine;
-        const Stage& source = composition_.stages[static_cast<std::size_t>(stage)];
-        std::vector<const Piece*> pieces;
-        for (const int piece : source.pieces)
-            pieces.push_back(&composition_.pieces[static_cast<std::size_t>(piece)]);
-        at.glslang = std::make_unique<GlslangStage>(source.kind, std::move(pieces));
+        if (std::exchange(at.is_parsed, true)) return at.is_fine;
+        at.glslang = std::make_unique<GlslangStage>(composition_.stages[static_cast<std::size_t>(stage)].kind,
+                                                    pieces_of(stage));
         at.is_fine = at.glslang->parse();
         at.diagnostics = at.glslang->diagnostics();
-        at.is_parsed = true;
         return at.is_fine;
     }
 
@@ -131,19 +234,11 @@ class Validator {
     void generate(int stage, Job& at) {
         Result<ValidatedStage> generated = at.glslang->generate(options_.debug_information);
         if (!generated) {
-            at.diagnostics.insert(at.diagnostics.end(), generated.error().begin(), generated.error().end());
+            append(at.diagnostics, generated.error());
             at.is_fine = false;
             return;
         }
-        if (options_.spirv_val) {
-            const std::string& template_path =
-                composition_
-                    .pieces[static_cast<std::size_t>(
-                        composition_.stages[static_cast<std::size_t>(stage)].pieces.back())]
-                    .path;
-            Diagnostics found = spirv_val(generated->spirv, {template_path, 0, 0});
-            at.diagnostics.insert(at.diagnostics.end(), found.begin(), found.end());
-        }
+        if (options_.spirv_val) append(at.diagnostics, spirv_val(generated->spirv, template_of(stage)));
         if (!options_.keep_spirv) generated->spirv = {};
         const auto state = [&](auto& list) {
             for (auto& bound : list) {
@@ -154,59 +249,28 @@ class Validator {
         };
         state(generated->interface.blocks);
         state(generated->interface.samplers);
-        output(stage) = std::move(*generated);
+        validated_.stages[static_cast<std::size_t>(stage)] = std::move(*generated);
     }
 
     const Composition& composition_;
     const ValidateOptions& options_;
-    std::vector<Pair> pairs_;
+    std::vector<Pair> pairs_;  ///< the distinct ones, in the order in which the permutations first need them
+    std::map<Pair, std::size_t> numbers_;
+    std::vector<Diagnostics> of_pairs_;
     std::vector<Job> jobs_;
-    std::vector<Diagnostics> pair_diagnostics_;
-    Validated result_;
+    Validated validated_;
 };
-
-Interface stage_interface(const Validated& validated, int stage) {
-    return stage < 0 ? Interface{} : validated.stages[static_cast<std::size_t>(stage)].interface;
-}
-
-/// What glslang said of a permutation's stages and of the pair, and what lies beyond the dialect's limits.
-Diagnostics diagnostics_of(const Validator& validator, const Composition& composition,
-                           const Validated& result, const Permutation& permutation, std::size_t pair) {
-    Diagnostics all;
-    const auto append = [&](const Diagnostics& found) { all.insert(all.end(), found.begin(), found.end()); };
-    if (permutation.vertex >= 0) append(validator.of_stage(permutation.vertex));
-    if (permutation.fragment >= 0) append(validator.of_stage(permutation.fragment));
-    append(validator.of_pair(pair));
-    if (exit_status(all) != 0) return all;
-
-    const int last = permutation.fragment >= 0 ? permutation.fragment : permutation.vertex;
-    const int last_piece = composition.stages[static_cast<std::size_t>(last)].pieces.back();
-    const Place place{composition.pieces[static_cast<std::size_t>(last_piece)].path, 0, 0};
-    const Interface vertex = stage_interface(result, permutation.vertex);
-    const Interface fragment = stage_interface(result, permutation.fragment);
-    append(beyond_limits(vertex, fragment, limits_of(composition.dialect), place));
-    if (permutation.vertex >= 0 && permutation.fragment >= 0)
-        append(unwritten_inputs(vertex, fragment, place));
-    return all;
-}
 
 }  // namespace
 
 Validated validate(const Family& family, const Composition& composition, const ValidateOptions& options) {
     Validator validator(composition, options);
     validator.run();
-    std::map<Pair, std::size_t> pair_numbers;
-    for (std::size_t i = 0; i < validator.pairs().size(); ++i) pair_numbers[validator.pairs()[i]] = i;
-    Validated result = validator.take_result();
-
     DiagnosticGroups groups(family);
-    for (const Permutation& permutation : composition.permutations) {
-        const std::size_t pair = pair_numbers[{permutation.vertex, permutation.fragment}];
-        for (const Diagnostic& diagnostic :
-             diagnostics_of(validator, composition, result, permutation, pair)) {
+    for (const Permutation& permutation : composition.permutations)
+        for (const Diagnostic& diagnostic : validator.diagnostics_of(permutation))
             groups.add(diagnostic, permutation.key);
-        }
-    }
+    Validated result = validator.take_result();
     result.diagnostics = groups.result();
     return result;
 }
@@ -214,8 +278,8 @@ Validated validate(const Family& family, const Composition& composition, const V
 Interface interface_of(const Validated& validated, const Permutation& permutation) {
     if (permutation.vertex < 0) return stage_interface(validated, permutation.fragment);
     if (permutation.fragment < 0) return stage_interface(validated, permutation.vertex);
-    return merge({stage_interface(validated, permutation.vertex),
-                  stage_interface(validated, permutation.fragment)});
+    return merge(
+        {stage_interface(validated, permutation.vertex), stage_interface(validated, permutation.fragment)});
 }
 
 }  // namespace gobo

@@ -1,17 +1,37 @@
-// Every distinct stage through glslang once, every distinct pair linked.
+// Every distinct stage through glslang once, every distinct pair linked: SPIR-V and interface of every stage,
+// or the diagnostics.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
 #include "family/family.hpp"
-#include "validate/validated.hpp"
+#include "reflect/interface.hpp"
 
 namespace gobo {
+
+/// A SPIR-V module, as words.
+using SpirvModule = std::vector<std::uint32_t>;
+
+/// One distinct stage after glslang.
+struct ValidatedStage {
+    SpirvModule spirv;    ///< empty unless asked for
+    Interface interface;  ///< of this stage alone; a location or binding that the source does not state is -1
+};
+
+/// The stages in the order of Composition::stages.
+struct Validated {
+    std::vector<ValidatedStage> stages;  ///< those of failed permutations are empty
+    Diagnostics diagnostics;             ///< errors and warnings, grouped over permutations
+};
 
 struct ValidateOptions {
     int jobs = 1;  ///< threads
     bool keep_spirv = false;
-    bool debug_information =
-        false;  ///< OpSource and OpLine in the SPIR-V: which piece and line an operation comes from
+    /// OpSource and OpLine in the SPIR-V: which piece and line an operation comes from.
+    bool debug_information = false;
     bool spirv_val = false;  ///< also ask SPIRV-Tools' validator
 };
 

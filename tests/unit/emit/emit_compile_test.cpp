@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
-#include "emit/header.hpp"
+#include "emit/emit.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {
@@ -58,6 +58,11 @@ TEST_P(GeneratedHeader, FindsPermutationsByAStateAndRecordsKeys) {
     write_header(sample::nasty(), "nasty");
     write_header(sample::bare(), "bare");
     EXPECT_EQ(compile_and_run("state_caller", GetParam().constant_data_only), "");
+}
+
+TEST_P(GeneratedHeader, StandsBehindTheMacrosOfPlatforms) {
+    write_header(sample::macros(), "macros");
+    EXPECT_EQ(compile_and_run("macro_caller"), "");
 }
 
 TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {

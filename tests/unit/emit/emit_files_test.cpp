@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "emit/depfile.hpp"
-#include "emit/manifest.hpp"
+#include "emit/emit.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {

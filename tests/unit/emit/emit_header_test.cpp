@@ -2,10 +2,9 @@
 
 #include "core/file_system.hpp"
 #include "emit/cpp_text.hpp"
-#include "emit/header.hpp"
-#include "emit/identifiers.hpp"
+#include "emit/emit.hpp"
+#include "emit/sections.hpp"
 #include "emit/std140_type.hpp"
-#include "emit/struct_section.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {
@@ -41,8 +40,9 @@ INSTANTIATE_TEST_SUITE_P(Names, CppNames,
                                          NameRow{"default", "default_", "Default"},
                                          NameRow{"co_await", "co_await_", "CoAwait"},
                                          NameRow{"4x", "_4x", "_4x"}, NameRow{"a-b", "a_b", "AB"},
-                                         NameRow{"__Bool", "Bool", "Bool"}, NameRow{"a__b", "a_b", "AB"},
+                                         NameRow{"__Bool", "Bool_", "Bool_"}, NameRow{"a__b", "a_b", "AB"},
                                          NameRow{"linux", "linux_", "Linux"},
+                                         NameRow{"near", "near_", "Near"}, NameRow{"none", "none", "None_"},
                                          NameRow{"--", "unnamed", "unnamed"}));
 
 TEST(CppScope, HandsOutEachNameOnce) {

@@ -160,6 +160,25 @@ Built nasty() {
     return built;
 }
 
+Built macros() {
+    Built built;
+    built.family.name = "macros";
+    built.family.features = {choice("small", {"none", "None", "near", "far", "IN", "TRANSPARENT"}),
+                             choice("status", {"Success", "Always", "ERROR"}), count("interface", 3),
+                             define("Bool")};
+    built.family.rules = {defaults(built.family, "Bool == off", {"interface"})};
+    built.interface.blocks = {
+        block("Complex", 0, 32,
+              {member("near", "float", 0), member("far", "float", 4), member("True", "bool", 8),
+               structure("DELETE", "Status", 16, {member("OPTIONAL", "vec4", 0)})})};
+    built.family.domains = {{"Complex.near", 0, 1, false, {}, {}, {}}};
+    built.interface.inputs = {{"OUT", "vec3", 0, {}}};
+    built.interface.outputs = {{"False", "vec4", 0, {}}};
+    built.interface.samplers = {{"Above", "sampler2D", 0, {}, {}}};
+    compose_keys(built, {"default", "small=None status=ERROR Bool=on interface=2"});
+    return built;
+}
+
 Built bare() {
     Built built;
     built.family.name = "bare";

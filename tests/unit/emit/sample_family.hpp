@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "emit/header.hpp"
+#include "emit/emit.hpp"
 #include "family/family.hpp"
 #include "family/key.hpp"
 #include "reflect/interface.hpp"
@@ -118,6 +118,9 @@ Built grown_lit();
 
 /// Names that C++ reserves or that clash, more than 64 bits of features, and every kind of member.
 Built nasty();
+
+/// Names that other people's headers make macros.
+Built macros();
 
 /// A family without features, with one permutation and an empty interface.
 Built bare();

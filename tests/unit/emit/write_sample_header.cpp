@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/file_system.hpp"
-#include "emit/header.hpp"
+#include "emit/emit.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {

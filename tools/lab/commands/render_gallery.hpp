@@ -4,7 +4,7 @@
 #include "lab/commands/environment.hpp"
 #include "lab/render/context.hpp"
 #include "lab/render/render_selection.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "compose/compose.hpp"
-#include "compose/loose_files.hpp"
+#include "compose/search_path.hpp"
 #include "family/key.hpp"
 #include "family/read_domains.hpp"
 #include "lab/commands/commands.hpp"

@@ -3,7 +3,7 @@
 
 #include "lab/gallery/drawing.hpp"
 #include "lab/study/weights.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/compare_picture.hpp"
 
 namespace gobo::gallery {

@@ -7,7 +7,7 @@
 #include "core/file_system.hpp"
 #include "lab/gallery/drawing.hpp"
 #include "lab/study/weights.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::gallery {
 

@@ -8,7 +8,7 @@
 #include "compose/composition.hpp"
 #include "family/family.hpp"
 #include "lab/sanitize/find_traps.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::sanitize {
 

@@ -7,7 +7,7 @@
 #include "compose/search_path.hpp"
 #include "reflect/interface.hpp"
 #include "scene/scene_keys.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::scene {
 

@@ -7,7 +7,7 @@
 
 #include "compose/composition.hpp"
 #include "lab/study/study_scene.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/shade.hpp"
 
 namespace gobo::study {

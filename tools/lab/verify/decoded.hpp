@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/pipeline.hpp"
 
 namespace gobo::verify {

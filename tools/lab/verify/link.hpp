@@ -11,7 +11,7 @@
 
 #include "core/diagnostic.hpp"
 #include "lab/evaluate/evaluate.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/rasterise.hpp"
 
 namespace gobo::verify {

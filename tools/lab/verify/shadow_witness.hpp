@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lab/render/shadow_maps.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::verify {
 

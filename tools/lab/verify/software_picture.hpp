@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lab/render/render.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/link.hpp"
 #include "lab/verify/render_feed.hpp"
 

@@ -5,7 +5,7 @@
 #include "compose/composition.hpp"
 #include "family/family.hpp"
 #include "lab/render/mesh.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/relations.hpp"
 #include "lab/verify/report.hpp"
 

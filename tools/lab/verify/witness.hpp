@@ -6,7 +6,7 @@
 
 #include "compose/composition.hpp"
 #include "lab/render/render.hpp"
-#include "validate/validated.hpp"
+#include "validate/validate.hpp"
 #include "lab/verify/compare_picture.hpp"
 #include "lab/verify/shadow_witness.hpp"
 #include "lab/verify/witness_textures.hpp"

@@ -1,0 +1,65 @@
+// What `gobo build` writes: the C++ header that gives applications a family's permutations, its manifest and
+// its depfile.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/file_system.hpp"
+#include "core/text_template.hpp"
+#include "family/family.hpp"
+#include "reflect/interface.hpp"
+
+namespace gobo {
+
+/// A key that a budget chose, with the figures that it was chosen by.
+struct QualityChoice {
+    Key key;
+    double promised_error = 0;  ///< linear radiance; no scene's is expected to be larger
+    double measured_error = 0;  ///< the worst of the study's scenes
+    double cost = 0;            ///< additions a fragment
+    std::string source;         ///< "study", or "measured" for effects that the study does not hold
+};
+
+/// What a generated header and its manifest are made from.
+struct EmitInput {
+    const Family& family;
+    const Composition& composition;
+    const Interface& interface;  ///< of all permutations together: the largest extent of each array
+    std::string cpp_namespace;   ///< "lit" or "game::shaders"; empty: the family's name
+    std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
+};
+
+/// The templates of a generated header.
+struct HeaderTemplates {
+    TextTemplate header;
+    TextTemplate structure;  ///< a uniform block, or a struct within one
+};
+
+/// Reads them from `folder` (templates/header of the sources, or of the library in the executable).
+[[nodiscard]] Result<HeaderTemplates> read_header_templates(const FileSystem& files,
+                                                            const std::string& folder);
+
+/// The text of the header: C++17, constant data only. The same input gives the same bytes. A namespace that
+/// is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
+[[nodiscard]] Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates);
+
+/// For programs that are not C++. JSON: "family", "dialect", "features" (name, role, kind, values; the first
+/// value is the default), "interface" (as `gobo reflect --json`, with the bindings and locations of the
+/// header), "stages" (each distinct one: its kind and the names of its pieces in order) and "permutations"
+/// (key text, and the stages by their number; where a budget chose it, "promised_error", "measured_error",
+/// "cost" and "chosen_by"), sorted by key text. One stage or permutation a line. The same input gives the
+/// same bytes.
+[[nodiscard]] std::string emit_manifest(const EmitInput& input);
+
+/// A rule in the syntax of make (and so of Ninja and CMake): the outputs depend on the files, each named
+/// once, in the order given. Blanks, '#' and '$' in names are escaped.
+[[nodiscard]] std::string emit_depfile(const std::vector<std::string>& outputs,
+                                       const std::vector<std::string>& files);
+
+/// The GLSL version of the stages: "450", "330", "es300", or what the #version of a family with its own
+/// dialect states.
+[[nodiscard]] std::string version_of(const Composition& composition);
+
+}  // namespace gobo

@@ -1,0 +1,79 @@
+// The sections of a generated header. Each adds the values of those placeholders of the template that it
+// knows about.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/text_template.hpp"
+#include "emit/cpp_text.hpp"
+#include "family/family.hpp"
+#include "reflect/interface.hpp"
+
+namespace gobo {
+
+/// A feature in the generated header.
+struct CppFeature {
+    const Feature* feature;
+    std::string member;                    ///< of Key
+    std::string type;                      ///< of the member: an enum, `int`, or `bool`
+    std::vector<std::string> enumerators;  ///< of a choice, in the order of its values
+    int word = 0;                          ///< where it stands in the packed key: the word,
+    int shift = 0;                         ///< the bits below it there,
+    int bits = 0;                          ///< and its own; 0 where there is but one value
+
+    /// The C++ of a value: `Fog::linear`, `3`, `true`.
+    [[nodiscard]] std::string value(int number) const;
+};
+
+/// The features of a family in the generated header, in the order of Family::features.
+struct CppKey {
+    std::vector<CppFeature> features;
+    int words = 1;  ///< 64-bit words of a packed key
+
+    [[nodiscard]] const CppFeature& operator[](int feature) const {
+        return features[static_cast<std::size_t>(feature)];
+    }
+};
+
+/// Names and packs the features. The enums' names are claimed in `scope`, that of the header's namespace.
+[[nodiscard]] CppKey name_key(const Family& family, CppScope& scope);
+
+/// "effect", "count": as family files spell them.
+[[nodiscard]] std::string_view name_of(Role role);
+[[nodiscard]] std::string_view name_of(FeatureKind kind);
+
+/// Enums, Key, rules, packing and what select() takes from a state. `rules` are those of the dialect.
+void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValues& values);
+
+/// Packed keys, stages as lists of pieces, texts. Only stages and pieces that a permutation uses are written,
+/// in the order of the composition; permutations are sorted by packed key.
+void permutation_section(const Composition& composition, const CppKey& key, TemplateValues& values);
+
+/// A copy in which every block, sampler and attribute has a place: where the source states none, the lowest
+/// that is free, in the order of names; a single output stands at 0. Names that OpenGL itself supplies (gl_*)
+/// are left out.
+[[nodiscard]] Interface with_places(Interface interface);
+
+/// Where attributes, outputs, samplers, uniforms and blocks are bound. `interface` has places.
+void interface_section(const Interface& interface, const std::vector<Domain>& domains,
+                       TemplateValues& values);
+
+/// A struct for every block and for every struct within one, inner ones first, each name claimed in `scope`;
+/// and for each block `check(block)`: what of it lies outside the ranges that the family declares. Where the
+/// block ends in an array, `check(block, count)` looks at no more elements of it. A layout that no C++ struct
+/// can mirror is an error (Fault::input).
+[[nodiscard]] Result<void> block_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
+                                         const TextTemplate& structure, CppScope& scope,
+                                         TemplateValues& values);
+
+/// The range of an input or uniform as a comment: "[0, 1000], or 0"; empty where the family declares none.
+/// Array indices in either name do not matter.
+[[nodiscard]] std::string domain_text(const std::vector<Domain>& domains, const std::string& path);
+
+/// The values NAME_count and NAMEs: how many rows a table has, and the rows.
+void add_table(TemplateValues& values, const std::string& name, const std::vector<std::string>& rows);
+
+}  // namespace gobo
