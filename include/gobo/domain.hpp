@@ -52,7 +52,7 @@ struct Components {
     void add(std::int32_t value) { add_wide(static_cast<double>(value)); }
     void add(std::uint32_t value) { add_wide(static_cast<double>(value)); }
     void add(double value) { add_wide(value); }
-    void add(const std140::Bool& value) { add_wide(value ? 1.0 : 0.0); }
+    void add(const std140::Bool32& value) { add_wide(value ? 1.0 : 0.0); }
     template <int Length>
     void add(const std140::BoolVector<Length>& vector) {
         for (int i = 0; i < Length; ++i) add(vector[i]);

@@ -54,22 +54,22 @@ struct Padded {
     constexpr operator Value&() { return value; }
 };
 
-/// GLSL's bool: 32 bits, 0 or 1.
-struct Bool {
+/// GLSL's bool: 32 bits, 0 or 1. (X11 makes `Bool` a macro.)
+struct Bool32 {
     std::uint32_t value;
 
-    Bool() = default;
-    constexpr Bool(bool given) : value(given ? 1U : 0U) {}
+    Bool32() = default;
+    constexpr Bool32(bool given) : value(given ? 1U : 0U) {}
     constexpr operator bool() const { return value != 0; }
 };
 
 /// GLSL's bvec2, bvec3 and bvec4.
 template <int Length>
 struct BoolVector {
-    Bool components[Length];
+    Bool32 components[Length];
 
-    constexpr Bool& operator[](int index) { return components[index]; }
-    constexpr const Bool& operator[](int index) const { return components[index]; }
+    constexpr Bool32& operator[](int index) { return components[index]; }
+    constexpr const Bool32& operator[](int index) const { return components[index]; }
 };
 using bvec2 = BoolVector<2>;
 using bvec3 = BoolVector<3>;

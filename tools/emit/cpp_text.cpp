@@ -31,7 +31,16 @@ constexpr std::string_view kReserved =
     "template this thread_local throw true try typedef typeid typename union unsigned using virtual void "
     "volatile "
     "wchar_t while xor xor_eq "
-    "EOF INFINITY NAN NULL assert errno i386 linux major minor offsetof stderr stdin stdout unix ";
+    "EOF INFINITY NAN NULL assert errno i386 linux major minor offsetof stderr stdin stdout unix "
+    "ABSOLUTE ALTERNATE CONST DELETE DIFFERENCE DOMAIN ERROR FALSE FAR IGNORE IN INFINITE NEAR OPAQUE "
+    "OPTIONAL OUT "
+    "OVERFLOW RELATIVE STRICT THIS TRANSPARENT TRUE UNDERFLOW VOID WINDING cdecl far hyper interface near "
+    "pascal "
+    "small "
+    "Above Always Below Bool Complex Convex CurrentTime DirectColor Expose False FocusIn FocusOut GrayScale "
+    "KeyPress KeyRelease LSBFirst MSBFirst None Nonconvex StaticColor StaticGray Status Success True "
+    "TrueColor "
+    "Unsorted ";
 
 bool is_plain(char character) {
     return (character >= ' ' && character <= '~') || character == '\n' || character == '\t';

@@ -229,12 +229,12 @@ void test_uniform_names() {
 void test_check() {
     lit::Fog_block fog{};
     expect(lit::check(fog).empty(), "a block within its ranges");
-    fog.near = 1e6F;
+    fog.near_ = 1e6F;
     expect(lit::check(fog).empty(), "the ends of a range are within it");
-    fog.near = -1.0F;
+    fog.near_ = -1.0F;
     expect(lit::check(fog).size() == 1, "a number below its range");
     expect_text(gobo::to_text(lit::check(fog).front()), "Fog.near is -1, allowed is [0, 1000000]");
-    fog.near = std::numeric_limits<float>::quiet_NaN();
+    fog.near_ = std::numeric_limits<float>::quiet_NaN();
     expect(lit::check(fog).size() == 1, "a NaN is within no range");
 
     lit::PointLights lights{};

@@ -48,8 +48,8 @@ lit::Fog_block mist() {
     lit::Fog_block mist{};
     mist.color = glm::vec3(0.012F, 0.022F, 0.045F);
     mist.density = 0.075F;
-    mist.near = 8;
-    mist.far = 17;
+    mist.near_ = 8;
+    mist.far_ = 17;
     return mist;
 }
 
