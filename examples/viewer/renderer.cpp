@@ -10,7 +10,7 @@
 #include <gobo/gl.hpp>
 
 #include "light_blocks.hpp"
-#include "lab/render/transform.hpp"
+#include "lab/render/camera.hpp"
 
 namespace viewer {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/render/stage_text.hpp"
+#include "lab/render/program.hpp"
 #include "scene/read_scene.hpp"
 
 namespace gobo::scene {

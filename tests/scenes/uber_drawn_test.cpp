@@ -3,10 +3,10 @@
 
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
-#include "lab/render/lit_shadows.hpp"
-#include "lab/render/render_selection.hpp"
-#include "scene_library.hpp"
+#include "lab/render/render.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "lab/scene_picture/uber_values.hpp"
+#include "scene_library.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -7,10 +7,10 @@
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
-#include "lab/render/render_selection.hpp"
-#include "scene_library.hpp"
+#include "lab/render/render.hpp"
 #include "lab/scene_picture/software_scene.hpp"
 #include "lab/scene_picture/uber_values.hpp"
+#include "scene_library.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "lab/render/program_interface.hpp"
+#include "program_interface.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_unused.hpp"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/render/program_interface.hpp"
+#include "program_interface.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_shaders.hpp"

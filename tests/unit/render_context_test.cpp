@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "lab/render/context.hpp"
-#include "lab/render/driver_log.hpp"
 #include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
 

@@ -97,16 +97,16 @@ INSTANTIATE_TEST_SUITE_P(
     Image, DamagedFiles,
     testing::Values(
         Damaged{"png", ImageFormat::png, "not a picture at all",
-                "picture: error: this is no readable PNG file: PNG file is smaller than a PNG header\n"},
+                "picture: error: this is not a readable PNG file: PNG file is smaller than a PNG header\n"},
         Damaged{"exr", ImageFormat::exr, "not a picture at all",
-                "picture: error: this is no readable EXR file: Cannot read image file \"memory\". File is "
+                "picture: error: this is not a readable EXR file: Cannot read image file \"memory\". File is "
                 "not an image file.\n"},
         Damaged{"pfm_header", ImageFormat::pfm, "PF\n-3 2\n-1.0\n",
-                "picture: error: this is no readable PFM file: its header is not that of the format\n"},
+                "picture: error: this is not a readable PFM file: its header is not that of the format\n"},
         Damaged{"pfm_short", ImageFormat::pfm, "Pf\n1 2\n-1.0\n1234",
-                "picture: error: this is no readable PFM file: the file ends too soon\n"},
+                "picture: error: this is not a readable PFM file: the file ends too soon\n"},
         Damaged{"pfm_huge", ImageFormat::pfm, "Pf\n2147483647 2147483647\n-1.0\n1234",
-                "picture: error: this is no readable PFM file: the file ends too soon\n"}),
+                "picture: error: this is not a readable PFM file: the file ends too soon\n"}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Image, UnknownFormatSuggestsTheNearest) {

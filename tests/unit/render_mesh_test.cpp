@@ -6,8 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "lab/render/camera.hpp"
 #include "lab/render/mesh.hpp"
-#include "lab/render/transform.hpp"
 
 namespace gobo {
 namespace {
@@ -134,11 +134,12 @@ TEST_P(BadObjFiles, AreReported) {
 INSTANTIATE_TEST_SUITE_P(
     Obj, BadObjFiles,
     testing::Values(
-        BadObj{"empty", "# nothing\n", "mesh.obj: error: this is no readable OBJ file: it has no faces\n"},
-        BadObj{"index", "v 0 0 0\nv 1 0 0\nf 1 2 7\n",
-               "mesh.obj: error: this is no readable OBJ file: a face names a vertex that does not exist\n"},
+        BadObj{"empty", "# nothing\n", "mesh.obj: error: this is not a readable OBJ file: it has no faces\n"},
+        BadObj{
+            "index", "v 0 0 0\nv 1 0 0\nf 1 2 7\n",
+            "mesh.obj: error: this is not a readable OBJ file: a face names a vertex that does not exist\n"},
         BadObj{"infinite", "v 0 0 0\nv 1 0 0\nv 1e999 0 0\nf 1 2 3\n",
-               "mesh.obj: error: this is no readable OBJ file: a position is not finite\n"}),
+               "mesh.obj: error: this is not a readable OBJ file: a position is not finite\n"}),
     [](const auto& row) { return row.param.name; });
 
 struct NormalMatrixRow {

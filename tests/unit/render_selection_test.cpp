@@ -1,6 +1,4 @@
 // Pictures of a whole selection: the family lit, in every dialect and on both backends.
-#include "lab/render/render_selection.hpp"
-
 #include <set>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 #include "compose/dialect.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
+#include "lab/render/render.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "program_interface.hpp"
 #include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
-#include "lab/render/program_interface.hpp"
 
 namespace gobo {
 namespace {

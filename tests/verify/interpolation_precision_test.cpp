@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
-#include "lit_library.hpp"
 #include "lab/render/mesh.hpp"
-#include "lab/render/render_selection.hpp"
-#include "validate/validate.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/interpolation_spread.hpp"
+#include "lit_library.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "lab/evaluate/color_texels.hpp"
-#include "lab/render/cube_maps.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/verify/compare_picture.hpp"

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "family/read_family.hpp"
+#include "lab/render/render.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "lit_library.hpp"
-#include "lab/render/lit_shadows.hpp"
-#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "family/read_family.hpp"
+#include "lab/render/render.hpp"
 #include "lit_library.hpp"
-#include "lab/render/render_selection.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

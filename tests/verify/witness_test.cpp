@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "lit_library.hpp"
-#include "lab/render/render_selection.hpp"
-#include "validate/validate.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/random.hpp"
+#include "lit_library.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {

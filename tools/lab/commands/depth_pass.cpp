@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lab/render/lit_shadows.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

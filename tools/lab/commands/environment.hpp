@@ -4,8 +4,8 @@
 #include <map>
 
 #include "gobo/command.hpp"
-#include "lab/render/cube_maps.hpp"
 #include "lab/render/image.hpp"
+#include "lab/render/texture.hpp"
 #include "reflect/interface.hpp"
 
 namespace gobo {

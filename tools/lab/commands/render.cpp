@@ -1,4 +1,6 @@
 // gobo render: a picture of every permutation of a selection, without a screen.
+#include "lab/render/render.hpp"
+
 #include <algorithm>
 #include <charconv>
 
@@ -11,8 +13,7 @@
 #include "lab/commands/render_gallery.hpp"
 #include "lab/commands/render_scene.hpp"
 #include "lab/gallery/drawing.hpp"
-#include "lab/render/cube_maps.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/texture.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

@@ -3,7 +3,7 @@
 
 #include "lab/commands/environment.hpp"
 #include "lab/render/context.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

@@ -4,7 +4,7 @@
 
 #include "lab/commands/depth_pass.hpp"
 #include "lab/commands/environment.hpp"
-#include "lab/render/cube_maps.hpp"
+#include "lab/render/texture.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "scene/read_scene.hpp"
 

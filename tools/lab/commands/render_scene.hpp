@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gobo/command.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo {
 

@@ -10,7 +10,7 @@
 #include "lab/commands/commands.hpp"
 #include "lab/commands/shard.hpp"
 #include "lab/commands/witness.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/figures_json.hpp"
 #include "lab/verify/test_meshes.hpp"
 #include "lab/verify/verify.hpp"

@@ -8,7 +8,7 @@
 #include "family/key.hpp"
 #include "lab/commands/depth_pass.hpp"
 #include "lab/commands/environment.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/witness.hpp"
 #include "validate/validate.hpp"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/render/lit_shadows.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/verify/witness_textures.hpp"
 

@@ -13,7 +13,7 @@
 #include "lab/gallery/evaluation.hpp"
 #include "lab/gallery/exposure.hpp"
 #include "lab/gallery/gallery.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::gallery {

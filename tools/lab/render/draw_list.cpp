@@ -2,105 +2,35 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
-#include "core/text.hpp"
-#include "lab/render/vertex_values.hpp"
-
 namespace gobo {
 namespace {
 
-Diagnostic warning(std::string message, std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.severity = Severity::warning;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return diagnostic;
+template <class Value>
+void upload(GlResources& resources, GLenum target, const std::vector<Value>& values) {
+    resources.make_buffer(target, values.data(), values.size() * sizeof(Value));
 }
 
-tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::vector<std::string>& known) {
-    Diagnostic diagnostic;
-    diagnostic.place = value.place;
-    diagnostic.message = fmt::format("unknown source '{}' for '{}'", value.source, value.name);
-    diagnostic.help = suggestion(value.source, known);
-    return fail(std::move(diagnostic));
-}
-
-/// Uploads a mesh's attribute to `location` of the vertex array that is bound.
-void upload(GlResources& resources, GLuint location, const Mesh& mesh, std::string_view source) {
+/// Uploads an attribute to `location` of the vertex array that is bound.
+void upload(GlResources& resources, GLuint location, const AttributeValues& values) {
     const GladGLContext& gl = resources.context().gl();
-    const auto attach = [&](const auto& values) {
-        static_cast<void>(
-            resources.make_buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof values[0]));
-        gl.EnableVertexAttribArray(location);
-        gl.VertexAttribPointer(location, static_cast<GLint>(sizeof values[0] / sizeof(float)), GL_FLOAT,
-                               GL_FALSE, 0, nullptr);
-    };
-    const auto attach_integers = [&](const std::vector<std::int32_t>& values) {
-        static_cast<void>(
-            resources.make_buffer(GL_ARRAY_BUFFER, values.data(), values.size() * sizeof values[0]));
-        gl.EnableVertexAttribArray(location);
-        gl.VertexAttribIPointer(location, 1, GL_INT, 0, nullptr);
-    };
-    if (source == "tile") attach(tiled_texcoords(mesh));
-    if (source == "tint") attach(vertex_tints(mesh));
-    if (source == "material_number") attach_integers(material_numbers(mesh));
-    if (source == "position") attach(mesh.positions);
-    if (source == "normal") attach(mesh.normals);
-    if (source == "texcoord") attach(mesh.texcoords);
-    if (source == "color") attach(mesh.colors);
+    if (values.integers.empty()) {
+        upload(resources, GL_ARRAY_BUFFER, values.floats);
+        gl.VertexAttribPointer(location, values.components, GL_FLOAT, GL_FALSE, 0, nullptr);
+    } else {
+        upload(resources, GL_ARRAY_BUFFER, values.integers);
+        gl.VertexAttribIPointer(location, values.components, GL_INT, 0, nullptr);
+    }
+    gl.EnableVertexAttribArray(location);
 }
 
 }  // namespace
 
-const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
-    const auto found = std::find_if(values.rbegin(), values.rend(),
-                                    [&](const RenderValue& value) { return value.name == name; });
-    return found == values.rend() ? nullptr : &*found;
-}
-
 bool Object::is_mirrored() const {
     return glm::determinant(glm::dmat3(model)) < 0;
-}
-
-GlResources::GlResources(GlResources&& other) noexcept
-    : context_(other.context_),
-      arrays_(std::exchange(other.arrays_, {})),
-      buffers_(std::exchange(other.buffers_, {})),
-      textures_(std::exchange(other.textures_, {})) {}
-
-GlResources& GlResources::operator=(GlResources&& other) noexcept {
-    std::swap(context_, other.context_);
-    std::swap(arrays_, other.arrays_);
-    std::swap(buffers_, other.buffers_);
-    std::swap(textures_, other.textures_);
-    return *this;
-}
-
-GlResources::~GlResources() {
-    if (arrays_.empty() && buffers_.empty() && textures_.empty()) return;
-    context_.make_current();
-    const GladGLContext& gl = context_.gl();
-    gl.DeleteVertexArrays(static_cast<GLsizei>(arrays_.size()), arrays_.data());
-    gl.DeleteBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
-    gl.DeleteTextures(static_cast<GLsizei>(textures_.size()), textures_.data());
-}
-
-GLuint GlResources::make_array() {
-    arrays_.push_back(0);
-    context_.gl().GenVertexArrays(1, &arrays_.back());
-    return arrays_.back();
-}
-
-GLuint GlResources::make_buffer(GLenum target, const void* data, std::size_t size) {
-    buffers_.push_back(0);
-    context_.gl().GenBuffers(1, &buffers_.back());
-    context_.gl().BindBuffer(target, buffers_.back());
-    context_.gl().BufferData(target, static_cast<GLsizeiptr>(size), data, GL_STATIC_DRAW);
-    return buffers_.back();
 }
 
 void DrawList::warn(Diagnostic warning) {
@@ -108,30 +38,26 @@ void DrawList::warn(Diagnostic warning) {
         warnings_.push_back(std::move(warning));
 }
 
-Result<void> DrawList::add_attributes(Item& item, const Interface& interface, const Object& object,
+Result<void> DrawList::add_attributes(Item& item, const Interface& interface, const Mesh& mesh,
                                       const std::vector<RenderValue>& values) {
     const GladGLContext& gl = resources_.context().gl();
     for (const Variable& input : interface.inputs) {
-        const GLint found = gl.GetAttribLocation(program_->id(), input.name.c_str());
+        const GLint found = gl.GetAttribLocation(program_.id(), input.name.c_str());
         if (found < 0) continue;
         const auto location = static_cast<GLuint>(found);
         const RenderValue* value = find_value(values, input.name);
-        if (value != nullptr && value->source.empty()) {
-            item.constants.push_back({location, value->numbers});
-            continue;
-        }
         const std::string source(value != nullptr ? value->source : attribute_source_of(input.name));
-        const auto& known = attribute_sources();
-        if (source == "color" && object.mesh.colors.empty()) {
+        if (value != nullptr && source.empty()) {
+            item.constants.push_back({location, value->numbers});
+        } else if (const auto own = attribute_values(mesh, source)) {
+            upload(resources_, location, *own);
+        } else if (source == "color") {
             item.constants.push_back({location, {1, 1, 1, 1}});
-        } else if (std::find(known.begin(), known.end(), source) != known.end()) {
-            upload(resources_, location, object.mesh, source);
         } else if (value != nullptr) {
-            return unknown_source(*value, known);
+            return unknown_source(*value, attribute_sources());
         } else {
             item.constants.push_back({location, {0, 0, 0, 0}});
-            warn(warning(fmt::format("the attribute '{}' has no value and stays 0", input.name),
-                         "give it one under [render] in the family file"));
+            warn(no_value(fmt::format("the attribute '{}' has no value and stays 0", input.name)));
         }
     }
     return {};
@@ -142,29 +68,25 @@ Result<void> DrawList::add(const Interface& interface, const Object& object,
     view.model = object.model;
     std::vector<RenderValue> all = values;
     all.insert(all.end(), object.values.begin(), object.values.end());
-    const auto resolved = resolve_uniforms(interface, all, view);
-    if (!resolved) return tl::unexpected(resolved.error());
-    for (const Diagnostic& diagnostic : resolved->warnings) warn(diagnostic);
+    GOBO_TRY(const ResolvedUniforms resolved, resolve_uniforms(interface, all, view));
+    for (const Diagnostic& diagnostic : resolved.warnings) warn(diagnostic);
     Item item;
     const Bindings bindings = bindings_of(interface);
     for (const Block& block : interface.blocks) {
-        std::vector<std::byte> bytes(static_cast<std::size_t>(block.size));
-        for (const Assignment& assignment : resolved->assignments)
-            if (assignment.leaf.block == block.name) write(assignment, bytes);
+        const std::vector<std::byte> bytes = bytes_of(block, resolved.assignments);
         item.blocks.push_back({static_cast<GLuint>(bindings.blocks.at(block.name)),
                                resources_.make_buffer(GL_UNIFORM_BUFFER, bytes.data(), bytes.size())});
     }
-    for (const Assignment& assignment : resolved->assignments)
+    for (const Assignment& assignment : resolved.assignments)
         if (assignment.leaf.block.empty()) item.uniforms.push_back(assignment);
-    item.array = resources_.make_array();
-    resources_.context().gl().BindVertexArray(item.array);
-    if (auto added = add_attributes(item, interface, object, all); !added) return added;
-    const std::vector<std::uint32_t>& indices = object.mesh.indices;
-    static_cast<void>(
-        resources_.make_buffer(GL_ELEMENT_ARRAY_BUFFER, indices.data(), indices.size() * sizeof indices[0]));
-    item.indices = static_cast<GLsizei>(indices.size());
+    const GladGLContext& gl = resources_.context().gl();
+    item.array = resources_.make(&GladGLContext::GenVertexArrays, &GladGLContext::DeleteVertexArrays);
+    gl.BindVertexArray(item.array);
+    GOBO_TRY_DO(add_attributes(item, interface, object.mesh, all));
+    upload(resources_, GL_ELEMENT_ARRAY_BUFFER, object.mesh.indices);
+    item.indices = static_cast<GLsizei>(object.mesh.indices.size());
     if (object.culls_back_faces) item.culled = object.is_mirrored() ? GL_FRONT : GL_BACK;
-    resources_.context().gl().BindVertexArray(0);
+    gl.BindVertexArray(0);
     items_.push_back(std::move(item));
     return {};
 }
@@ -173,23 +95,25 @@ void DrawList::add_textures(const Interface& interface, const std::vector<Render
                             const GivenTextures& given) {
     const Bindings bindings = bindings_of(interface);
     for (const Sampler& sampler : interface.samplers) {
+        const auto first = static_cast<GLuint>(bindings.samplers.at(sampler.name));
         if (const auto found = given.find(sampler.name); found != given.end()) {
-            units_.push_back({static_cast<GLuint>(bindings.samplers.at(sampler.name)), found->second});
+            units_.push_back({first, found->second});
             continue;
         }
         const auto texture =
             make_texture(resources_.context(), sampler.type, texture_source_of(sampler.name, values));
         if (!texture) {
-            warn(warning(
-                fmt::format("the renderer has no texture for '{}' of type {}", sampler.name, sampler.type),
-                "it reads as black"));
+            Diagnostic warning;
+            warning.severity = Severity::warning;
+            warning.message =
+                fmt::format("the renderer has no texture for '{}' of type {}", sampler.name, sampler.type);
+            warning.help = "it reads as black";
+            warn(std::move(warning));
             continue;
         }
         resources_.adopt(*texture);
-        int count = 1;
-        for (const int extent : sampler.array) count *= extent;
-        const auto first = static_cast<GLuint>(bindings.samplers.at(sampler.name));
-        for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) units_.push_back({first + i, *texture});
+        const auto count = static_cast<GLuint>(element_count(sampler.array));
+        for (GLuint i = 0; i < count; ++i) units_.push_back({first + i, *texture});
     }
 }
 
@@ -198,7 +122,7 @@ void DrawList::draw() const {
     const GladGLContext& gl = resources_.context().gl();
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);
-    gl.UseProgram(program_->id());
+    gl.UseProgram(program_.id());
     for (const Unit& unit : units_) {
         gl.ActiveTexture(GL_TEXTURE0 + unit.unit);
         gl.BindTexture(unit.texture.target, unit.texture.name);
@@ -206,11 +130,11 @@ void DrawList::draw() const {
     for (const Item& item : items_) {
         for (const Buffer& block : item.blocks)
             gl.BindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
-        for (const Assignment& uniform : item.uniforms) set_uniform(gl, *program_, uniform);
+        for (const Assignment& uniform : item.uniforms) set_uniform(gl, program_, uniform);
         for (const Constant& constant : item.constants) {
             std::array<GLfloat, 4> values = {0, 0, 0, 1};
-            for (std::size_t i = 0; i < std::min<std::size_t>(constant.numbers.size(), 4); ++i)
-                values[i] = static_cast<GLfloat>(constant.numbers[i]);
+            std::copy_n(constant.numbers.begin(), std::min<std::size_t>(constant.numbers.size(), 4),
+                        values.begin());
             gl.VertexAttrib4fv(constant.location, values.data());
         }
         if (item.culled == GL_NONE) {
@@ -231,18 +155,16 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
                                 const std::vector<Object>& objects, const std::vector<RenderValue>& values,
                                 const ViewedObject& view, const GivenTextures& textures) {
     context.make_current();
+    const std::vector<std::string>& known = texture_sources();
     for (const Sampler& sampler : interface.samplers) {
         const RenderValue* value = find_value(values, sampler.name);
-        if (value == nullptr || value->source.empty()) continue;
-        const auto& known = texture_sources();
-        if (std::find(known.begin(), known.end(), value->source) == known.end())
+        if (value != nullptr && !value->source.empty() &&
+            std::find(known.begin(), known.end(), value->source) == known.end())
             return unknown_source(*value, known);
     }
     DrawList list(context, program);
     list.add_textures(interface, values, textures);
-    for (const Object& object : objects)
-        if (const auto added = list.add(interface, object, values, view); !added)
-            return tl::unexpected(added.error());
+    for (const Object& object : objects) GOBO_TRY_DO(list.add(interface, object, values, view));
     return list;
 }
 

@@ -2,13 +2,11 @@
 // timed.
 #pragma once
 
-#include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "lab/render/bind.hpp"
 #include "lab/render/mesh.hpp"
-#include "lab/render/resolve.hpp"
 #include "lab/render/texture.hpp"
 
 namespace gobo {
@@ -25,34 +23,7 @@ struct Object {
     [[nodiscard]] bool is_mirrored() const;
 };
 
-/// The value given last to that name, or null.
-[[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
-
-/// Textures that are there already, by the name of their sampler; whoever made them deletes them.
-using GivenTextures = std::map<std::string, Texture>;
-
-/// Buffers, arrays and textures of OpenGL, deleted together.
-class GlResources {
-  public:
-    explicit GlResources(const Context& context) : context_(context) {}
-    GlResources(GlResources&& other) noexcept;
-    GlResources& operator=(GlResources&& other) noexcept;
-    ~GlResources();
-
-    [[nodiscard]] const Context& context() const { return context_; }
-    [[nodiscard]] GLuint make_array();
-    [[nodiscard]] GLuint make_buffer(GLenum target, const void* data, std::size_t size);
-    void adopt(const Texture& texture) { textures_.push_back(texture.name); }
-
-  private:
-    Context context_;
-    std::vector<GLuint> arrays_;
-    std::vector<GLuint> buffers_;
-    std::vector<GLuint> textures_;
-};
-
-/// Objects with their vertex arrays, filled uniform buffers and textures. Holds a reference to the program,
-/// which must outlive it.
+/// Objects with their vertex arrays, filled uniform buffers and textures.
 class DrawList {
   public:
     /// Draws all objects to the framebuffer that is bound, with a depth test (less).
@@ -87,17 +58,17 @@ class DrawList {
         std::vector<Assignment> uniforms;
     };
 
-    DrawList(const Context& context, const Program& program) : resources_(context), program_(&program) {}
+    DrawList(const Context& context, const Program& program) : resources_(context), program_(program) {}
     Result<void> add(const Interface& interface, const Object& object, const std::vector<RenderValue>& values,
                      ViewedObject view);
-    Result<void> add_attributes(Item& item, const Interface& interface, const Object& object,
+    Result<void> add_attributes(Item& item, const Interface& interface, const Mesh& mesh,
                                 const std::vector<RenderValue>& values);
     void add_textures(const Interface& interface, const std::vector<RenderValue>& values,
                       const GivenTextures& given);
     void warn(Diagnostic warning);
 
     GlResources resources_;
-    const Program* program_;
+    Program program_;
     std::vector<Item> items_;
     std::vector<Unit> units_;
     Diagnostics warnings_;

@@ -5,17 +5,25 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <exception>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <fmt/format.h>
 #include <lodepng.h>
 
 #include "core/text.hpp"
-#include "lab/render/exr_file.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr std::array<ImageFormat, 3> all_formats = {ImageFormat::png, ImageFormat::exr, ImageFormat::pfm};
+/// In the order of ImageFormat.
+const std::vector<std::string> kFormats = {"png", "exr", "pfm"};
 
 unsigned char byte_of(double value) {
     return static_cast<unsigned char>(std::lround(255 * value));
@@ -47,8 +55,8 @@ Result<std::string> encode_png(const Image& image) {
 tl::unexpected<Diagnostics> damaged(const std::string& path, ImageFormat format, std::string_view why) {
     Diagnostic diagnostic;
     diagnostic.place.file = path;
-    diagnostic.message =
-        fmt::format("this is no readable {} file: {}", format == ImageFormat::png ? "PNG" : "PFM", why);
+    const char* const name = format == ImageFormat::png ? "PNG" : format == ImageFormat::exr ? "EXR" : "PFM";
+    diagnostic.message = fmt::format("this is not a readable {} file: {}", name, why);
     return fail(std::move(diagnostic));
 }
 
@@ -127,6 +135,110 @@ Result<Image> decode_pfm(std::string_view bytes, const std::string& path) {
     return image;
 }
 
+/// A picture above this many pixels is taken for a damaged header: 2^28 pixels are 4 GiB as floats.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+
+class MemoryOutput final : public Imf::OStream {
+  public:
+    MemoryOutput() : Imf::OStream("memory") {}
+    void write(const char data[], int size) override {
+        const auto count = static_cast<std::size_t>(size);
+        if (bytes.size() < position_ + count) bytes.resize(position_ + count);
+        std::copy_n(data, count, bytes.begin() + static_cast<std::ptrdiff_t>(position_));
+        position_ += count;
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override { position_ = position; }
+
+    std::string bytes;
+
+  private:
+    std::size_t position_ = 0;
+};
+
+class MemoryInput final : public Imf::IStream {
+  public:
+    explicit MemoryInput(std::string_view bytes) : Imf::IStream("memory"), bytes_(bytes) {}
+    bool read(char data[], int size) override {
+        const auto count = static_cast<std::size_t>(size);
+        if (position_ > bytes_.size() || bytes_.size() - position_ < count)
+            throw std::runtime_error("the file ends too soon");
+        std::memcpy(data, bytes_.data() + position_, count);
+        position_ += count;
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+  private:
+    std::string_view bytes_;
+    std::size_t position_ = 0;
+};
+
+std::vector<std::string> channel_names(int channels) {
+    if (channels == 1) return {"Y"};
+    if (channels == 3) return {"R", "G", "B"};
+    return {"R", "G", "B", "A"};
+}
+
+/// The image's memory as OpenEXR's slices; `left` and `top` are the data window's corner.
+Imf::FrameBuffer slices_of(Image& image, const std::vector<std::string>& names, int left, int top) {
+    Imf::FrameBuffer frame;
+    const std::size_t pixel = sizeof(float) * static_cast<std::size_t>(image.channels);
+    const std::size_t row = pixel * static_cast<std::size_t>(image.width);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        char* const first = reinterpret_cast<char*>(image.values.data() + i);
+        char* const origin =
+            first - left * static_cast<std::ptrdiff_t>(pixel) - top * static_cast<std::ptrdiff_t>(row);
+        frame.insert(names[i], Imf::Slice(Imf::FLOAT, origin, pixel, row));
+    }
+    return frame;
+}
+
+std::vector<std::string> channels_of(const Imf::ChannelList& list) {
+    if (list.findChannel("R") == nullptr && list.findChannel("Y") != nullptr) return {"Y"};
+    return channel_names(list.findChannel("A") != nullptr ? 4 : 3);
+}
+
+Result<std::string> encode_exr(const Image& image) {
+    try {
+        // No attribute but those that the format demands: no date, no owner, no host.
+        Imf::Header header(image.width, image.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        const std::vector<std::string> names = channel_names(image.channels);
+        for (const std::string& name : names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        Image copy = image;  // OpenEXR's slices take mutable memory for reading and writing alike
+        MemoryOutput output;
+        {
+            Imf::OutputFile file(output, header, 0);
+            file.setFrameBuffer(slices_of(copy, names, 0, 0));
+            file.writePixels(image.height);
+        }
+        return std::move(output.bytes);
+    } catch (const std::exception& error) {
+        return fail(Fault::internal, fmt::format("cannot encode an EXR picture: {}", error.what()));
+    }
+}
+
+Result<Image> decode_exr(std::string_view bytes, const std::string& path) {
+    try {
+        MemoryInput input(bytes);
+        Imf::InputFile file(input, 0);
+        const Imath::Box2i window = file.header().dataWindow();
+        const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+        const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+        if (width <= 0 || height <= 0 || width > kMostPixels / height)
+            return damaged(path, ImageFormat::exr, fmt::format("its size is {} x {}", width, height));
+        const std::vector<std::string> names = channels_of(file.header().channels());
+        Image image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()));
+        file.setFrameBuffer(slices_of(image, names, window.min.x, window.min.y));
+        file.readPixels(window.min.y, window.max.y);
+        return image;
+    } catch (const std::exception& error) {
+        return damaged(path, ImageFormat::exr, error.what());
+    }
+}
+
 Result<ImageFormat> format_of_path(const std::string& path) {
     const std::size_t dot = path.rfind('.');
     return image_format_of(dot == std::string::npos ? std::string_view()
@@ -136,22 +248,13 @@ Result<ImageFormat> format_of_path(const std::string& path) {
 }  // namespace
 
 std::string_view name_of(ImageFormat format) {
-    switch (format) {
-        case ImageFormat::png:
-            return "png";
-        case ImageFormat::exr:
-            return "exr";
-        case ImageFormat::pfm:
-            return "pfm";
-    }
-    return "png";
+    return kFormats[static_cast<std::size_t>(format)];
 }
 
 Result<ImageFormat> image_format_of(std::string_view name) {
-    for (const ImageFormat format : all_formats)
-        if (name == name_of(format)) return format;
-    return fail(Fault::usage, fmt::format("unknown image format '{}'", name),
-                suggestion(name, {"png", "exr", "pfm"}));
+    const auto found = std::find(kFormats.begin(), kFormats.end(), name);
+    if (found != kFormats.end()) return static_cast<ImageFormat>(found - kFormats.begin());
+    return fail(Fault::usage, fmt::format("unknown image format '{}'", name), suggestion(name, kFormats));
 }
 
 double srgb_of_linear(double linear) {
@@ -163,43 +266,27 @@ double linear_of_srgb(double signal) {
 }
 
 Result<std::string> encode_image(const Image& image, ImageFormat format) {
-    switch (format) {
-        case ImageFormat::png:
-            return encode_png(image);
-        case ImageFormat::exr:
-            return encode_exr(image);
-        case ImageFormat::pfm:
-            return encode_pfm(image);
-    }
-    return encode_png(image);
+    return format == ImageFormat::png   ? encode_png(image)
+           : format == ImageFormat::exr ? encode_exr(image)
+                                        : encode_pfm(image);
 }
 
 Result<Image> decode_image(std::string_view bytes, ImageFormat format, const std::string& path) {
-    switch (format) {
-        case ImageFormat::png:
-            return decode_png(bytes, path);
-        case ImageFormat::exr:
-            return decode_exr(bytes, path);
-        case ImageFormat::pfm:
-            return decode_pfm(bytes, path);
-    }
-    return decode_png(bytes, path);
+    return format == ImageFormat::png   ? decode_png(bytes, path)
+           : format == ImageFormat::exr ? decode_exr(bytes, path)
+                                        : decode_pfm(bytes, path);
 }
 
 Result<bool> write_image(FileSystem& files, const std::string& path, const Image& image) {
-    const auto format = format_of_path(path);
-    if (!format) return tl::unexpected(format.error());
-    const auto bytes = encode_image(image, *format);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return files.write(path, *bytes);
+    GOBO_TRY(const ImageFormat format, format_of_path(path));
+    GOBO_TRY(const std::string bytes, encode_image(image, format));
+    return files.write(path, bytes);
 }
 
 Result<Image> read_image(const FileSystem& files, const std::string& path) {
-    const auto format = format_of_path(path);
-    if (!format) return tl::unexpected(format.error());
-    const auto bytes = files.read(path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return decode_image(*bytes, *format, path);
+    GOBO_TRY(const ImageFormat format, format_of_path(path));
+    GOBO_TRY(const std::string bytes, files.read(path));
+    return decode_image(bytes, format, path);
 }
 
 }  // namespace gobo

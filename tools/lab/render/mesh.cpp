@@ -1,11 +1,17 @@
 #include "lab/render/mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <tuple>
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <tiny_obj_loader.h>
+
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
@@ -54,6 +60,135 @@ glm::dvec3 corner_normal(const glm::dvec3& own, const std::vector<glm::dvec3>& a
         if (glm::dot(glm::normalize(normal), direction) >= cosine) sum += normal;
     const double length = glm::length(sum);
     return length > 0 ? sum / length : direction;
+}
+
+tl::unexpected<Diagnostics> unreadable(const std::string& path, std::string_view why) {
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = fmt::format("this is not a readable OBJ file: {}", why);
+    return fail(std::move(diagnostic));
+}
+
+glm::vec3 triple_at(const std::vector<float>& values, int index) {
+    const std::size_t first = 3 * static_cast<std::size_t>(index);
+    return {values[first], values[first + 1], values[first + 2]};
+}
+
+std::vector<tinyobj::index_t> corners_of(const tinyobj::ObjReader& reader) {
+    std::vector<tinyobj::index_t> corners;
+    for (const tinyobj::shape_t& shape : reader.GetShapes())
+        corners.insert(corners.end(), shape.mesh.indices.begin(), shape.mesh.indices.end());
+    return corners;
+}
+
+/// One vertex for each distinct triple of indices, as the file's own normals tell.
+Mesh with_own_normals(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::index_t>& corners) {
+    Mesh mesh;
+    std::map<std::tuple<int, int, int>, std::uint32_t> vertices;
+    for (const tinyobj::index_t& corner : corners) {
+        const auto next = static_cast<std::uint32_t>(mesh.positions.size());
+        const auto [vertex, added] = vertices.try_emplace(
+            std::tuple(corner.vertex_index, corner.normal_index, corner.texcoord_index), next);
+        mesh.indices.push_back(vertex->second);
+        if (!added) continue;
+        mesh.positions.push_back(triple_at(attributes.vertices, corner.vertex_index));
+        mesh.normals.push_back(triple_at(attributes.normals, corner.normal_index));
+        const auto texcoord = 2 * static_cast<std::size_t>(std::max(corner.texcoord_index, 0));
+        const bool has_texcoord = corner.texcoord_index >= 0;
+        mesh.texcoords.emplace_back(
+            has_texcoord ? attributes.texcoords[texcoord] : mesh.positions.back().x,
+            has_texcoord ? attributes.texcoords[texcoord + 1] : mesh.positions.back().y);
+    }
+    return mesh;
+}
+
+Mesh with_computed_normals(const tinyobj::attrib_t& attributes,
+                           const std::vector<tinyobj::index_t>& corners) {
+    std::vector<glm::vec3> positions;
+    for (int i = 0; i < static_cast<int>(attributes.vertices.size() / 3); ++i)
+        positions.push_back(triple_at(attributes.vertices, i));
+    std::vector<std::uint32_t> indices;
+    for (const tinyobj::index_t& corner : corners)
+        indices.push_back(static_cast<std::uint32_t>(corner.vertex_index));
+    return with_smooth_normals(positions, indices, std::numbers::pi / 3);
+}
+
+/// Whether every corner names a vertex, and its normal where it has one, that the file holds.
+bool in_range(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::index_t>& corners) {
+    const auto holds = [](int index, std::size_t values, std::size_t width) {
+        return index < 0 || (static_cast<std::size_t>(index) + 1) * width <= values;
+    };
+    for (const tinyobj::index_t& corner : corners)
+        if (corner.vertex_index < 0 || !holds(corner.vertex_index, attributes.vertices.size(), 3) ||
+            !holds(corner.normal_index, attributes.normals.size(), 3) ||
+            !holds(corner.texcoord_index, attributes.texcoords.size(), 2))
+            return false;
+    return true;
+}
+
+template <class Vector>
+AttributeValues flattened(const std::vector<Vector>& vectors) {
+    AttributeValues values{Vector::length(), {}, {}};
+    values.floats.reserve(vectors.size() * static_cast<std::size_t>(values.components));
+    for (const Vector& vector : vectors)
+        values.floats.insert(values.floats.end(), &vector[0], &vector[0] + Vector::length());
+    return values;
+}
+
+/// Where vertices lie on their mesh.
+class Places {
+  public:
+    explicit Places(const Mesh& mesh) {
+        const Bounds bounds = bounds_of(mesh);
+        if (bounds.is_empty()) return;
+        low_ = bounds.low;
+        high_ = bounds.high;
+    }
+
+    [[nodiscard]] bool is_flat() const {
+        const glm::vec3 size = high_ - low_;
+        return size.y <= 0.01F * std::max(size.x, size.z);
+    }
+    /// 0 at the bottom, 1 at the top.
+    [[nodiscard]] float height(const glm::vec3& position) const {
+        return (position.y - low_.y) / (high_.y - low_.y);
+    }
+    /// The turn about the y axis, 0 to 1, seen from the middle.
+    [[nodiscard]] float turn(const glm::vec3& position) const {
+        const glm::vec3 middle = 0.5F * (low_ + high_);
+        const float angle = std::atan2(position.x - middle.x, position.z - middle.z);
+        return 0.5F + angle / (2 * std::numbers::pi_v<float>);
+    }
+    /// Texture coordinates that go so many times from 0 to 1 along x.
+    [[nodiscard]] glm::vec2 tiles(const glm::vec3& position, float count) const {
+        return count / (high_.x - low_.x) * (glm::vec2(position) - glm::vec2(low_));
+    }
+
+  private:
+    glm::vec3 low_{0};
+    glm::vec3 high_{0};
+};
+
+glm::vec4 tint(const glm::vec3& position, const Places& places) {
+    const glm::vec3 bottom(1, 0.35F, 0.12F);
+    const glm::vec3 middle(0.4F, 1, 0.35F);
+    const glm::vec3 top(0.2F, 0.45F, 1);
+    const float height = 2 * places.height(position);
+    const float turn = 2 * std::numbers::pi_v<float> * places.turn(position);
+    const glm::vec3 hue = height < 1 ? glm::mix(bottom, middle, height) : glm::mix(middle, top, height - 1);
+    return glm::vec4(glm::mix(hue, glm::vec3(1), 0.15F + 0.15F * std::cos(turn)), 1);
+}
+
+AttributeValues material_numbers(const Mesh& mesh, const Places& places) {
+    constexpr int kSectors = 7;
+    constexpr std::int32_t kOfFlat = 13;
+    AttributeValues values;
+    for (const glm::vec3& position : mesh.positions)
+        values.integers.push_back(
+            places.is_flat()
+                ? kOfFlat
+                : std::clamp(static_cast<int>(places.turn(position) * kSectors), 0, kSectors - 1));
+    return values;
 }
 
 }  // namespace
@@ -109,6 +244,60 @@ Mesh with_smooth_normals(const std::vector<glm::vec3>& positions, const std::vec
         }
     }
     return mesh;
+}
+
+Result<Mesh> read_obj(const FileSystem& files, const std::string& path) {
+    GOBO_TRY(const std::string text, files.read(path));
+    tinyobj::ObjReaderConfig configuration;
+    configuration.triangulate = true;
+    tinyobj::ObjReader reader;
+    if (!reader.ParseFromString(text, "", configuration)) return unreadable(path, trim(reader.Error()));
+    const tinyobj::attrib_t& attributes = reader.GetAttrib();
+    const std::vector<tinyobj::index_t> corners = corners_of(reader);
+    if (corners.empty()) return unreadable(path, "it has no faces");
+    if (!in_range(attributes, corners)) return unreadable(path, "a face names a vertex that does not exist");
+    for (const float value : attributes.vertices)
+        if (!std::isfinite(value)) return unreadable(path, "a position is not finite");
+    for (const tinyobj::index_t& corner : corners)
+        if (corner.normal_index < 0) return with_computed_normals(attributes, corners);
+    return with_own_normals(attributes, corners);
+}
+
+void Bounds::add(const glm::dvec3& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+}
+
+Bounds bounds_of(const Mesh& mesh) {
+    Bounds bounds;
+    for (const glm::vec3& position : mesh.positions) bounds.add(glm::dvec3(position));
+    return bounds;
+}
+
+const std::vector<std::string>& attribute_sources() {
+    static const std::vector<std::string> sources = {"position", "normal",          "texcoord", "color",
+                                                     "tint",     "material_number", "tile"};
+    return sources;
+}
+
+std::optional<AttributeValues> attribute_values(const Mesh& mesh, std::string_view source) {
+    if (source == "position") return flattened(mesh.positions);
+    if (source == "normal") return flattened(mesh.normals);
+    if (source == "texcoord") return flattened(mesh.texcoords);
+    if (source == "color" && !mesh.colors.empty()) return flattened(mesh.colors);
+    const Places places(mesh);
+    if (source == "material_number") return material_numbers(mesh, places);
+    const auto each = [&](const auto& value, auto of_flat) {
+        std::vector<decltype(of_flat)> values;
+        for (const glm::vec3& position : mesh.positions)
+            values.push_back(places.is_flat() ? of_flat : value(position));
+        return flattened(values);
+    };
+    if (source == "tint")
+        return each([&](const glm::vec3& position) { return tint(position, places); }, glm::vec4(1));
+    if (source == "tile")
+        return each([&](const glm::vec3& position) { return places.tiles(position, 6); }, glm::vec2(0));
+    return std::nullopt;
 }
 
 }  // namespace gobo

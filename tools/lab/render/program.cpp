@@ -1,50 +1,81 @@
 #include "lab/render/program.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <regex>
 #include <set>
-#include <utility>
 
-#include "lab/render/driver_log.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
 
-/// Owns an OpenGL shader object.
-struct Shader {
-    Shader(const Context& context, StageKind kind)
-        : gl(context.gl()),
-          id(gl.CreateShader(kind == StageKind::vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER)) {}
-    Shader(const Shader&) = delete;
-    Shader& operator=(const Shader&) = delete;
-    ~Shader() { gl.DeleteShader(id); }
+/// The piece that holds line `line` (from 1) of string number `string` (from 0) as a driver counts them;
+/// `line` becomes the piece's own. Null where there is none.
+const Piece* piece_at(const std::vector<Piece>& pieces, int string, int& line) {
+    if (string > 0) return string < static_cast<int>(pieces.size()) ? &pieces[string] : nullptr;
+    for (const Piece& piece : pieces) {
+        const auto ends = static_cast<int>(std::count(piece.text.begin(), piece.text.end(), '\n'));
+        if (line <= ends || &piece == &pieces.back()) return &piece;
+        line -= ends;
+    }
+    return nullptr;
+}
 
-    const GladGLContext& gl;
-    GLuint id;
+/// A driver's form of message: which of the expression's groups is what.
+struct LogForm {
+    std::regex form;
+    std::size_t string, line, severity, message;
 };
 
-std::string log_of_shader(const GladGLContext& gl, GLuint shader) {
-    GLint length = 0;
-    gl.GetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    if (length > 0) gl.GetShaderInfoLog(shader, length, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    return log;
-}
-
-std::string log_of_program(const GladGLContext& gl, GLuint program) {
-    GLint length = 0;
-    gl.GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    if (length > 0) gl.GetProgramInfoLog(program, length, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    return log;
-}
-
-/// Nothing is never an error message: a driver that fails without a log is reported as such.
-Diagnostics failure(Diagnostics diagnostics, const char* what) {
-    if (diagnostics.empty()) {
-        diagnostics.emplace_back();
-        diagnostics.back().message = what;
+/// A message without a place, as linkers give them: `error: text` or `warning: text`.
+Diagnostic without_place(std::string_view text) {
+    Diagnostic diagnostic;
+    for (const auto& [prefix, severity] : {std::pair(std::string_view("error: "), Severity::error),
+                                           std::pair(std::string_view("warning: "), Severity::warning)}) {
+        if (!text.starts_with(prefix)) continue;
+        diagnostic.severity = severity;
+        text.remove_prefix(prefix.size());
     }
+    diagnostic.message = text;
+    return diagnostic;
+}
+
+Diagnostic diagnostic_of_line(const std::string& text, const StageText& stage) {
+    static const std::array<LogForm, 3> forms = {
+        {{std::regex(R"((\d{1,8}):(\d{1,8})\(\d{1,8}\): (error|warning): (.*))"), 1, 2, 3, 4},  // Mesa
+         {std::regex(R"((\d{1,8})\((\d{1,8})\) : (error|warning) (.*))"), 1, 2, 3, 4},          // NVIDIA
+         {std::regex(R"((ERROR|WARNING): (\d{1,8}):(\d{1,8}): (.*))"), 2, 3, 1, 4}}};           // others
+    std::smatch match;
+    const auto* const form = std::find_if(forms.begin(), forms.end(), [&](const LogForm& one) {
+        return std::regex_match(text, match, one.form);
+    });
+    if (form == forms.end()) return without_place(text);
+    Diagnostic diagnostic;
+    const std::string severity = match[form->severity];
+    diagnostic.severity = severity == "error" || severity == "ERROR" ? Severity::error : Severity::warning;
+    diagnostic.message = match[form->message];
+    int line = std::stoi(match[form->line]);
+    if (const Piece* piece = piece_at(stage.pieces, std::stoi(match[form->string]), line)) {
+        diagnostic.place = {piece->path, line, 0};
+        diagnostic.quoted_line = line_of(*piece, line);
+    }
+    return diagnostic;
+}
+
+/// What the driver says of a shader or program that it refuses. Nothing is never an error message: a driver
+/// that fails without a log is reported as `silent`.
+template <class GetNumber, class GetLog>
+Diagnostics refusal(GLuint object, GetNumber get_number, GetLog get_log, const StageText& stage,
+                    const char* silent) {
+    GLint length = 0;
+    get_number(object, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(length), '\0');
+    if (length > 0) get_log(object, length, &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    Diagnostics diagnostics = diagnostics_of_log(log, stage);
+    if (diagnostics.empty()) diagnostics.emplace_back().message = silent;
     return diagnostics;
 }
 
@@ -60,7 +91,7 @@ Diagnostics compile(const GladGLContext& gl, GLuint shader, const StageText& sta
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_TRUE) return {};
-    return failure(diagnostics_of_log(log_of_shader(gl, shader), stage),
+    return refusal(shader, gl.GetShaderiv, gl.GetShaderInfoLog, stage,
                    "the driver refuses the stage without a message");
 }
 
@@ -78,26 +109,40 @@ int take(std::set<int>& taken, int stated, int count) {
     return first;
 }
 
-int count_of(const std::vector<int>& array) {
-    int count = 1;
-    for (const int extent : array) count *= extent;
-    return count;
-}
-
 }  // namespace
 
-Program::Program(Program&& other) noexcept : context_(other.context_), id_(std::exchange(other.id_, 0)) {}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(context_, other.context_);
-    std::swap(id_, other.id_);
-    return *this;
+StageText stage_text(const Composition& composition, int stage) {
+    const Stage& source = composition.stages[static_cast<std::size_t>(stage)];
+    StageText text{source.kind, {}};
+    for (const int piece : source.pieces)
+        text.pieces.push_back(composition.pieces[static_cast<std::size_t>(piece)]);
+    return text;
 }
 
-Program::~Program() {
-    if (id_ == 0) return;
-    context_.make_current();
-    context_.gl().DeleteProgram(id_);
+StageText stage_text(StageKind kind, const std::string& name, const std::string& text) {
+    return {kind, {Piece{name, name, text, false}}};
+}
+
+std::vector<StageText> stages_of(const Composition& composition, const Permutation& permutation) {
+    return {stage_text(composition, permutation.vertex), stage_text(composition, permutation.fragment)};
+}
+
+Diagnostics diagnostics_of_log(std::string_view log, const StageText& stage) {
+    Diagnostics diagnostics;
+    for (const std::string_view text : split(log, '\n'))
+        diagnostics.push_back(diagnostic_of_line(std::string(text), stage));
+    return diagnostics;
+}
+
+Program::Program(const Context& context, GLuint id)
+    : id_(new GLuint(id), [context](const GLuint* name) {
+          context.make_current();
+          context.gl().DeleteProgram(*name);
+          delete name;
+      }) {}
+
+int element_count(const std::vector<int>& array) {
+    return std::accumulate(array.begin(), array.end(), 1, std::multiplies<>());
 }
 
 Bindings bindings_of(const Interface& interface) {
@@ -108,10 +153,10 @@ Bindings bindings_of(const Interface& interface) {
     for (const Block& block : interface.blocks) bindings.blocks[block.name] = take(buffers, block.binding, 1);
     std::set<int> units;
     for (const Sampler& sampler : interface.samplers)
-        for (int i = 0; sampler.binding >= 0 && i < count_of(sampler.array); ++i)
+        for (int i = 0; sampler.binding >= 0 && i < element_count(sampler.array); ++i)
             units.insert(sampler.binding + i);
     for (const Sampler& sampler : interface.samplers)
-        bindings.samplers[sampler.name] = take(units, sampler.binding, count_of(sampler.array));
+        bindings.samplers[sampler.name] = take(units, sampler.binding, element_count(sampler.array));
     return bindings;
 }
 
@@ -121,17 +166,19 @@ Result<Program> link_program(const Context& context, const std::vector<StageText
     Program program(context, gl.CreateProgram());
     Diagnostics diagnostics;
     for (const StageText& stage : stages) {
-        const Shader shader(context, stage.kind);
-        const Diagnostics errors = compile(gl, shader.id, stage);
+        const GLuint shader =
+            gl.CreateShader(stage.kind == StageKind::vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+        const Diagnostics errors = compile(gl, shader, stage);
         diagnostics.insert(diagnostics.end(), errors.begin(), errors.end());
-        gl.AttachShader(program.id(), shader.id);
+        gl.AttachShader(program.id(), shader);
+        gl.DeleteShader(shader);  // once the program is
     }
     if (!diagnostics.empty()) return tl::unexpected(std::move(diagnostics));
     gl.LinkProgram(program.id());
     GLint linked = GL_FALSE;
     gl.GetProgramiv(program.id(), GL_LINK_STATUS, &linked);
     if (linked == GL_TRUE) return program;
-    return tl::unexpected(failure(diagnostics_of_log(log_of_program(gl, program.id()), {}),
+    return tl::unexpected(refusal(program.id(), gl.GetProgramiv, gl.GetProgramInfoLog, {},
                                   "the driver refuses to link the stages without a message"));
 }
 
@@ -148,9 +195,8 @@ void set_bindings(const Context& context, const Program& program, const Interfac
     for (const Sampler& sampler : interface.samplers) {
         const GLint location = gl.GetUniformLocation(program.id(), sampler.name.c_str());
         if (location < 0) continue;
-        std::vector<GLint> units;
-        for (int i = 0; i < count_of(sampler.array); ++i)
-            units.push_back(bindings.samplers.at(sampler.name) + i);
+        std::vector<GLint> units(static_cast<std::size_t>(element_count(sampler.array)));
+        std::iota(units.begin(), units.end(), bindings.samplers.at(sampler.name));
         gl.Uniform1iv(location, static_cast<GLsizei>(units.size()), units.data());
     }
     gl.UseProgram(0);

@@ -1,11 +1,18 @@
-// A permutation as a picture.
+// A permutation as a picture, and pictures of every permutation of a selection.
 #pragma once
 
 #include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "compose/composition.hpp"
+#include "core/file_system.hpp"
+#include "lab/render/camera.hpp"
 #include "lab/render/draw_list.hpp"
 #include "lab/render/framebuffer.hpp"
+#include "lab/render/image_file.hpp"
+#include "lab/render/shadow_maps.hpp"
 
 namespace gobo {
 
@@ -17,6 +24,9 @@ struct View {
     std::array<float, 4> background = {0, 0, 0, 1};  ///< linear
     DepthFormat depth = DepthFormat::float32;
 };
+
+/// What a camera sees of the world, without an object in it.
+[[nodiscard]] ViewedObject viewed_from(const View& view);
 
 /// What was drawn.
 struct Picture {
@@ -33,5 +43,40 @@ struct Picture {
                                                  const std::vector<Object>& objects,
                                                  const std::vector<RenderValue>& values, const View& view,
                                                  const GivenTextures& textures = {});
+
+/// Where and how pictures are written.
+struct PictureOptions {
+    View view;
+    ImageFormat format = ImageFormat::png;
+    std::string folder;
+    int smooth = 1;          ///< pixels are averages of so many, squared: the view is that much larger
+    GivenTextures textures;  ///< of samplers that get more than the family says
+    const DepthPass* depth_pass =
+        nullptr;  ///< draws the maps of keys with shadows; without it there are none
+};
+
+/// The files written, in the order of the permutations, and what there was to say, once for all keys that
+/// share it. A permutation that fails writes no file and stops no other.
+struct RenderedSelection {
+    std::vector<std::string> files;
+    Diagnostics diagnostics;
+};
+
+/// Draws every permutation of the composition; `interfaces` are theirs, in the same order.
+[[nodiscard]] RenderedSelection render_selection(const Context& context, const Family& family,
+                                                 const Composition& composition,
+                                                 const std::vector<Interface>& interfaces,
+                                                 const std::vector<Object>& objects,
+                                                 const PictureOptions& options, FileSystem& files);
+
+/// A file name for a key's text, without an end: "fog=linear point=3" gives "fog-linear+point-3". Different
+/// keys have different names: beyond 200 bytes a hash of the whole text stands for the rest.
+[[nodiscard]] std::string picture_name(std::string_view key_text);
+
+/// What a family is shown with: the mesh, sized to fit a box of 3 x 1.5 x 3 about the origin, standing on a
+/// plane at y = -0.75.
+[[nodiscard]] std::vector<Object> demo_objects(Mesh mesh);
+/// The camera that goes with them.
+[[nodiscard]] Camera demo_camera();
 
 }  // namespace gobo

@@ -1,15 +1,47 @@
-// Shadow maps drawn by a depth pass: the first of the two passes of a picture with shadows.
+// The shadow maps of a picture: which lights have any, from where each map is drawn, and the maps themselves.
 #pragma once
 
 #include <vector>
 
+#include "family/family.hpp"
+#include "lab/render/draw_list.hpp"
 #include "lab/render/image.hpp"
-#include "lab/render/shadow_camera.hpp"
-#include "lab/render/stage_text.hpp"
 
 namespace gobo {
 
-/// What the depth pass draws with.
+/// A light as far as its shadows are concerned, in world space.
+struct ShadowLight {
+    enum class Kind { directional, point, spot };
+    Kind kind = Kind::directional;
+    glm::dvec3 position{0};   ///< of point and spot lights
+    glm::dvec3 direction{0};  ///< unit: to a directional light, along which a spot light shines
+    double half_angle = 0;    ///< of a spot light's cone, radians
+};
+
+/// The lights of `lit` that cast shadows in a permutation, as the family's [render] table places them: the
+/// first of each kind, as many as the features directional_shadows, spot_shadows and point_shadows count, in
+/// this order: that of the block `Shadows`. Empty for families without these features.
+[[nodiscard]] std::vector<ShadowLight> shadow_lights(const Family& family, const Key& key);
+
+/// One map, in double precision: world space to the light's eye space, from there to its clip space. A point
+/// light has six, in the order of OpenGL's cube maps (+x -x +y -y +z -z), each a little wider than its face,
+/// by a texel at each border. Directional lights show the bounds of the objects that cast shadows, spot
+/// lights their cone.
+struct ShadowCamera {
+    glm::dmat4 view{1};
+    glm::dmat4 projection{1};
+};
+
+/// The cameras of all maps of `side` texels, layer by layer, and the values of lit's block `Shadows` that go
+/// with them, for a camera whose view matrix is `view`.
+struct ShadowPlan {
+    std::vector<ShadowCamera> cameras;
+    std::vector<RenderValue> values;
+};
+[[nodiscard]] ShadowPlan shadow_plan(const std::vector<ShadowLight>& lights,
+                                     const std::vector<Object>& objects, const glm::dmat4& view, int side);
+
+/// What draws shadow maps: the first of the two passes of a picture with shadows.
 struct DepthPass {
     std::vector<StageText> stages;
     Interface interface;
@@ -26,10 +58,6 @@ struct DepthPass {
 /// The maps of several lights as layers of one array, deleted with this object.
 class ShadowMaps {
   public:
-    ShadowMaps(ShadowMaps&& other) noexcept;
-    ShadowMaps& operator=(ShadowMaps&&) = delete;
-    ~ShadowMaps();
-
     /// A sampler2DArrayShadow's: GL_LINEAR, GL_LEQUAL.
     [[nodiscard]] Texture texture() const { return texture_; }
     /// One layer's depths, for tests.
@@ -41,10 +69,10 @@ class ShadowMaps {
     friend Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pass,
                                                const std::vector<ShadowLight>& lights,
                                                const std::vector<Object>& objects, const glm::dmat4& view);
-    ShadowMaps(const Context& context, int side) : context_(context), side_(side) {}
+    ShadowMaps(const Context& context, int side) : resources_(context), side_(side) {}
     void attach(int layer) const;
 
-    Context context_;
+    GlResources resources_;
     int side_;
     Texture texture_;
     GLuint framebuffer_ = 0;

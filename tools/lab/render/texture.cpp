@@ -5,18 +5,20 @@
 #include <cctype>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace gobo {
 namespace {
 
-constexpr int side = 64;
+constexpr int kSide = 64;
 using Texel = std::array<float, 4>;
 
-struct TargetRow {
+struct SamplerTarget {
     std::string_view sampler_type;
     GLenum target;
-    bool shadow;
+    bool is_shadow;
 };
-constexpr auto targets = std::to_array<TargetRow>({
+constexpr auto kTargets = std::to_array<SamplerTarget>({
     {"sampler2D", GL_TEXTURE_2D, false},
     {"sampler2DArray", GL_TEXTURE_2D_ARRAY, false},
     {"sampler3D", GL_TEXTURE_3D, false},
@@ -25,27 +27,34 @@ constexpr auto targets = std::to_array<TargetRow>({
     {"sampler2DArrayShadow", GL_TEXTURE_2D_ARRAY, true},
 });
 
-Texel texel(const TextureSource& source, int x, int y) {
-    if (source.name == "texture_white") return {1, 1, 1, 1};
-    if (source.name == "texture_normal") return {0.5F, 0.5F, 1, 1};
-    if (source.name == "texture_lattice") {
-        const float across = (static_cast<float>(x) + 0.5F) / side - 0.5F;
-        const float up = (static_cast<float>(y) + 0.5F) / side - 0.5F;
-        return {1, 1, 1, std::clamp(4 * std::hypot(across, up) - 0.7F, 0.0F, 1.0F)};
-    }
-    if (source.name == "texture_ramp") {
-        const float value = (static_cast<float>(x) + 0.5F) / side;
-        return {value, value, value, 1};
-    }
-    if (source.name == "texture_checker") {
-        const float value = (x * 8 / side + y * 8 / side) % 2 == 0 ? 0.25F : 1.0F;
-        return {value, value, value, 1};
-    }
-    Texel color = {0, 0, 0, 1};
-    for (std::size_t i = 0; i < std::min<std::size_t>(source.numbers.size(), 4); ++i)
-        color[i] = static_cast<float>(source.numbers[i]);
-    return color;
+/// The middle of a texel, 0 to 1.
+float middle(int texel) {
+    return (static_cast<float>(texel) + 0.5F) / kSide;
 }
+
+Texel grey(float value) {
+    return {value, value, value, 1};
+}
+
+struct Pattern {
+    const char* name;
+    Texel (*texel)(int x, int y);
+};
+constexpr std::array<Pattern, 5> kPatterns = {{
+    {"texture_checker",
+     [](int x, int y) { return grey((x * 8 / kSide + y * 8 / kSide) % 2 == 0 ? 0.25F : 1.0F); }},
+    {"texture_white", [](int, int) { return grey(1); }},
+    {"texture_ramp", [](int x, int) { return grey(middle(x)); }},
+    {"texture_normal",
+     [](int, int) {
+         return Texel{0.5F, 0.5F, 1, 1};
+     }},
+    {"texture_lattice",
+     [](int x, int y) {
+         const float from_centre = std::hypot(middle(x) - 0.5F, middle(y) - 0.5F);
+         return Texel{1, 1, 1, std::clamp(4 * from_centre - 0.7F, 0.0F, 1.0F)};
+     }},
+}};
 
 /// What stands in a sampler's place where the family does not say.
 std::string usual_texture(std::string_view sampler) {
@@ -61,29 +70,25 @@ void fill_color(const GladGLContext& gl, GLenum target, const TextureSource& sou
     const Image image = texture_texels(source);
     const float* const texels = image.values.data();
     if (target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_3D) {
-        gl.TexImage3D(target, 0, GL_RGBA32F, side, side, 1, 0, GL_RGBA, GL_FLOAT, texels);
+        gl.TexImage3D(target, 0, GL_RGBA32F, kSide, kSide, 1, 0, GL_RGBA, GL_FLOAT, texels);
     } else {
         const bool cube = target == GL_TEXTURE_CUBE_MAP;
         const GLenum first = cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X : target;
         for (GLenum face = first; face < first + (cube ? 6U : 1U); ++face)
-            gl.TexImage2D(face, 0, GL_RGBA32F, side, side, 0, GL_RGBA, GL_FLOAT, texels);
+            gl.TexImage2D(face, 0, GL_RGBA32F, kSide, kSide, 0, GL_RGBA, GL_FLOAT, texels);
     }
-    if (levels == TextureLevels::one) {
-        gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        return;
-    }
-    gl.GenerateMipmap(target);
-    gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    if (levels == TextureLevels::all) gl.GenerateMipmap(target);
+    gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER,
+                     levels == TextureLevels::all ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
 }
 
 void fill_depth(const GladGLContext& gl, GLenum target, const std::vector<double>& numbers) {
     const float depth = numbers.empty() ? 1.0F : static_cast<float>(numbers.front());
-    if (target == GL_TEXTURE_2D_ARRAY) {
-        // One layer: OpenGL clamps what is asked of later ones to it.
+    // One layer of an array: OpenGL clamps what is asked of later ones to it.
+    if (target == GL_TEXTURE_2D_ARRAY)
         gl.TexImage3D(target, 0, GL_DEPTH_COMPONENT32F, 1, 1, 1, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
-    } else {
+    else
         gl.TexImage2D(target, 0, GL_DEPTH_COMPONENT32F, 1, 1, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
-    }
     gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl.TexParameteri(target, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
@@ -91,20 +96,37 @@ void fill_depth(const GladGLContext& gl, GLenum target, const std::vector<double
 
 }  // namespace
 
-TextureSource texture_source_of(const std::string& sampler, const std::vector<RenderValue>& values) {
+const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
     const auto found = std::find_if(values.rbegin(), values.rend(),
-                                    [&](const RenderValue& value) { return value.name == sampler; });
-    if (found == values.rend()) return {usual_texture(sampler), {}};
-    return {found->source, found->numbers};
+                                    [&](const RenderValue& value) { return value.name == name; });
+    return found == values.rend() ? nullptr : &*found;
+}
+
+TextureSource texture_source_of(const std::string& sampler, const std::vector<RenderValue>& values) {
+    const RenderValue* value = find_value(values, sampler);
+    if (value == nullptr) return {usual_texture(sampler), {}};
+    return {value->source, value->numbers};
+}
+
+const std::vector<std::string>& texture_sources() {
+    static const std::vector<std::string> sources = [] {
+        std::vector<std::string> names;
+        for (const Pattern& pattern : kPatterns) names.emplace_back(pattern.name);
+        return names;
+    }();
+    return sources;
 }
 
 Image texture_texels(const TextureSource& source) {
-    Image image(side, side, 4);
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            const Texel color = texel(source, x, y);
-            for (int channel = 0; channel < 4; ++channel)
-                image.at(x, y, channel) = color[static_cast<std::size_t>(channel)];
+    const auto* const pattern = std::find_if(kPatterns.begin(), kPatterns.end(),
+                                             [&](const Pattern& one) { return one.name == source.name; });
+    Texel color = {0, 0, 0, 1};
+    std::copy_n(source.numbers.begin(), std::min<std::size_t>(source.numbers.size(), 4), color.begin());
+    Image image(kSide, kSide, 4);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const Texel texel = pattern != kPatterns.end() ? pattern->texel(x, y) : color;
+            std::copy(texel.begin(), texel.end(), &image.at(x, y, 0));
         }
     }
     return image;
@@ -112,23 +134,48 @@ Image texture_texels(const TextureSource& source) {
 
 std::optional<Texture> make_texture(const Context& context, const std::string& sampler_type,
                                     const TextureSource& source, TextureLevels levels) {
-    const auto* const row = std::find_if(targets.begin(), targets.end(), [&](const TargetRow& known) {
+    const auto* const row = std::find_if(kTargets.begin(), kTargets.end(), [&](const SamplerTarget& known) {
         return known.sampler_type == sampler_type;
     });
-    if (row == targets.end()) return std::nullopt;
+    if (row == kTargets.end()) return std::nullopt;
     context.make_current();
     const GladGLContext& gl = context.gl();
-    Texture texture;
-    texture.target = row->target;
+    Texture texture{0, row->target};
     gl.GenTextures(1, &texture.name);
     gl.BindTexture(texture.target, texture.name);
     gl.TexParameteri(texture.target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    if (row->shadow) {
+    if (row->is_shadow)
         fill_depth(gl, texture.target, source.numbers);
-    } else {
+    else
         fill_color(gl, texture.target, source, levels);
-    }
     return texture;
+}
+
+Result<void> CubeMaps::add(const std::string& sampler, const Image& faces) {
+    if (faces.height != 6 * faces.width || faces.width < 1 || faces.channels < 3) {
+        return fail(Fault::input,
+                    fmt::format("a picture of {} x {} texels in {} channels is not a cube map for '{}'",
+                                faces.width, faces.height, faces.channels, sampler),
+                    "give six square faces in colour, one below the other, as gobo probe writes them");
+    }
+    const Context& context = resources_.context();
+    context.make_current();
+    const GladGLContext& gl = context.gl();
+    const Texture texture{resources_.make(&GladGLContext::GenTextures, &GladGLContext::DeleteTextures),
+                          GL_TEXTURE_CUBE_MAP};
+    gl.BindTexture(texture.target, texture.name);
+    const auto face_size = static_cast<std::size_t>(faces.width) * static_cast<std::size_t>(faces.width) *
+                           static_cast<std::size_t>(faces.channels);
+    const GLenum format = faces.channels == 4 ? GL_RGBA : GL_RGB;
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    for (GLenum face = 0; face < 6; ++face)
+        gl.TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA32F, faces.width, faces.width, 0,
+                      format, GL_FLOAT, faces.values.data() + face * face_size);
+    gl.TexParameteri(texture.target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TexParameteri(texture.target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    textures_[sampler] = texture;
+    return {};
 }
 
 }  // namespace gobo

@@ -1,6 +1,7 @@
-// Textures for samplers that a family leaves to the renderer.
+// Textures: what samplers read that a family leaves to the renderer, and pictures given to samplers by name.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +12,11 @@
 
 namespace gobo {
 
-/// A texture object with what it is bound to.
-struct Texture {
-    GLuint name = 0;
-    GLenum target = GL_TEXTURE_2D;
-};
+/// Textures that are there already, by the name of their sampler; whoever made them deletes them.
+using GivenTextures = std::map<std::string, Texture>;
+
+/// The value given last to that name, or null.
+[[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
 
 /// What a texture is made of: a name that make_texture() knows, or one colour.
 struct TextureSource {
@@ -26,6 +27,7 @@ struct TextureSource {
 /// What the values say last of that sampler; where they do not, what its name tells.
 [[nodiscard]] TextureSource texture_source_of(const std::string& sampler,
                                               const std::vector<RenderValue>& values);
+[[nodiscard]] const std::vector<std::string>& texture_sources();
 
 /// The texels of a texture of colours, four channels; row 0 is that at t = 0.
 [[nodiscard]] Image texture_texels(const TextureSource& source);
@@ -44,5 +46,20 @@ enum class TextureLevels { all, one };
 [[nodiscard]] std::optional<Texture> make_texture(const Context& context, const std::string& sampler_type,
                                                   const TextureSource& source,
                                                   TextureLevels levels = TextureLevels::all);
+
+/// Cube maps made from pictures, deleted together: for pictures lit by an environment.
+class CubeMaps {
+  public:
+    explicit CubeMaps(const Context& context) : resources_(context) {}
+
+    /// A picture of side x 6 side texels, the faces +x -x +y -y +z -z one below the other, as the texture of
+    /// a samplerCube of that name; its alpha is 1. Fault::input where the picture has another shape.
+    [[nodiscard]] Result<void> add(const std::string& sampler, const Image& faces);
+    [[nodiscard]] const GivenTextures& textures() const { return textures_; }
+
+  private:
+    GlResources resources_;
+    GivenTextures textures_;
+};
 
 }  // namespace gobo

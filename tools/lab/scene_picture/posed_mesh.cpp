@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "lab/render/transform.hpp"
+#include "lab/render/camera.hpp"
 
 namespace gobo::scene {
 namespace {

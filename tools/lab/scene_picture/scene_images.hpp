@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lab/render/shadow_camera.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "scene/effects.hpp"
 
 namespace gobo::scene {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/render/lit_shadows.hpp"
-#include "lab/render/shadow_camera.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "lab/study/study_scene.hpp"
 #include "lab/verify/rasterise.hpp"
 

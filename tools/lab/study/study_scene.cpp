@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo::study {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lab/render/mesh.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/render_feed.hpp"
 
 namespace gobo::verify {

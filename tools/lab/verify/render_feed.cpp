@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "lab/evaluate/images.hpp"
-#include "lab/render/vertex_values.hpp"
+#include "lab/render/mesh.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -53,17 +53,15 @@ void add_images(const evaluate::Program& program, const std::vector<RenderValue>
 }
 
 /// Component by component, all vertices of each.
-template <class Vector>
-std::vector<double> by_component(const std::vector<Vector>& vectors, std::uint32_t components) {
-    std::vector<double> numbers(components * vectors.size(), 0);
-    for (std::uint32_t c = 0; c < components; ++c) {
-        for (std::size_t i = 0; i < vectors.size(); ++i) {
-            const auto row = static_cast<glm::length_t>(c);
+std::vector<double> by_component(const AttributeValues& values, std::uint32_t components) {
+    if (!values.integers.empty()) return {values.integers.begin(), values.integers.end()};
+    const auto own = static_cast<std::size_t>(values.components);
+    const std::size_t count = values.floats.size() / own;
+    std::vector<double> numbers(components * count, 0);
+    for (std::size_t c = 0; c < components; ++c)
+        for (std::size_t i = 0; i < count; ++i)
             // What an attribute lacks is 0, and its fourth component 1 (OpenGL 4.5, 10.2).
-            numbers[c * vectors.size() + i] =
-                row < Vector::length() ? static_cast<double>(vectors[i][row]) : (c == 3 ? 1.0 : 0.0);
-        }
-    }
+            numbers[c * count + i] = c < own ? values.floats[i * own + c] : (c == 3 ? 1.0 : 0.0);
     return numbers;
 }
 
@@ -91,10 +89,7 @@ Result<evaluate::Invocations> uniforms_of(const evaluate::Program& program, cons
         const bool is_read = std::any_of(program.uniform_blocks.begin(), program.uniform_blocks.end(),
                                          [&](const auto& own) { return own.name == block.name; });
         if (!is_read) continue;
-        std::vector<std::byte> bytes(static_cast<std::size_t>(block.size));
-        for (const Assignment& assignment : resolved->assignments)
-            if (assignment.leaf.block == block.name) write(assignment, bytes);
-        invocations.blocks[block.name] = std::move(bytes);
+        invocations.blocks[block.name] = bytes_of(block, resolved->assignments);
     }
     for (const Assignment& assignment : resolved->assignments)
         if (assignment.leaf.block.empty()) add_plain_uniform(program, assignment, invocations);
@@ -113,21 +108,8 @@ void add_attributes(const evaluate::Program& program, const Mesh& mesh,
         if (value != nullptr && source.empty()) {
             numbers = value->numbers;
             while (numbers.size() < port.components) numbers.push_back(numbers.size() == 3 ? 1 : 0);
-        } else if (source == "position") {
-            numbers = by_component(mesh.positions, port.components);
-        } else if (source == "normal") {
-            numbers = by_component(mesh.normals, port.components);
-        } else if (source == "texcoord") {
-            numbers = by_component(mesh.texcoords, port.components);
-        } else if (source == "tile") {
-            numbers = by_component(tiled_texcoords(mesh), port.components);
-        } else if (source == "color" && !mesh.colors.empty()) {
-            numbers = by_component(mesh.colors, port.components);
-        } else if (source == "tint") {
-            numbers = by_component(vertex_tints(mesh), port.components);
-        } else if (source == "material_number") {
-            const std::vector<std::int32_t> indices = material_numbers(mesh);
-            numbers.assign(indices.begin(), indices.end());
+        } else if (const auto own = attribute_values(mesh, source)) {
+            numbers = by_component(*own, port.components);
         } else {
             numbers.assign(port.components, source == "color" ? 1 : 0);
         }

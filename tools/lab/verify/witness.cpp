@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
-#include "lab/render/lit_shadows.hpp"
-#include "lab/render/render_selection.hpp"
+#include "lab/render/render.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::verify {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lab/evaluate/evaluate.hpp"
-#include "lab/render/cube_maps.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/render/texture.hpp"
 
 namespace gobo::verify {
 

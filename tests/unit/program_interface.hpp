@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/render/leaves.hpp"
-#include "lab/render/program.hpp"
+#include "lab/render/bind.hpp"
 
 namespace gobo {
 

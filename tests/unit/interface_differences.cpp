@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "lab/render/program_interface.hpp"
+#include "program_interface.hpp"
 
 namespace gobo {
 namespace {

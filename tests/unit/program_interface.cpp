@@ -1,4 +1,4 @@
-#include "lab/render/program_interface.hpp"
+#include "program_interface.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "lab/render/transform.hpp"
+#include "lab/render/camera.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,469 @@
+#include "lab/render/bind.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/text.hpp"
+#include "lab/render/camera.hpp"
+
+namespace gobo {
+namespace {
+
+/// What a struct or an outer array dimension adds to the name and the offset of what it holds.
+struct Prefix {
+    std::string name;
+    int offset = 0;
+};
+
+class Flattener {
+  public:
+    Flattener(std::string block, std::vector<Leaf>& leaves) : block_(std::move(block)), leaves_(leaves) {}
+
+    /// `dimension` is the first of the member's array dimensions that the prefix does not spell out yet.
+    void add(const Member& member, const Prefix& prefix, std::size_t dimension = 0) {
+        const std::size_t left = member.array.size() - dimension;
+        if (left > (member.members.empty() ? 1U : 0U)) {
+            const int stride = stride_of(member, dimension);
+            for (int i = 0; i < member.array[dimension]; ++i)
+                add(member, {fmt::format("{}[{}]", prefix.name, i), prefix.offset + i * stride},
+                    dimension + 1);
+        } else if (member.members.empty()) {
+            add_leaf(member, prefix, left == 1);
+        } else {
+            for (const Member& inner : member.members)
+                add(inner, {prefix.name + "." + inner.name, prefix.offset + inner.offset});
+        }
+    }
+
+  private:
+    /// Of an inner dimension: std140 and std430 pack the elements of an array of arrays without a gap.
+    static int stride_of(const Member& member, std::size_t dimension) {
+        int stride = member.array_stride;
+        for (std::size_t i = 1; i <= dimension; ++i) stride /= member.array[i] > 0 ? member.array[i] : 1;
+        return stride;
+    }
+
+    void add_leaf(const Member& member, const Prefix& prefix, bool is_array) {
+        Leaf leaf{prefix.name, block_, member.type};
+        leaf.is_array = is_array;
+        leaf.offset = prefix.offset;
+        leaf.matrix_stride = member.matrix_stride;
+        leaf.row_major = member.row_major;
+        if (is_array) {
+            leaf.count = member.array.back();
+            leaf.array_stride = stride_of(member, member.array.size() - 1);
+        }
+        leaves_.push_back(std::move(leaf));
+    }
+
+    std::string block_;
+    std::vector<Leaf>& leaves_;
+};
+
+/// The leaf of that name. "weights[2]" finds the element 2 of the leaf "weights", with what follows it in its
+/// array counted. Nothing where there is none, or the element lies outside of the array.
+std::optional<Leaf> find_leaf(const std::vector<Leaf>& leaves, std::string_view name) {
+    for (const Leaf& leaf : leaves)
+        if (leaf.name == name) return leaf;
+    const std::size_t bracket = name.rfind('[');
+    if (bracket == std::string_view::npos || name.back() != ']') return std::nullopt;
+    int element = -1;
+    std::from_chars(name.data() + bracket + 1, name.data() + name.size() - 1, element);
+    for (Leaf leaf : leaves) {
+        if (leaf.name != name.substr(0, bracket) || element < 0 || element >= leaf.count) continue;
+        leaf.name = name;
+        leaf.offset += element * leaf.array_stride;
+        leaf.count -= element;
+        return leaf;
+    }
+    return std::nullopt;
+}
+
+/// The name with every subscript emptied: "PointLights.lights[].position".
+std::string without_subscripts(std::string_view name) {
+    std::string text;
+    bool inside = false;
+    for (const char character : name) {
+        if (character == ']') inside = false;
+        if (!inside) text += character;
+        if (character == '[') inside = true;
+    }
+    return text;
+}
+
+/// A value that the renderer supplies: a matrix, or a vector as the first column of one. `numbers` are those
+/// of a point or a direction in world space.
+struct Source {
+    const char* name;
+    const char* spellings;  ///< names that tell it, in lower case, without prefix, underscores and "matrix"
+    bool is_matrix;
+    bool has_numbers;
+    glm::dmat4 (*value)(const ViewedObject& object, const glm::dvec4& numbers);
+};
+
+glm::dmat4 column(const glm::dvec4& vector) {
+    return {vector, glm::dvec4(0), glm::dvec4(0), glm::dvec4(0)};
+}
+
+using Seen = const ViewedObject&;
+using Numbers = const glm::dvec4&;
+constexpr auto kUniformSources = std::to_array<Source>({
+    {"model", "model modeltoworld world objecttoworld", true, false, [](Seen o, Numbers) { return o.model; }},
+    {"view", "view worldtoview worldtoeye", true, false, [](Seen o, Numbers) { return o.view; }},
+    {"projection", "projection proj viewtoclip", true, false, [](Seen o, Numbers) { return o.projection; }},
+    {"model_view", "modelview mv worldview", true, false, [](Seen o, Numbers) { return o.view * o.model; }},
+    {"view_projection", "viewprojection viewproj vp worldtoclip", true, false,
+     [](Seen o, Numbers) { return o.projection * o.view; }},
+    {"model_view_projection", "modelviewprojection modelviewproj mvp worldviewprojection wvp", true, false,
+     [](Seen o, Numbers) { return o.projection * (o.view * o.model); }},
+    {"inverse_view", "inverseview viewinverse", true, false,
+     [](Seen o, Numbers) { return glm::inverse(o.view); }},
+    // Object-space normals to eye space, and to world space.
+    {"normal_matrix", "normal normals modelviewinversetranspose", true, false,
+     [](Seen o, Numbers) { return glm::dmat4(normal_matrix(o.view * o.model)); }},
+    {"world_normal_matrix", "", true, false,
+     [](Seen o, Numbers) { return glm::dmat4(normal_matrix(o.model)); }},
+    {"camera_position", "cameraposition camerapos campos eyeposition eyepos viewposition viewpos", false,
+     false, [](Seen o, Numbers) { return column(glm::inverse(o.view)[3]); }},
+    // In eye space; a direction has w = 0, and in the second unit length.
+    {"eye_point", "", false, true, [](Seen o, Numbers world) { return column(o.view * world); }},
+    {"eye_direction", "", false, true,
+     [](Seen o, Numbers world) {
+         return column(glm::dvec4(glm::normalize(glm::dmat3(o.view) * glm::dvec3(world)), 0));
+     }},
+    {"viewport", "viewport viewportsize resolution", false, false,
+     [](Seen o, Numbers) { return column(glm::dvec4(o.viewport, 0, 1)); }},
+});
+
+/// Sources of attributes, each with its spellings.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kAttributeSpellings = {
+    {{"position", "position pos vertex vertexposition"},
+     {"normal", "normal vertexnormal"},
+     {"texcoord", "texcoord texcoords texcoord0 texturecoordinate texturecoord textureuv uv uv0"},
+     {"color", "color colour color0 vertexcolor"}}};
+
+bool is_upper(char character) {
+    return std::isupper(static_cast<unsigned char>(character)) != 0;
+}
+
+/// Takes off `u_`, `in_` and the like, and a lower-case letter or "in" before a capital.
+std::string_view without_prefix(std::string_view name) {
+    for (const std::string_view prefix : {"in", "attr", "u", "a", "v", "i", "m", "g", "vs"}) {
+        if (!name.starts_with(prefix) || name.size() <= prefix.size()) continue;
+        const char next = name[prefix.size()];
+        if (next == '_') return name.substr(prefix.size() + 1);
+        if (is_upper(next)) return name.substr(prefix.size());
+    }
+    return name;
+}
+
+std::string plain_spelling(std::string_view name) {
+    name.remove_prefix(name.rfind('.') + 1);
+    std::string plain;
+    for (const char character : without_prefix(name))
+        if (character != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+    for (const std::string_view ending : {"matrix", "mat"})
+        if (plain.ends_with(ending) && plain.size() > ending.size())
+            plain.erase(plain.size() - ending.size());
+    return plain;
+}
+
+bool is_spelling(std::string_view plain, std::string_view spellings) {
+    while (!spellings.empty()) {
+        const std::size_t end = std::min(spellings.find(' '), spellings.size());
+        if (spellings.substr(0, end) == plain) return true;
+        spellings.remove_prefix(std::min(end + 1, spellings.size()));
+    }
+    return false;
+}
+
+std::vector<std::string> uniform_sources() {
+    std::vector<std::string> names;
+    for (const Source& source : kUniformSources) names.emplace_back(source.name);
+    return names;
+}
+
+/// The numbers of a source for a uniform of the given type, column by column. Nothing where there is no such
+/// source, or it does not fit the type (a matrix for a vector). A 4 x 4 matrix gives a mat3 its upper left
+/// part; a mat3 fills a mat4 up from the identity.
+std::optional<std::vector<double>> source_value(std::string_view name, const std::vector<double>& numbers,
+                                                const ViewedObject& object, const ValueType& type) {
+    const auto* const source = std::find_if(kUniformSources.begin(), kUniformSources.end(),
+                                            [&](const Source& one) { return one.name == name; });
+    if (source == kUniformSources.end() || source->is_matrix != type.is_matrix()) return std::nullopt;
+    if (!source->is_matrix && type.rows == 1) return std::nullopt;
+    glm::dvec4 vector(0, 0, 0, 1);
+    if (source->has_numbers) {
+        if (numbers.size() < 3 || numbers.size() > 4) return std::nullopt;
+        std::copy(numbers.begin(), numbers.end(), &vector[0]);
+        if (name == "eye_direction" && !(glm::length(glm::dvec3(vector)) > 0)) return std::nullopt;
+    }
+    const glm::dmat4 value = source->value(object, vector);
+    std::vector<double> fitted;
+    for (int column = 0; column < type.columns; ++column)
+        for (int row = 0; row < type.rows; ++row) fitted.push_back(value[column][row]);
+    return fitted;
+}
+
+/// An error where the interface has the block or uniform, but not what the value names in it.
+Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& value) {
+    const auto head_of = [](const std::string& name) { return name.substr(0, name.find_first_of(".[")); };
+    const std::string plain = without_subscripts(value.name);
+    std::set<std::string> known;
+    for (const Leaf& leaf : leaves) {
+        const std::string name = without_subscripts(leaf.name);
+        if (name == plain || name + "[]" == plain) return {};  // an element beyond the array's extent
+        if (head_of(leaf.name) == head_of(value.name)) known.insert(name);
+    }
+    if (known.empty()) return {};
+    Diagnostic diagnostic;
+    diagnostic.place = value.place;
+    diagnostic.message = fmt::format("'{}' has no member '{}'", head_of(value.name), value.name);
+    diagnostic.help = suggestion(plain, {known.begin(), known.end()});
+    return fail(std::move(diagnostic));
+}
+
+tl::unexpected<Diagnostics> cannot_supply(const Leaf& leaf, const RenderValue& value) {
+    const std::vector<std::string> known = uniform_sources();
+    if (std::find(known.begin(), known.end(), value.source) == known.end())
+        return unknown_source(value, known);
+    Diagnostic diagnostic;
+    diagnostic.place = value.place;
+    diagnostic.message = fmt::format("the source '{}' with {} numbers cannot supply '{}' of type {}",
+                                     value.source, value.numbers.size(), value.name, leaf.type);
+    diagnostic.help = value.source.starts_with("eye_")
+                            ? "eye_point and eye_direction need numbers = [x, y, z] and give vectors"
+                            : "matrices go to matrices, vectors to vectors";
+    return fail(std::move(diagnostic));
+}
+
+/// Fault::input where the count of numbers is not that of whole elements within the array, or the type is
+/// none that can be supplied.
+Result<void> check(const Assignment& assignment, const Place& place) {
+    const Leaf& leaf = assignment.leaf;
+    const auto type = value_type(leaf.type);
+    Diagnostic diagnostic;
+    diagnostic.place = place;
+    if (!type || (leaf.block.empty() && type->component == Component::float64 && type->is_matrix())) {
+        diagnostic.message =
+            fmt::format("'{}' is of type {}, which the renderer cannot supply", leaf.name, leaf.type);
+        return fail(std::move(diagnostic));
+    }
+    const std::size_t components = static_cast<std::size_t>(type->components());
+    const std::size_t most = components * static_cast<std::size_t>(leaf.count);
+    const std::size_t given = assignment.numbers.size();
+    if (given > 0 && given <= most && given % components == 0) return {};
+    diagnostic.message = fmt::format("'{}' is given {} number{}", leaf.name, given, given == 1 ? "" : "s");
+    diagnostic.help = leaf.count > 1
+                            ? fmt::format("it is an array of {}: give a multiple of {}, at most {}",
+                                          leaf.type, components, most)
+                            : fmt::format("it is of type {}: give {}", leaf.type, components);
+    return fail(std::move(diagnostic));
+}
+
+Result<Assignment> assign(const Leaf& leaf, const RenderValue& value, const ViewedObject& object) {
+    Assignment assignment{leaf, value.numbers};
+    const auto type = value_type(leaf.type);
+    if (!value.source.empty() && type) {
+        const auto numbers = source_value(value.source, value.numbers, object, *type);
+        if (!numbers) return cannot_supply(leaf, value);
+        assignment.numbers = *numbers;
+    }
+    GOBO_TRY_DO(check(assignment, value.place));
+    return assignment;
+}
+
+/// What the usual spelling of the uniform's name tells, if it fits the type.
+std::optional<Assignment> guess(const Leaf& leaf, const ViewedObject& object) {
+    const std::string_view source = uniform_source_of(leaf.name);
+    const auto type = value_type(leaf.type);
+    if (source.empty() || !type || leaf.is_array || type->component != Component::float32)
+        return std::nullopt;
+    const auto numbers = source_value(source, {}, object, *type);
+    return numbers ? std::optional(Assignment{leaf, *numbers}) : std::nullopt;
+}
+
+/// The nearest value of an integer type; NaN becomes 0.
+template <class Integer>
+Integer to_integer(double number) {
+    constexpr double low = std::numeric_limits<Integer>::min();
+    constexpr double high = std::numeric_limits<Integer>::max();
+    return std::isnan(number) ? Integer{0} : static_cast<Integer>(std::clamp(std::round(number), low, high));
+}
+
+/// Calls `use` with the number as the type that a component is kept as.
+template <class Use>
+void with_component(Component component, double number, const Use& use) {
+    switch (component) {
+        case Component::float32:
+            return use(static_cast<float>(number));
+        case Component::float64:
+            return use(number);
+        case Component::int32:
+            return use(to_integer<std::int32_t>(number));
+        case Component::uint32:
+            return use(to_integer<std::uint32_t>(number));
+        case Component::boolean:
+            return use(std::int32_t{number != 0 ? 1 : 0});
+    }
+}
+
+/// From the start of an element to one of its components.
+int component_offset(const Leaf& leaf, const ValueType& type, int index) {
+    const int size = type.component == Component::float64 ? 8 : 4;
+    const int column = index / type.rows;
+    const int row = index % type.rows;
+    if (!type.is_matrix()) return row * size;
+    return leaf.row_major ? row * leaf.matrix_stride + column * size
+                          : column * leaf.matrix_stride + row * size;
+}
+
+void write(const Assignment& assignment, std::vector<std::byte>& block) {
+    const Leaf& leaf = assignment.leaf;
+    const auto type = value_type(leaf.type);
+    for (int i = 0; type && i < static_cast<int>(assignment.numbers.size()); ++i) {
+        const int offset = leaf.offset + i / type->components() * leaf.array_stride +
+                           component_offset(leaf, *type, i % type->components());
+        with_component(type->component, assignment.numbers[static_cast<std::size_t>(i)], [&](auto value) {
+            const auto first = static_cast<std::size_t>(offset);
+            if (offset >= 0 && first + sizeof value <= block.size())
+                std::memcpy(&block[first], &value, sizeof value);
+        });
+    }
+}
+
+template <class Value>
+std::vector<Value> values_as(Component component, const std::vector<double>& numbers) {
+    std::vector<Value> values;
+    for (const double number : numbers)
+        with_component(component, number, [&](auto value) { values.push_back(static_cast<Value>(value)); });
+    return values;
+}
+
+}  // namespace
+
+std::vector<Leaf> leaves_of(const Interface& interface) {
+    std::vector<Leaf> leaves;
+    for (const Block& block : interface.blocks)
+        for (const Member& member : block.members)
+            Flattener(block.name, leaves).add(member, {block.name + "." + member.name, member.offset});
+    for (const Uniform& uniform : interface.uniforms) {
+        Member member;
+        member.name = uniform.name;
+        member.type = uniform.type;
+        member.array = uniform.array;
+        member.members = uniform.members;
+        Flattener("", leaves).add(member, {uniform.name, 0});
+    }
+    return leaves;
+}
+
+std::string_view uniform_source_of(std::string_view name) {
+    const std::string plain = plain_spelling(name);
+    for (const Source& source : kUniformSources)
+        if (is_spelling(plain, source.spellings)) return source.name;
+    return {};
+}
+
+std::string_view attribute_source_of(std::string_view name) {
+    const std::string plain = plain_spelling(name);
+    for (const auto& [source, spellings] : kAttributeSpellings)
+        if (is_spelling(plain, spellings)) return source;
+    return {};
+}
+
+tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::vector<std::string>& known) {
+    Diagnostic diagnostic;
+    diagnostic.place = value.place;
+    diagnostic.message = fmt::format("unknown source '{}' for '{}'", value.source, value.name);
+    diagnostic.help = suggestion(value.source, known);
+    return fail(std::move(diagnostic));
+}
+
+Diagnostic no_value(std::string message) {
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.message = std::move(message);
+    warning.help = "give it one under [render] in the family file";
+    return warning;
+}
+
+Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std::vector<RenderValue>& values,
+                                          const ViewedObject& object) {
+    const std::vector<Leaf> leaves = leaves_of(interface);
+    ResolvedUniforms resolved;
+    std::set<std::string> without_value;
+    for (const Leaf& leaf : leaves) {
+        if (auto guessed = guess(leaf, object))
+            resolved.assignments.push_back(std::move(*guessed));
+        else
+            without_value.insert(without_subscripts(leaf.name));
+    }
+    for (const RenderValue& value : values) {
+        const auto leaf = find_leaf(leaves, value.name);
+        if (!leaf) {
+            GOBO_TRY_DO(check_name(leaves, value));
+            continue;
+        }
+        GOBO_TRY(Assignment assignment, assign(*leaf, value, object));
+        resolved.assignments.push_back(std::move(assignment));
+        std::string name = without_subscripts(leaf->name);
+        without_value.erase(name);
+        if (name.ends_with("[]")) without_value.erase(name.substr(0, name.size() - 2));
+    }
+    for (const std::string& name : without_value)
+        resolved.warnings.push_back(no_value(fmt::format("'{}' has no value and stays 0", name)));
+    return resolved;
+}
+
+std::vector<std::byte> bytes_of(const Block& block, const std::vector<Assignment>& assignments) {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(block.size));
+    for (const Assignment& assignment : assignments)
+        if (assignment.leaf.block == block.name) write(assignment, bytes);
+    return bytes;
+}
+
+void set_uniform(const GladGLContext& gl, const Program& program, const Assignment& assignment) {
+    const auto type = value_type(assignment.leaf.type);
+    const GLint location = gl.GetUniformLocation(program.id(), assignment.leaf.name.c_str());
+    if (!type || location < 0) return;
+    const auto elements = static_cast<GLsizei>(assignment.numbers.size()) / type->components();
+    const auto row = static_cast<std::size_t>(type->rows) - 1;
+    const auto set = [&]<class Value>(Value, const auto& setters) {
+        setters[row](location, elements, values_as<Value>(type->component, assignment.numbers).data());
+    };
+    if (type->is_matrix()) {
+        // By columns, then rows. There are no matrices of doubles here: check() has refused them.
+        const PFNGLUNIFORMMATRIX2FVPROC setters[3][3] = {
+            {gl.UniformMatrix2fv, gl.UniformMatrix2x3fv, gl.UniformMatrix2x4fv},
+            {gl.UniformMatrix3x2fv, gl.UniformMatrix3fv, gl.UniformMatrix3x4fv},
+            {gl.UniformMatrix4x2fv, gl.UniformMatrix4x3fv, gl.UniformMatrix4fv}};
+        setters[type->columns - 2][row - 1](location, elements, GL_FALSE,
+                                            values_as<GLfloat>(type->component, assignment.numbers).data());
+        return;
+    }
+    switch (type->component) {
+        case Component::float32:
+            return set(GLfloat{}, std::array{gl.Uniform1fv, gl.Uniform2fv, gl.Uniform3fv, gl.Uniform4fv});
+        case Component::float64:
+            return set(GLdouble{}, std::array{gl.Uniform1dv, gl.Uniform2dv, gl.Uniform3dv, gl.Uniform4dv});
+        case Component::uint32:
+            return set(GLuint{}, std::array{gl.Uniform1uiv, gl.Uniform2uiv, gl.Uniform3uiv, gl.Uniform4uiv});
+        case Component::int32:
+        case Component::boolean:
+            return set(GLint{}, std::array{gl.Uniform1iv, gl.Uniform2iv, gl.Uniform3iv, gl.Uniform4iv});
+    }
+}
+
+}  // namespace gobo
