@@ -1,9 +1,9 @@
 // What is too bright for a display is shown darker; what is not stays as it is.
-#include "lab/gallery/exposure.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "lab/gallery/picture.hpp"
 
 namespace gobo::gallery {
 namespace {

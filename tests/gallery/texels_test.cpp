@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "lab/evaluate/color_texels.hpp"
-#include "lab/probe/cube_map.hpp"
+#include "lab/probe/environment.hpp"
 
 namespace gobo::evaluate {
 namespace {

@@ -1,6 +1,7 @@
 // A renderer draws the same by the ubershader as by the permutation that was made for it, shadows and all.
 #include <gtest/gtest.h>
 
+#include "../unit/image_comparison.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "lab/render/render.hpp"

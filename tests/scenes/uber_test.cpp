@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../unit/image_comparison.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"

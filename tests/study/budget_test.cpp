@@ -4,7 +4,7 @@
 #include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/study/studied_keys.hpp"
+#include "lab/study/study.hpp"
 
 namespace gobo::study {
 namespace {

@@ -10,7 +10,6 @@ namespace {
 
 struct AxisRow {
     const char* name;
-    bool logarithmic;
     std::vector<double> values;
     double least;
     double low, high;
@@ -19,23 +18,21 @@ struct AxisRow {
 class AxisFor : public testing::TestWithParam<AxisRow> {};
 
 TEST_P(AxisFor, HoldsAllValues) {
-    const Axis axis = axis_for("x", GetParam().logarithmic, GetParam().values, GetParam().least);
+    const Axis axis = axis_for("x", GetParam().values, GetParam().least);
     EXPECT_NEAR(axis.low, GetParam().low, 1e-9 * std::abs(GetParam().low));
     EXPECT_NEAR(axis.high, GetParam().high, 1e-9 * std::abs(GetParam().high));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Rows, AxisFor,
-    testing::Values(AxisRow{"linear_begins_at_zero", false, {10, 20}, 0, 0, 21},
-                    AxisRow{"nothing", false, {}, 0, 0, 1},
-                    AxisRow{"ends_are_round", true, {3, 250}, 1, 2, 500},
-                    AxisRow{"one_value_has_room", true, {5}, 1, 2, 10},
-                    AxisRow{"zeros_stand_at_the_least", true, {0, 0.5}, 1e-3, 1e-3, 1},
-                    AxisRow{"infinite_errors_stretch_nothing", true, {1, HUGE_VAL, 20}, 1, 1, 50}),
+    testing::Values(AxisRow{"nothing", {}, 0, 0.1, 1}, AxisRow{"ends_are_round", {3, 250}, 1, 2, 500},
+                    AxisRow{"one_value_has_room", {5}, 1, 2, 10},
+                    AxisRow{"zeros_stand_at_the_least", {0, 0.5}, 1e-3, 1e-3, 1},
+                    AxisRow{"infinite_errors_stretch_nothing", {1, HUGE_VAL, 20}, 1, 1, 50}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Chart, NamesItsMarksAndEscapesThem) {
-    Chart chart("a < b", {"cost, additions", false, 0, 10}, {"error", true, 1e-3, 1});
+    Chart chart("a < b", {"cost, additions", 1, 10}, {"error", 1e-3, 1});
     chart.add({5, 0.1, 1, false, 4, "class=\"point\"", "shading=\"vertex\" & more"});
     const std::string svg = chart.svg();
     EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
@@ -62,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, ShortNumber,
                                          NumberRow{2.5e6, "2.5e+06"}));
 
 TEST(Chart, LabelsWhatHasRoomForIt) {
-    Chart chart("t", {"x", false, 0, 1}, {"y", false, 0, 1});
+    Chart chart("t", {"x", 0.1, 1}, {"y", 0.1, 1});
     chart.add({0.5, 0.5, 0, false, 4, "", "", "first"});
     chart.add({0.501, 0.5, 0, false, 4, "", "", "covered"});
     chart.add({0.8, 0.5, 0, false, 4, "", "", "beside"});
@@ -73,7 +70,7 @@ TEST(Chart, LabelsWhatHasRoomForIt) {
 }
 
 TEST(Chart, LeavesOutWhatHasNoPlace) {
-    Chart chart("t", {"x", false, 0, 1}, {"y", false, 0, 1});
+    Chart chart("t", {"x", 0.1, 1}, {"y", 0.1, 1});
     const std::string empty = chart.svg();
     chart.add({NAN, 0.5, 0, false, 4, "", "none"});
     EXPECT_EQ(chart.svg(), empty);

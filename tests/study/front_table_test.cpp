@@ -1,14 +1,11 @@
 // The front of a finished study as readers see it: a short table, a chart, and which keys are on it by time.
-#include "lab/study/front_table.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/study/front_chart.hpp"
-#include "lab/study/read_study.hpp"
+#include "lab/study/front.hpp"
 
 namespace gobo::study {
 namespace {

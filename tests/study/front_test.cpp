@@ -1,8 +1,8 @@
 // Which of some points lie on the Pareto front, and by which the others are dominated.
-#include "lab/study/front.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "lab/study/statistics.hpp"
 
 namespace gobo::study {
 namespace {

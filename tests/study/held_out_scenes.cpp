@@ -1,7 +1,7 @@
 #include "held_out_scenes.hpp"
 
-#include "study_support.hpp"
 #include "lab/verify/random.hpp"
+#include "study_support.hpp"
 
 namespace gobo::study {
 namespace {

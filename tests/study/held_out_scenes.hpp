@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lab/study/study_scene.hpp"
+#include "lab/study/scenes.hpp"
 
 namespace gobo::study {
 

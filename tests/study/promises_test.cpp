@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "held_out_scenes.hpp"
-#include "budget/qualities.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {
@@ -28,10 +28,8 @@ std::vector<StudiedKey> known_of(const Key& effects) {
     auto keys = front_qualities(lit.family, shipped_study(), effects);
     if (shipped_study().empty())
         for (const Choice& choice : single_choices(lit.family, effects)) keys.push_back(choice.key);
-    return studied_keys(
-        measure_keys(source_files(), lit.family, lit.search, effects, keys, quick_options({}), journal)
-            .value(),
-        lit.weights);
+    return studied_keys(measure_keys(lit_subject(), effects, keys, quick_options({}).plan, journal).value(),
+                        lit.weights);
 }
 
 struct Effects {
@@ -57,7 +55,7 @@ TEST_P(Promises, HoldOnScenesThatNoStudySaw) {
     }
     std::vector<Key> keys = {most_accurate(lit.family, effects)};
     for (const auto& [key, budget] : promised) keys.push_back(key);
-    const Variants variants = load_variants(lit.family, lit.search, keys, 2).value();
+    const Variants variants = load_variants(lit_subject(), keys).value();
     double closest = 0;
     for (const DrawnScene& scene : held_out_scenes(lit.family)) {
         const ScenePoints points = find_points(lit.family, variants.at(keys.front()), scene).value();

@@ -1,11 +1,9 @@
 // Shadow maps made without a renderer, for the scenes of studies.
-#include "lab/study/scene_shadows.hpp"
-
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/study/study_scene.hpp"
+#include "lab/study/scenes.hpp"
 
 namespace gobo::study {
 namespace {

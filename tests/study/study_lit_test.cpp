@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "lab/study/choices.hpp"
-#include "budget/qualities.hpp"
-#include "lab/study/study_csv.hpp"
+#include "lab/study/rows.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {
@@ -17,9 +17,7 @@ namespace {
 const Study& blinn_study() {
     static const Study study = [] {
         Journal journal;
-        const LitUnderStudy& lit = lit_under_study();
-        return run_study(source_files(), lit.family, lit.search,
-                         quick_options({"directional=1 fog=linear specular=blinn"}), journal)
+        return run_study(lit_subject(), quick_options({"directional=1 fog=linear specular=blinn"}), journal)
             .value();
     }();
     return study;
@@ -79,9 +77,8 @@ TEST(StudyOfLit, CountsLessWorkPerFragmentWhereVerticesDoIt) {
 TEST(StudyOfLit, SeesTheEdgesOfShadowsAndWhatIsDecidedThere) {
     const LitUnderStudy& lit = lit_under_study();
     Journal journal;
-    const Study study = run_study(source_files(), lit.family, lit.search,
-                                  quick_options({"directional=1 directional_shadows=1"}), journal)
-                            .value();
+    const Study study =
+        run_study(lit_subject(), quick_options({"directional=1 directional_shadows=1"}), journal).value();
     const EffectsResult& effects = study.effects.front();
     const Measurement& accurate = effects.keys.front().scenes.front();
     EXPECT_LE(accurate.edges * 100, accurate.pixels) << "more than 1 % at a discontinuity";
@@ -109,9 +106,8 @@ TEST(StudyOfLit, SeesErrorsOfVertexShadingShrinkWithTessellation) {
 TEST(StudyOfLit, GivesTheSameNumbersWhateverTheJobsAndHoweverOftenItStopped) {
     const LitUnderStudy& lit = lit_under_study();
     const auto run = [&](int jobs, Journal& journal) {
-        StudyOptions options = quick_options({"fog=linear point=1"});
-        options.jobs = jobs;
-        const Study study = run_study(source_files(), lit.family, lit.search, options, journal).value();
+        const Study study =
+            run_study(lit_subject(jobs), quick_options({"fog=linear point=1"}), journal).value();
         return study_csv(rows_of(lit.family, study, lit.weights)) + curves_csv(study.curves);
     };
     MemoryFileSystem files;
@@ -141,7 +137,7 @@ TEST(StudyOfLit, NamesADominatorThatIsOnTheFront) {
         const StudyRow& better = *by_name.at({row.scene, row.dominated_by});
         EXPECT_TRUE(better.on_front);
         EXPECT_LE(better.costs.total, row.costs.total);
-        EXPECT_LE(better.error.max, row.error.max);
+        EXPECT_LE(better.total.max, row.total.max);
     }
 }
 
@@ -152,7 +148,7 @@ TEST(Choices, SayWhatIsDominatedEverywhere) {
     Journal journal;
     StudyOptions small_options = quick_options({"default"});
     small_options.plan = default_plan(family);
-    const Result<Study> study = run_study(source_files(), family, search, small_options, journal);
+    const Result<Study> study = run_study({source_files(), family, search, 2}, small_options, journal);
     ASSERT_TRUE(study) << to_text(study.error().front());
     std::map<std::string, std::string> dominated;
     for (const ChoiceSummary& choice : summarise_choices(family, *study, lit_under_study().weights))

@@ -104,11 +104,15 @@ Append append_to(MemoryFileSystem& files) {
     };
 }
 
+Subject lit_subject(int jobs) {
+    const LitUnderStudy& lit = lit_under_study();
+    return {source_files(), lit.family, lit.search, jobs};
+}
+
 StudyOptions quick_options(std::vector<std::string> effects) {
     StudyOptions options;
     options.effects = std::move(effects);
     options.quick = true;
-    options.jobs = 2;
     const std::string path = "data/study/lit.toml";
     options.plan = read_plan(source_files().read(path).value(), path, lit_under_study().family).value();
     options.weights = lit_under_study().weights;

@@ -3,7 +3,6 @@
 
 #include <map>
 
-#include "lab/study/studied_keys.hpp"
 #include "lab/study/study.hpp"
 
 namespace gobo::study {
@@ -29,7 +28,10 @@ struct LitUnderStudy {
 /// As append_to_disk(), in memory.
 [[nodiscard]] Append append_to(MemoryFileSystem& files);
 
-/// Two threads, the shipped plan and weights.
+/// lit, by so many threads.
+[[nodiscard]] Subject lit_subject(int jobs = 2);
+
+/// The shipped plan and weights.
 [[nodiscard]] StudyOptions quick_options(std::vector<std::string> effects);
 
 }  // namespace gobo::study

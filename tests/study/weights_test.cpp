@@ -1,7 +1,7 @@
 // Prices of operations: solved for, written, read, and summed up.
 #include <gtest/gtest.h>
 
-#include "lab/study/weigh.hpp"
+#include "lab/study/timing.hpp"
 
 namespace gobo::study {
 namespace {
@@ -74,11 +74,11 @@ TEST_P(BadWeights, AreRefusedAtTheirLine) {
 INSTANTIATE_TEST_SUITE_P(
     Rows, BadWeights,
     testing::Values(
-        BadRow{"empty", "", "is no table of weights: renderer, kind, weight, nanoseconds", 2},
+        BadRow{"empty", "", "not a table of weights: renderer, kind, weight, nanoseconds", 2},
         BadRow{"unknown_kind", "renderer,kind,weight,nanoseconds\nr,add,1,1\nr,sum,1,1\n",
                "there is no kind of operation 'sum'", 3},
-        BadRow{"no_number", "renderer,kind,weight,nanoseconds\nr,add,much,1\n", "'much' is no weight", 2},
-        BadRow{"negative", "renderer,kind,weight,nanoseconds\nr,add,-1,1\n", "'-1' is no weight", 2}),
+        BadRow{"no_number", "renderer,kind,weight,nanoseconds\nr,add,much,1\n", "'much' is not a weight", 2},
+        BadRow{"negative", "renderer,kind,weight,nanoseconds\nr,add,-1,1\n", "'-1' is not a weight", 2}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Costs, SpreadTheVerticesOverTheFragments) {

@@ -9,8 +9,6 @@
 
 #include "core/file_system.hpp"
 #include "lab/probe/convolution.hpp"
-#include "lab/probe/cube_map.hpp"
-#include "lab/probe/harmonics.hpp"
 #include "lab/render/image_file.hpp"
 
 namespace gobo::probe {
@@ -281,11 +279,11 @@ INSTANTIATE_TEST_SUITE_P(
     Probe, Refusal,
     testing::Values(
         BadMap{"square", filled(8, 8, 3, 1),
-               "map.exr: error: a picture of 8 x 8 texels is no latitude-longitude map\n"
+               "map.exr: error: a picture of 8 x 8 texels is not a latitude-longitude map\n"
                "  help: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
                "to nadir\n"},
         BadMap{"too_small", filled(2, 1, 3, 1),
-               "map.exr: error: a picture of 2 x 1 texels is no latitude-longitude map\n"
+               "map.exr: error: a picture of 2 x 1 texels is not a latitude-longitude map\n"
                "  help: it must be twice as wide as high, and at least 4 x 2: all around, and from zenith "
                "to nadir\n"},
         BadMap{"grey", filled(8, 4, 1, 1),

@@ -1,4 +1,4 @@
-// What OpenGL itself says of a linked program: the second witness of gobo's reflection.
+// What OpenGL itself says of a linked program: a cross-check of gobo's reflection.
 #pragma once
 
 #include <string>

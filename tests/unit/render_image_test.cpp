@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/render/image.hpp"
+#include "image_comparison.hpp"
 #include "lab/render/image_file.hpp"
 
 namespace gobo {

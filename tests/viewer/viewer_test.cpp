@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../unit/image_comparison.hpp"
 #include "core/file_system.hpp"
 #include "lab/render/image_file.hpp"
 

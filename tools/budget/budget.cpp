@@ -1,7 +1,6 @@
 #include "budget/budget.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <tuple>
 
@@ -14,19 +13,8 @@
 namespace gobo {
 namespace {
 
-Diagnostic problem(const std::string& path, std::size_t row, std::string message, const Family& family) {
-    Diagnostic diagnostic;
-    diagnostic.place = {path, static_cast<int>(row) + 2, 0};
-    diagnostic.message = std::move(message);
-    diagnostic.help = fmt::format("remake the study: gobo study {} -o FOLDER", family.name);
-    return diagnostic;
-}
-
 double number_in(const std::string& cell) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    return error == std::errc() && end == cell.data() + cell.size() ? number
-                                                                    : std::numeric_limits<double>::infinity();
+    return number_in_cell(cell).value_or(std::numeric_limits<double>::infinity());
 }
 
 /// Where the columns that budgets need stand.
@@ -71,9 +59,13 @@ std::string nearest_text(const std::vector<StudiedKey>& keys, const Budget& budg
 }  // namespace
 
 Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path, const Family& family) {
+    const auto problem = [&](std::size_t row, std::string message) {
+        return fail_at_row(path, row, std::move(message),
+                           fmt::format("remake the study: gobo study {} -o FOLDER", family.name));
+    };
     const CsvTable table = read_csv(csv);
     const auto columns = columns_of(table);
-    if (!columns) return fail(problem(path, 0, "is no study.csv", family));
+    if (!columns) return problem(0, "is no study.csv");
     StudiedEffects studied;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const std::vector<std::string>& row = table.rows[i];
@@ -82,7 +74,7 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         const auto key = parse_key(family, row[columns->key]);
         if (!effects || !key) {
             const Diagnostics& why = effects ? key.error() : effects.error();
-            return fail(problem(path, i, why.front().message, family));
+            return problem(i, why.front().message);
         }
         studied[*effects].push_back({*key, number_in(row[columns->error]), number_in(row[columns->cost]),
                                      row[columns->front] == "yes"});

@@ -1,6 +1,7 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -72,6 +73,19 @@ std::string csv_text(const CsvTable& table) {
 
 std::string csv_number(double number) {
     return fmt::format("{:.6g}", number);
+}
+
+std::optional<double> number_in_cell(std::string_view cell) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+    return number;
+}
+
+tl::unexpected<Diagnostics> fail_at_row(const std::string& path, std::size_t row, std::string message,
+                                        std::string help) {
+    return fail(Place{path, static_cast<int>(row) + 2}, {}, std::move(message),
+                std::move(help));  // below the header
 }
 
 }  // namespace gobo

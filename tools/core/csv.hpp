@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/diagnostic.hpp"
+
 namespace gobo {
 
 struct CsvTable {
@@ -22,5 +24,12 @@ struct CsvTable {
 
 /// Six significant digits: more than any measurement here has; empty for none.
 [[nodiscard]] std::string csv_number(double number);
+
+/// The number that a cell is as a whole.
+[[nodiscard]] std::optional<double> number_in_cell(std::string_view cell);
+
+/// An error at a row of the table at `path`.
+[[nodiscard]] tl::unexpected<Diagnostics> fail_at_row(const std::string& path, std::size_t row,
+                                                      std::string message, std::string help);
 
 }  // namespace gobo

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lab/probe/convolution.hpp"
-#include "lab/probe/cube_map.hpp"
 #include "lab/render/image_file.hpp"
 
 namespace gobo {

@@ -3,8 +3,6 @@
 
 #include "lab/commands/commands.hpp"
 #include "lab/probe/convolution.hpp"
-#include "lab/probe/cube_map.hpp"
-#include "lab/probe/harmonics.hpp"
 #include "lab/render/image_file.hpp"
 
 namespace gobo {

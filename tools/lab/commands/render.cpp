@@ -12,7 +12,7 @@
 #include "lab/commands/environment.hpp"
 #include "lab/commands/render_gallery.hpp"
 #include "lab/commands/render_scene.hpp"
-#include "lab/gallery/drawing.hpp"
+#include "lab/gallery/picture.hpp"
 #include "lab/render/texture.hpp"
 #include "validate/validate.hpp"
 

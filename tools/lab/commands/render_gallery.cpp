@@ -2,7 +2,7 @@
 
 #include "lab/commands/depth_pass.hpp"
 #include "lab/commands/study_files.hpp"
-#include "lab/gallery/make_gallery.hpp"
+#include "lab/gallery/gallery.hpp"
 
 namespace gobo {
 namespace {
@@ -32,9 +32,8 @@ Result<RenderedSelection> render_gallery(const World& world, const CommonOptions
     auto weights = load_weights(world, "");
     if (!weights) return tl::unexpected(weights.error());
     gallery_options.weights = std::move(*weights);
-    auto made = gallery::make_gallery(scene, family, composition, validated, gallery_options, world.disk,
-                                      world.shipped);
-    return RenderedSelection{std::move(made.files), std::move(made.diagnostics)};
+    return gallery::make_gallery(scene, family, composition, validated, gallery_options, world.disk,
+                                 world.shipped);
 }
 
 }  // namespace gobo

@@ -10,12 +10,8 @@
 #include "family/key.hpp"
 #include "lab/commands/commands.hpp"
 #include "lab/commands/study_files.hpp"
-#include "lab/study/front_chart.hpp"
-#include "lab/study/front_table.hpp"
-#include "lab/study/instructions.hpp"
-#include "lab/study/read_study.hpp"
+#include "lab/study/front.hpp"
 #include "lab/study/report.hpp"
-#include "lab/study/weigh.hpp"
 
 namespace gobo {
 namespace {
@@ -124,17 +120,20 @@ Outcome weigh(const StudyCommandOptions& options, const World& world) {
     return {text, {}, options.folder + "/weights.csv"};
 }
 
+study::Subject subject_of(const StudyCommandOptions& options, const World& world,
+                          const LoadedFamily& family) {
+    return {world.shipped, family.family, family.search, options.common.jobs};
+}
+
+study::TimeOptions time_options_of(const StudyCommandOptions& options, const World& world) {
+    return {options.rounds, machine_name(world.disk), progress_on_terminal(options.common.quiet)};
+}
+
 Result<void> add_times(const StudyCommandOptions& options, const World& world, const LoadedFamily& family,
                        const study::Weights& weights, study::Journal& journal, study::Study& study) {
-    const Result<Context> context = open_timing_context(options);
-    if (!context) return tl::unexpected(context.error());
-    study::TimeOptions time_options;
-    time_options.rounds = options.rounds;
-    time_options.jobs = options.common.jobs;
-    time_options.machine = machine_name(world.disk);
-    time_options.progress = progress_on_terminal(options.common.quiet);
-    return study::time_study(world.shipped, family.family, family.search, *context, weights, time_options,
-                             journal, study);
+    GOBO_TRY(const Context context, open_timing_context(options));
+    return study::add_times(subject_of(options, world, family), context, weights,
+                            time_options_of(options, world), journal, study);
 }
 
 /// This program again, drawing a key once.
@@ -142,13 +141,16 @@ study::DrawCommand draw_command(const StudyCommandOptions& options) {
     std::array<char, 4096> self{};
     const ssize_t length = ::readlink("/proc/self/exe", self.data(), self.size() - 1);
     const std::string program(self.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-    std::string rest =
-        fmt::format("study '{}' -o '{}' --backend {}", options.family, options.folder, options.backend);
-    for (const std::string& folder : options.common.include_folders) rest += fmt::format(" -I '{}'", folder);
-    if (!options.plan.empty()) rest += fmt::format(" --plan '{}'", options.plan);
-    if (!options.common.library.empty()) rest += fmt::format(" --library '{}'", options.common.library);
-    return [program, rest](const std::string& key, int width, int height) {
-        return fmt::format("'{}' {} --draw '{}' --draw-size {}x{}", program, rest, key, width, height);
+    std::vector<std::string> command = {program,        "study",     options.family, "-o",
+                                        options.folder, "--backend", options.backend};
+    for (const std::string& folder : options.common.include_folders)
+        command.insert(command.end(), {"-I", folder});
+    if (!options.plan.empty()) command.insert(command.end(), {"--plan", options.plan});
+    if (!options.common.library.empty()) command.insert(command.end(), {"--library", options.common.library});
+    return [command](const std::string& key, int width, int height) {
+        std::vector<std::string> whole = command;
+        whole.insert(whole.end(), {"--draw", key, "--draw-size", fmt::format("{}x{}", width, height)});
+        return whole;
     };
 }
 
@@ -165,7 +167,7 @@ Outcome draw(const StudyCommandOptions& options, const World& world) {
     int height = 120;
     std::sscanf(options.draw_size.c_str(), "%dx%d", &width, &height);
     const Result<double> fragments =
-        study::draw_once(world.shipped, family->family, family->search, *plan, *context,
+        study::draw_once(subject_of(options, world, *family), plan->scenes.front(), *context,
                          canonical(family->family, *key, "450"), width, height);
     if (!fragments) return failed(fragments.error());
     return {fmt::format("fragments {}\n", *fragments), {}, {}};
@@ -176,8 +178,7 @@ Result<std::map<std::string, std::string>> make_files(const StudyCommandOptions&
                                                       const study::Weights& weights,
                                                       const study::Study& study) {
     const auto rows = study::rows_of(family.family, study, weights);
-    auto maps =
-        study::draw_heat_maps(world.shipped, family.family, family.search, study.plan, options.common.jobs);
+    auto maps = study::draw_heat_maps(subject_of(options, world, family), study.plan);
     if (!maps) return tl::unexpected(maps.error());
     const bool is_timed = !study.effects.empty() && study.effects.front().control.has_value();
     const std::string guards = "docs/data/guard_prices.csv";
@@ -216,19 +217,18 @@ Outcome run(const StudyCommandOptions& options, const World& world) {
     study_options.plan = *plan;
     study_options.effects = options.effects;
     study_options.quick = options.quick;
-    study_options.jobs = options.common.jobs;
     study_options.weights = *weights;
     study_options.progress = progress_on_terminal(options.common.quiet);
     study::Journal journal(world.disk, options.folder + "/measurements.jsonl", append_to_disk);
-    auto study = study::run_study(world.shipped, family->family, family->search, study_options, journal);
+    const study::Subject subject = subject_of(options, world, *family);
+    auto study = study::run_study(subject, study_options, journal);
     if (!study) return failed(study.error());
     if (!options.quick && !options.no_time)
         if (auto timed = add_times(options, world, *family, *weights, journal, *study); !timed)
             return failed(timed.error());
     if (options.callgrind)
-        if (auto counted = study::count_instructions(
-                family->family, family->search, draw_command(options), machine_name(world.disk),
-                progress_on_terminal(options.common.quiet), journal, *study);
+        if (auto counted = study::add_instructions(subject, draw_command(options),
+                                                   time_options_of(options, world), journal, *study);
             !counted)
             return failed(counted.error());
     const auto files = make_files(options, world, *family, *weights, *study);

@@ -4,10 +4,8 @@
 
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/study/chart.hpp"
 #include "lab/study/choices.hpp"
-#include "lab/study/studied_keys.hpp"
-#include "lab/study/time_study.hpp"
+#include "lab/study/study.hpp"
 
 namespace gobo {
 namespace {

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostic.hpp"
 #include "core/file_system.hpp"
-#include "family/family.hpp"
+#include "lab/gallery/picture.hpp"
 
 namespace gobo::gallery {
 
@@ -39,5 +38,20 @@ struct Gallery {
 /// The page: one file without references to others but the pictures beside it. `shipped` holds its template.
 [[nodiscard]] Result<std::string> page(const FileSystem& shipped, const Family& family,
                                        const Gallery& gallery);
+
+struct GalleryOptions {
+    std::string folder;
+    study::Weights weights;
+    Backend backend = Backend::osmesa;
+    int jobs = 1;  ///< threads, each with a context of its own: drivers compile long shaders for seconds
+};
+
+/// Writes index.html, and beside it three PNG files for each key, named after it: drawn, expected, and how
+/// they differ. `validated` must hold the SPIR-V of every stage; `shipped` holds the page's template. The
+/// files named are the page, then the picture of each key that could be drawn.
+[[nodiscard]] RenderedSelection make_gallery(const Scene& scene, const Family& family,
+                                             const Composition& composition, const Validated& validated,
+                                             const GalleryOptions& options, FileSystem& files,
+                                             const FileSystem& shipped);
 
 }  // namespace gobo::gallery

@@ -56,9 +56,9 @@ glm::dvec3 Lobe::around(const glm::dvec3& direction) const {
             const double cosine =
                 direction.y * one.sine + one.cosine * (direction.x * sines_[i] + direction.z * cosines_[i]);
             if (cosine <= least_cosine_) continue;
-            const double share = one.solid_angle * (exponent_ == 1 ? cosine : weight(cosine));
-            weights += share;
-            sum += share * environment_.at(column, row);
+            const double weighted = one.solid_angle * (exponent_ == 1 ? cosine : weight(cosine));
+            weights += weighted;
+            sum += weighted * environment_.at(column, row);
         }
     }
     return weights > 0 ? sum / weights : sum;

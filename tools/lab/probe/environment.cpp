@@ -5,31 +5,45 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/parallel.hpp"
 
 namespace gobo::probe {
 namespace {
-
-tl::unexpected<Diagnostics> fault(const std::string& path, std::string message, std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.place.file = path;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return fail(std::move(diagnostic));
-}
 
 /// The latitude of the border above a row, in radians.
 double latitude(const Environment& environment, double row) {
     return std::numbers::pi * (0.5 - row / environment.height);
 }
 
-tl::unexpected<Diagnostics> no_number(const std::string& path, int column, int row, int channel,
-                                      double value) {
-    return fault(path,
-                 fmt::format("the texel in column {}, row {} (from the upper left, counted from 0) has the "
-                             "radiance {} in channel {}",
-                             column, row, value, "RGB"[channel]),
-                 "radiance is finite: fix the map, or clamp it where it was exported");
+constexpr std::array<std::string_view, 9> kNames = {"L00",  "L1m1", "L10", "L11", "L2m2",
+                                                    "L2m1", "L20",  "L21", "L22"};
+
+/// The nine real spherical harmonics (equation 3).
+std::array<double, 9> basis(const glm::dvec3& w) {
+    return {0.282095,
+            0.488603 * w.y,
+            0.488603 * w.z,
+            0.488603 * w.x,
+            1.092548 * w.x * w.y,
+            1.092548 * w.y * w.z,
+            0.315392 * (3 * w.z * w.z - 1),
+            1.092548 * w.x * w.z,
+            0.546274 * (w.x * w.x - w.y * w.y)};
 }
+
+/// The axis of a face, and those along which s and t grow.
+struct Face {
+    glm::dvec3 axis, s, t;
+};
+
+const std::array<Face, 6> kFaces = {{{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+                                     {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                                     {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+                                     {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+                                     {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
+                                     {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}}};
 
 }  // namespace
 
@@ -47,14 +61,14 @@ double solid_angle(const Environment& environment, int row) {
 
 Result<Environment> environment_of(const Image& image, const std::string& path) {
     if (image.width != 2 * image.height || image.height < 2) {
-        return fault(
-            path,
-            fmt::format("a picture of {} x {} texels is no latitude-longitude map", image.width,
+        return fail(
+            Place{path}, {},
+            fmt::format("a picture of {} x {} texels is not a latitude-longitude map", image.width,
                         image.height),
             "it must be twice as wide as high, and at least 4 x 2: all around, and from zenith to nadir");
     }
     if (image.channels < 3)
-        return fault(path, "the picture has no colours", "give one with the channels R, G and B");
+        return fail(Place{path}, {}, "the picture has no colours", "give one with the channels R, G and B");
     Environment environment{image.width, image.height, {}};
     environment.texels.reserve(static_cast<std::size_t>(image.width) *
                                static_cast<std::size_t>(image.height));
@@ -63,7 +77,13 @@ Result<Environment> environment_of(const Image& image, const std::string& path) 
             glm::dvec3 texel(0);
             for (int channel = 0; channel < 3; ++channel) {
                 const double value = image.at(column, row, channel);
-                if (!std::isfinite(value)) return no_number(path, column, row, channel, value);
+                if (!std::isfinite(value))
+                    return fail(
+                        Place{path}, {},
+                        fmt::format("the texel in column {}, row {} (from the upper left, counted from 0) "
+                                    "has the radiance {} in channel {}",
+                                    column, row, value, "RGB"[channel]),
+                        "radiance is finite: fix the map, or clamp it where it was exported");
                 texel[channel] = std::max(value, 0.0);
                 if (value >= 0) continue;
                 ++environment.negatives;
@@ -90,6 +110,57 @@ Environment halved(const Environment& environment) {
         }
     }
     return half;
+}
+
+Harmonics project(const Environment& environment) {
+    Harmonics harmonics{};
+    for (int row = 0; row < environment.height; ++row) {
+        const double angle = solid_angle(environment, row);
+        for (int column = 0; column < environment.width; ++column) {
+            const std::array<double, 9> shares = basis(direction_of(environment, column, row));
+            for (std::size_t i = 0; i < 9; ++i)
+                harmonics[i] += (angle * shares[i]) * environment.at(column, row);
+        }
+    }
+    return harmonics;
+}
+
+glm::dvec3 irradiance(const Harmonics& harmonics, const glm::dvec3& normal) {
+    // A clamped cosine's own coefficients: pi, 2 pi / 3 and pi / 4 by order (equation 8).
+    constexpr std::array<double, 9> cosine = {3.141593, 2.094395, 2.094395, 2.094395, 0.785398,
+                                              0.785398, 0.785398, 0.785398, 0.785398};
+    const std::array<double, 9> shares = basis(normal);
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < 9; ++i) sum += (cosine[i] * shares[i]) * harmonics[i];
+    return sum;
+}
+
+std::string to_csv(const Harmonics& harmonics, std::string_view name) {
+    std::string text = "probe,coefficient,red,green,blue\n";
+    for (std::size_t i = 0; i < 9; ++i)
+        text += fmt::format("{},{},{:.6g},{:.6g},{:.6g}\n", name, kNames[i], harmonics[i].r, harmonics[i].g,
+                            harmonics[i].b);
+    return text;
+}
+
+glm::dvec3 cube_direction(int face, int side, int column, int row) {
+    const Face& on = kFaces[static_cast<std::size_t>(face)];
+    const double s = 2 * (column + 0.5) / side - 1;
+    const double t = 2 * (row + 0.5) / side - 1;
+    return glm::normalize(on.axis + s * on.s + t * on.t);
+}
+
+Image make_cube_map(int side, int jobs, const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
+    Image image(side, 6 * side, 3);
+    parallel_for(jobs, static_cast<std::size_t>(image.height), [&](std::size_t i) {
+        const int row = static_cast<int>(i);
+        for (int column = 0; column < side; ++column) {
+            const glm::dvec3 value = radiance(cube_direction(row / side, side, column, row % side));
+            for (int channel = 0; channel < 3; ++channel)
+                image.at(column, row, channel) = static_cast<float>(value[channel]);
+        }
+    });
+    return image;
 }
 
 }  // namespace gobo::probe

@@ -1,11 +1,16 @@
-// The light of a whole environment: radiance by direction, as a latitude-longitude map holds it.
+// The light of a whole environment: radiance by direction, as a latitude-longitude map holds it, as nine
+// coefficients of spherical harmonics, and as the six faces of a cube.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/diagnostic.hpp"
 #include "lab/render/image.hpp"
 
 namespace gobo::probe {
@@ -41,5 +46,29 @@ struct Environment {
 /// The same environment with half as many texels each way, each the mean of four weighted by solid angle.
 /// Width and height must be even.
 [[nodiscard]] Environment halved(const Environment& environment);
+
+/// Coefficients of the radiance, in the order L00, L1-1, L10, L11, L2-2, L2-1, L20, L21, L22. The axes are
+/// those of the environment: x, y and z of the polynomials are its own, y is up.
+using Harmonics = std::array<glm::dvec3, 9>;
+
+/// The integrals of L(w) Y(w) over all directions, over the texels' exact solid angles (Ramamoorthi and
+/// Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001, equation 3).
+[[nodiscard]] Harmonics project(const Environment& environment);
+
+/// The irradiance on a surface that faces a unit vector, as the nine coefficients have it (equation 13): pi
+/// times what a white surface scatters.
+[[nodiscard]] glm::dvec3 irradiance(const Harmonics& harmonics, const glm::dvec3& normal);
+
+/// Nine rows "probe,coefficient,red,green,blue" under a heading, as the published probes are kept.
+[[nodiscard]] std::string to_csv(const Harmonics& harmonics, std::string_view name);
+
+/// The unit vector of a texel's centre on a face of `side` texels: faces +x -x +y -y +z -z, columns along s,
+/// rows along t, as OpenGL 4.5 has them in table 8.19. Row 0 is the first that glTexImage2D takes.
+[[nodiscard]] glm::dvec3 cube_direction(int face, int side, int column, int row);
+
+/// A picture of side x 6 side texels, the faces one below the other, with what `radiance` gives for each
+/// direction. It is called by `jobs` threads.
+[[nodiscard]] Image make_cube_map(int side, int jobs,
+                                  const std::function<glm::dvec3(const glm::dvec3&)>& radiance);
 
 }  // namespace gobo::probe

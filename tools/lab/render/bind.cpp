@@ -102,6 +102,16 @@ std::string without_subscripts(std::string_view name) {
     return text;
 }
 
+/// The type of that name, where it is one that OpenGL can set.
+std::optional<GlslType> settable_type(std::string_view name) {
+    constexpr std::array kSettable = {Scalar::float32, Scalar::float64, Scalar::int32, Scalar::uint32,
+                                      Scalar::boolean};
+    const auto type = glsl_type(name);
+    const bool is_settable =
+        type && std::find(kSettable.begin(), kSettable.end(), type->scalar) != kSettable.end();
+    return is_settable ? type : std::nullopt;
+}
+
 /// A value that the renderer supplies: a matrix, or a vector as the first column of one. `numbers` are those
 /// of a point or a direction in world space.
 struct Source {
@@ -198,7 +208,7 @@ std::vector<std::string> uniform_sources() {
 /// source, or it does not fit the type (a matrix for a vector). A 4 x 4 matrix gives a mat3 its upper left
 /// part; a mat3 fills a mat4 up from the identity.
 std::optional<std::vector<double>> source_value(std::string_view name, const std::vector<double>& numbers,
-                                                const ViewedObject& object, const ValueType& type) {
+                                                const ViewedObject& object, const GlslType& type) {
     const auto* const source = std::find_if(kUniformSources.begin(), kUniformSources.end(),
                                             [&](const Source& one) { return one.name == name; });
     if (source == kUniformSources.end() || source->is_matrix != type.is_matrix()) return std::nullopt;
@@ -227,54 +237,44 @@ Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& valu
         if (head_of(leaf.name) == head_of(value.name)) known.insert(name);
     }
     if (known.empty()) return {};
-    Diagnostic diagnostic;
-    diagnostic.place = value.place;
-    diagnostic.message = fmt::format("'{}' has no member '{}'", head_of(value.name), value.name);
-    diagnostic.help = suggestion(plain, {known.begin(), known.end()});
-    return fail(std::move(diagnostic));
+    return fail(value.place, {}, fmt::format("'{}' has no member '{}'", head_of(value.name), value.name),
+                suggestion(plain, {known.begin(), known.end()}));
 }
 
 tl::unexpected<Diagnostics> cannot_supply(const Leaf& leaf, const RenderValue& value) {
     const std::vector<std::string> known = uniform_sources();
     if (std::find(known.begin(), known.end(), value.source) == known.end())
         return unknown_source(value, known);
-    Diagnostic diagnostic;
-    diagnostic.place = value.place;
-    diagnostic.message = fmt::format("the source '{}' with {} numbers cannot supply '{}' of type {}",
-                                     value.source, value.numbers.size(), value.name, leaf.type);
-    diagnostic.help = value.source.starts_with("eye_")
-                            ? "eye_point and eye_direction need numbers = [x, y, z] and give vectors"
-                            : "matrices go to matrices, vectors to vectors";
-    return fail(std::move(diagnostic));
+    return fail(value.place, {},
+                fmt::format("the source '{}' with {} numbers cannot supply '{}' of type {}", value.source,
+                            value.numbers.size(), value.name, leaf.type),
+                value.source.starts_with("eye_")
+                    ? "eye_point and eye_direction need numbers = [x, y, z] and give vectors"
+                    : "matrices go to matrices, vectors to vectors");
 }
 
 /// Fault::input where the count of numbers is not that of whole elements within the array, or the type is
 /// none that can be supplied.
 Result<void> check(const Assignment& assignment, const Place& place) {
     const Leaf& leaf = assignment.leaf;
-    const auto type = value_type(leaf.type);
-    Diagnostic diagnostic;
-    diagnostic.place = place;
-    if (!type || (leaf.block.empty() && type->component == Component::float64 && type->is_matrix())) {
-        diagnostic.message =
-            fmt::format("'{}' is of type {}, which the renderer cannot supply", leaf.name, leaf.type);
-        return fail(std::move(diagnostic));
-    }
+    const auto type = settable_type(leaf.type);
+    if (!type || (leaf.block.empty() && type->scalar == Scalar::float64 && type->is_matrix()))
+        return fail(
+            place, {},
+            fmt::format("'{}' is of type {}, which the renderer cannot supply", leaf.name, leaf.type));
     const std::size_t components = static_cast<std::size_t>(type->components());
     const std::size_t most = components * static_cast<std::size_t>(leaf.count);
     const std::size_t given = assignment.numbers.size();
     if (given > 0 && given <= most && given % components == 0) return {};
-    diagnostic.message = fmt::format("'{}' is given {} number{}", leaf.name, given, given == 1 ? "" : "s");
-    diagnostic.help = leaf.count > 1
-                            ? fmt::format("it is an array of {}: give a multiple of {}, at most {}",
-                                          leaf.type, components, most)
-                            : fmt::format("it is of type {}: give {}", leaf.type, components);
-    return fail(std::move(diagnostic));
+    return fail(place, {}, fmt::format("'{}' is given {} number{}", leaf.name, given, given == 1 ? "" : "s"),
+                leaf.count > 1 ? fmt::format("it is an array of {}: give a multiple of {}, at most {}",
+                                             leaf.type, components, most)
+                               : fmt::format("it is of type {}: give {}", leaf.type, components));
 }
 
 Result<Assignment> assign(const Leaf& leaf, const RenderValue& value, const ViewedObject& object) {
     Assignment assignment{leaf, value.numbers};
-    const auto type = value_type(leaf.type);
+    const auto type = settable_type(leaf.type);
     if (!value.source.empty() && type) {
         const auto numbers = source_value(value.source, value.numbers, object, *type);
         if (!numbers) return cannot_supply(leaf, value);
@@ -287,9 +287,8 @@ Result<Assignment> assign(const Leaf& leaf, const RenderValue& value, const View
 /// What the usual spelling of the uniform's name tells, if it fits the type.
 std::optional<Assignment> guess(const Leaf& leaf, const ViewedObject& object) {
     const std::string_view source = uniform_source_of(leaf.name);
-    const auto type = value_type(leaf.type);
-    if (source.empty() || !type || leaf.is_array || type->component != Component::float32)
-        return std::nullopt;
+    const auto type = settable_type(leaf.type);
+    if (source.empty() || !type || leaf.is_array || type->scalar != Scalar::float32) return std::nullopt;
     const auto numbers = source_value(source, {}, object, *type);
     return numbers ? std::optional(Assignment{leaf, *numbers}) : std::nullopt;
 }
@@ -304,24 +303,26 @@ Integer to_integer(double number) {
 
 /// Calls `use` with the number as the type that a component is kept as.
 template <class Use>
-void with_component(Component component, double number, const Use& use) {
-    switch (component) {
-        case Component::float32:
+void with_component(Scalar scalar, double number, const Use& use) {
+    switch (scalar) {
+        case Scalar::float32:
             return use(static_cast<float>(number));
-        case Component::float64:
+        case Scalar::float64:
             return use(number);
-        case Component::int32:
+        case Scalar::int32:
             return use(to_integer<std::int32_t>(number));
-        case Component::uint32:
+        case Scalar::uint32:
             return use(to_integer<std::uint32_t>(number));
-        case Component::boolean:
+        case Scalar::boolean:
             return use(std::int32_t{number != 0 ? 1 : 0});
+        default:
+            return;  // see settable_type()
     }
 }
 
 /// From the start of an element to one of its components.
-int component_offset(const Leaf& leaf, const ValueType& type, int index) {
-    const int size = type.component == Component::float64 ? 8 : 4;
+int component_offset(const Leaf& leaf, const GlslType& type, int index) {
+    const int size = type.scalar_size();
     const int column = index / type.rows;
     const int row = index % type.rows;
     if (!type.is_matrix()) return row * size;
@@ -331,11 +332,11 @@ int component_offset(const Leaf& leaf, const ValueType& type, int index) {
 
 void write(const Assignment& assignment, std::vector<std::byte>& block) {
     const Leaf& leaf = assignment.leaf;
-    const auto type = value_type(leaf.type);
+    const auto type = settable_type(leaf.type);
     for (int i = 0; type && i < static_cast<int>(assignment.numbers.size()); ++i) {
         const int offset = leaf.offset + i / type->components() * leaf.array_stride +
                            component_offset(leaf, *type, i % type->components());
-        with_component(type->component, assignment.numbers[static_cast<std::size_t>(i)], [&](auto value) {
+        with_component(type->scalar, assignment.numbers[static_cast<std::size_t>(i)], [&](auto value) {
             const auto first = static_cast<std::size_t>(offset);
             if (offset >= 0 && first + sizeof value <= block.size())
                 std::memcpy(&block[first], &value, sizeof value);
@@ -344,10 +345,10 @@ void write(const Assignment& assignment, std::vector<std::byte>& block) {
 }
 
 template <class Value>
-std::vector<Value> values_as(Component component, const std::vector<double>& numbers) {
+std::vector<Value> values_as(Scalar scalar, const std::vector<double>& numbers) {
     std::vector<Value> values;
     for (const double number : numbers)
-        with_component(component, number, [&](auto value) { values.push_back(static_cast<Value>(value)); });
+        with_component(scalar, number, [&](auto value) { values.push_back(static_cast<Value>(value)); });
     return values;
 }
 
@@ -384,11 +385,8 @@ std::string_view attribute_source_of(std::string_view name) {
 }
 
 tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::vector<std::string>& known) {
-    Diagnostic diagnostic;
-    diagnostic.place = value.place;
-    diagnostic.message = fmt::format("unknown source '{}' for '{}'", value.source, value.name);
-    diagnostic.help = suggestion(value.source, known);
-    return fail(std::move(diagnostic));
+    return fail(value.place, {}, fmt::format("unknown source '{}' for '{}'", value.source, value.name),
+                suggestion(value.source, known));
 }
 
 Diagnostic no_value(std::string message) {
@@ -435,13 +433,13 @@ std::vector<std::byte> bytes_of(const Block& block, const std::vector<Assignment
 }
 
 void set_uniform(const GladGLContext& gl, const Program& program, const Assignment& assignment) {
-    const auto type = value_type(assignment.leaf.type);
+    const auto type = settable_type(assignment.leaf.type);
     const GLint location = gl.GetUniformLocation(program.id(), assignment.leaf.name.c_str());
     if (!type || location < 0) return;
     const auto elements = static_cast<GLsizei>(assignment.numbers.size()) / type->components();
     const auto row = static_cast<std::size_t>(type->rows) - 1;
     const auto set = [&]<class Value>(Value, const auto& setters) {
-        setters[row](location, elements, values_as<Value>(type->component, assignment.numbers).data());
+        setters[row](location, elements, values_as<Value>(type->scalar, assignment.numbers).data());
     };
     if (type->is_matrix()) {
         // By columns, then rows. There are no matrices of doubles here: check() has refused them.
@@ -450,19 +448,21 @@ void set_uniform(const GladGLContext& gl, const Program& program, const Assignme
             {gl.UniformMatrix3x2fv, gl.UniformMatrix3fv, gl.UniformMatrix3x4fv},
             {gl.UniformMatrix4x2fv, gl.UniformMatrix4x3fv, gl.UniformMatrix4fv}};
         setters[type->columns - 2][row - 1](location, elements, GL_FALSE,
-                                            values_as<GLfloat>(type->component, assignment.numbers).data());
+                                            values_as<GLfloat>(type->scalar, assignment.numbers).data());
         return;
     }
-    switch (type->component) {
-        case Component::float32:
+    switch (type->scalar) {
+        case Scalar::float32:
             return set(GLfloat{}, std::array{gl.Uniform1fv, gl.Uniform2fv, gl.Uniform3fv, gl.Uniform4fv});
-        case Component::float64:
+        case Scalar::float64:
             return set(GLdouble{}, std::array{gl.Uniform1dv, gl.Uniform2dv, gl.Uniform3dv, gl.Uniform4dv});
-        case Component::uint32:
+        case Scalar::uint32:
             return set(GLuint{}, std::array{gl.Uniform1uiv, gl.Uniform2uiv, gl.Uniform3uiv, gl.Uniform4uiv});
-        case Component::int32:
-        case Component::boolean:
+        case Scalar::int32:
+        case Scalar::boolean:
             return set(GLint{}, std::array{gl.Uniform1iv, gl.Uniform2iv, gl.Uniform3iv, gl.Uniform4iv});
+        default:
+            return;  // see settable_type()
     }
 }
 

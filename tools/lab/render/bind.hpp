@@ -13,8 +13,8 @@
 
 #include "family/family.hpp"
 #include "lab/render/program.hpp"
-#include "lab/render/value_type.hpp"
 #include "reflect/interface.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 

@@ -53,11 +53,8 @@ Result<std::string> encode_png(const Image& image) {
 }
 
 tl::unexpected<Diagnostics> damaged(const std::string& path, ImageFormat format, std::string_view why) {
-    Diagnostic diagnostic;
-    diagnostic.place.file = path;
     const char* const name = format == ImageFormat::png ? "PNG" : format == ImageFormat::exr ? "EXR" : "PFM";
-    diagnostic.message = fmt::format("this is not a readable {} file: {}", name, why);
-    return fail(std::move(diagnostic));
+    return fail(Place{path}, {}, fmt::format("this is not a readable {} file: {}", name, why));
 }
 
 Result<Image> decode_png(std::string_view bytes, const std::string& path) {

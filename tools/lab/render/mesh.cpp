@@ -63,10 +63,7 @@ glm::dvec3 corner_normal(const glm::dvec3& own, const std::vector<glm::dvec3>& a
 }
 
 tl::unexpected<Diagnostics> unreadable(const std::string& path, std::string_view why) {
-    Diagnostic diagnostic;
-    diagnostic.place.file = path;
-    diagnostic.message = fmt::format("this is not a readable OBJ file: {}", why);
-    return fail(std::move(diagnostic));
+    return fail(Place{path}, {}, fmt::format("this is not a readable OBJ file: {}", why));
 }
 
 glm::vec3 triple_at(const std::vector<float>& values, int index) {

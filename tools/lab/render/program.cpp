@@ -1,12 +1,12 @@
 #include "lab/render/program.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <regex>
 #include <set>
 
 #include "core/text.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
@@ -140,10 +140,6 @@ Program::Program(const Context& context, GLuint id)
           context.gl().DeleteProgram(*name);
           delete name;
       }) {}
-
-int element_count(const std::vector<int>& array) {
-    return std::accumulate(array.begin(), array.end(), 1, std::multiplies<>());
-}
 
 Bindings bindings_of(const Interface& interface) {
     Bindings bindings;

@@ -50,9 +50,6 @@ struct Bindings {
 };
 [[nodiscard]] Bindings bindings_of(const Interface& interface);
 
-/// The product of an array's extents: 1 for what is none.
-[[nodiscard]] int element_count(const std::vector<int>& array);
-
 /// Compiles and links the stages. Errors of the driver name the piece and its own line.
 [[nodiscard]] Result<Program> link_program(const Context& context, const std::vector<StageText>& stages);
 

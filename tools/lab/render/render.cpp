@@ -117,12 +117,7 @@ std::vector<Object> demo_objects(Mesh mesh) {
 }
 
 Camera demo_camera() {
-    Camera camera;
-    camera.position = {0, 1.5, 5};
-    camera.target = {0, -0.05, 0};
-    camera.field_of_view = 0.6;
-    camera.far_plane = 50;
-    return camera;
+    return {.position = {0, 1.5, 5}, .target = {0, -0.05, 0}, .field_of_view = 0.6, .far_plane = 50};
 }
 
 }  // namespace gobo

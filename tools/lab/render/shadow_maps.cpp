@@ -198,8 +198,9 @@ std::vector<ShadowLight> shadow_lights(const Family& family, const Key& key) {
     }
     for (int i = 0; i < given.count("spot_shadows"); ++i) {
         const std::string light = fmt::format("SpotLights.lights[{}]", i);
-        const std::vector<double> versine = given.numbers(light + ".outerVersine");
-        const double cosine = 1 - (versine.empty() ? 1 : std::clamp(versine.front(), 0.0, 2.0));
+        const std::vector<double> one_minus_cosine = given.numbers(light + ".outerVersine");
+        const double cosine =
+            1 - (one_minus_cosine.empty() ? 1 : std::clamp(one_minus_cosine.front(), 0.0, 2.0));
         lights.push_back({Kind::spot, given.vector(light + ".position"), given.direction(light + ".axis"),
                           std::acos(cosine)});
     }

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/html.hpp"
+#include "core/text.hpp"
+
 namespace gobo::study {
 namespace {
 
@@ -17,54 +20,41 @@ constexpr int kLegendRow = 18;
 
 struct Look {
     const char* color;
-    const char* dash;  ///< of lines
+    const char* dash;                                ///< of lines
+    std::vector<std::pair<double, double>> outline;  ///< of marks; none: a circle
 };
-/// Blue, vermilion, green, orange, purple, sky blue, black.
-constexpr std::array<Look, kSeries> kLooks = {{{"#0072B2", ""},
-                                               {"#D55E00", "7 3"},
-                                               {"#009E73", "2 3"},
-                                               {"#E69F00", "9 3 2 3"},
-                                               {"#CC79A7", "5 5"},
-                                               {"#56B4E9", "1 4"},
-                                               {"#000000", "12 4"}}};
 
+/// Blue circle, vermilion square, green triangle, orange diamond, purple triangle on its head, sky blue
+/// pentagon, black star of four.
 const Look& look_of(int series) {
-    return kLooks[static_cast<std::size_t>(series) % kSeries];
+    static const std::array<Look, kSeries> looks = {{
+        {"#0072B2", "", {}},
+        {"#D55E00", "7 3", {{-.9, -.9}, {.9, -.9}, {.9, .9}, {-.9, .9}}},
+        {"#009E73", "2 3", {{0, -1.2}, {1.1, .8}, {-1.1, .8}}},
+        {"#E69F00", "9 3 2 3", {{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}}},
+        {"#CC79A7", "5 5", {{0, 1.2}, {1.1, -.8}, {-1.1, -.8}}},
+        {"#56B4E9", "1 4", {{0, -1.1}, {1.05, -.34}, {.65, .9}, {-.65, .9}, {-1.05, -.34}}},
+        {"#000000",
+         "12 4",
+         {{0, -1.4}, {.4, -.4}, {1.4, 0}, {.4, .4}, {0, 1.4}, {-.4, .4}, {-1.4, 0}, {-.4, -.4}}},
+    }};
+    return looks[static_cast<std::size_t>(series) % kSeries];
 }
 
-/// Circle, square, triangle, diamond, triangle on its head, pentagon, star of four.
 std::string shape(int series, double x, double y, double size, bool is_hollow) {
-    const std::string paint =
-        fmt::format(R"(fill="{}" stroke="{}" stroke-width="1.5")",
-                    is_hollow ? "#ffffff" : look_of(series).color, look_of(series).color);
-    if (series % kSeries == 0)
+    const Look& look = look_of(series);
+    const std::string paint = fmt::format(R"(fill="{}" stroke="{}" stroke-width="1.5")",
+                                          is_hollow ? "#ffffff" : look.color, look.color);
+    if (look.outline.empty())
         return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" {}/>)", x, y, size, paint);
-    static const std::array<std::vector<std::pair<double, double>>, kSeries> outlines = {{
-        {},
-        {{-.9, -.9}, {.9, -.9}, {.9, .9}, {-.9, .9}},
-        {{0, -1.2}, {1.1, .8}, {-1.1, .8}},
-        {{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}},
-        {{0, 1.2}, {1.1, -.8}, {-1.1, -.8}},
-        {{0, -1.1}, {1.05, -.34}, {.65, .9}, {-.65, .9}, {-1.05, -.34}},
-        {{0, -1.4}, {.4, -.4}, {1.4, 0}, {.4, .4}, {0, 1.4}, {-.4, .4}, {-1.4, 0}, {-.4, -.4}},
-    }};
     std::string points;
-    for (const auto& [dx, dy] : outlines[static_cast<std::size_t>(series) % kSeries])
+    for (const auto& [dx, dy] : look.outline)
         points += fmt::format("{:.1f},{:.1f} ", x + dx * size, y + dy * size);
     return fmt::format(R"(<polygon points="{}" {}/>)", points, paint);
 }
 
-/// A round step that cuts the range into at most `most` parts.
-double step_for(double range, int most) {
-    const double rough = range / most;
-    const double decade = std::pow(10, std::floor(std::log10(rough)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (decade * factor >= rough) return decade * factor;
-    return decade * 10;
-}
-
-/// Where a logarithmic axis is labelled: at decades, and between them where these are few.
-std::vector<double> logarithmic_ticks(const Axis& axis) {
+/// Where an axis is labelled: at decades, and between them where these are few.
+std::vector<double> ticks_of(const Axis& axis) {
     const double decades = std::log10(axis.high / axis.low);
     const int every = std::max(1, static_cast<int>(std::ceil(decades / 9)));
     const std::vector<double> factors = decades < 2.5 ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
@@ -75,16 +65,6 @@ std::vector<double> logarithmic_ticks(const Axis& axis) {
             const double at = factor * std::pow(10, decade);
             if (at >= axis.low * (1 - 1e-9) && at <= axis.high * (1 + 1e-9)) ticks.push_back(at);
         }
-    return ticks;
-}
-
-/// Where an axis is labelled.
-std::vector<double> ticks_of(const Axis& axis) {
-    if (axis.logarithmic) return logarithmic_ticks(axis);
-    std::vector<double> ticks;
-    const double step = step_for(axis.high - axis.low, 8);
-    for (double at = std::ceil(axis.low / step) * step; at <= axis.high + step * 1e-6; at += step)
-        ticks.push_back(at);
     return ticks;
 }
 
@@ -110,69 +90,43 @@ double round_end(double value, bool above) {
     return decade;
 }
 
-double share(const Axis& axis, double value) {
-    if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
+/// How far along the axis a value lies, 0 to 1.
+double place(const Axis& axis, double value) {
     return std::log(std::max(value, axis.low) / axis.low) / std::log(axis.high / axis.low);
 }
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char character : text) {
-        switch (character) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += character;
-        }
-    }
-    return result;
-}
-
-Axis axis_for(std::string title, bool logarithmic, const std::vector<double>& values, double least) {
-    double low = logarithmic ? 1e300 : 0;
-    double high = logarithmic ? least : 0;
+Axis axis_for(std::string title, const std::vector<double>& values, double least) {
+    double low = 1e300;
+    double high = least;
     for (const double value : values) {
         if (!std::isfinite(value)) continue;
-        low = std::min(low, logarithmic ? std::max(value, least) : value);
+        low = std::min(low, std::max(value, least));
         high = std::max(high, value);
     }
-    if (logarithmic) {
-        if (low > high || high <= 0) return {std::move(title), true, 0.1, 1};
-        // Some room beside the outermost marks.
-        low = std::max(round_end(low * 0.8, false), std::min(low, least > 0 ? least : low));
-        return {std::move(title), true, low, std::max(round_end(high * 1.2, true), low * 5)};
-    }
-    return {std::move(title), false, low, high > low ? low + (high - low) * 1.05 : low + 1};
+    if (low > high || high <= 0) return {std::move(title), 0.1, 1};
+    // Some room beside the outermost marks.
+    low = std::max(round_end(low * 0.8, false), std::min(low, least));
+    return {std::move(title), low, std::max(round_end(high * 1.2, true), low * 5)};
 }
 
 Chart::Chart(std::string title, Axis x, Axis y, int width, int height)
     : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)), width_(width), height_(height) {}
 
 double Chart::x_at(double value) const {
-    return kLeft + share(x_, value) * (width_ - kLeft - kRight);
+    return kLeft + place(x_, value) * (width_ - kLeft - kRight);
 }
 
 double Chart::y_at(double value) const {
-    return height_ - kBottom - share(y_, value) * (height_ - kTop - kBottom);
+    return height_ - kBottom - place(y_, value) * (height_ - kTop - kBottom);
 }
 
 void Chart::add(Mark mark) {
     if (!std::isfinite(mark.x) || !std::isfinite(mark.y)) return;
     marks_ += fmt::format("<g {}>{}<title>{}</title></g>\n", mark.attributes,
                           shape(mark.series, x_at(mark.x), y_at(mark.y), mark.size, mark.is_hollow),
-                          escaped(mark.tip));
+                          html_escaped(mark.tip));
     if (!mark.label.empty()) add_label(mark.label, x_at(mark.x), y_at(mark.y));
 }
 
@@ -182,17 +136,17 @@ void Chart::add_label(const std::string& text, double x, double y) {
     for (const auto& [other_x, other_y] : labelled_)
         if (std::abs(other_x - x) < width && std::abs(other_y - y) < height) return;
     labelled_.emplace_back(x, y);
-    labels_text_ +=
+    beside_marks_ +=
         fmt::format(R"(<text x="{:.1f}" y="{:.1f}" font-size="10" pointer-events="none">{}</text>)"
                     "\n",
-                    x + 7, y - 6, escaped(text));
+                    x + 7, y - 6, html_escaped(text));
 }
 
 void Chart::add_line(const std::vector<std::pair<double, double>>& points, int series) {
     std::string path;
     for (const auto& [x, y] : points)
         if (std::isfinite(y)) path += fmt::format("{:.1f},{:.1f} ", x_at(x), y_at(y));
-    const Look look = series < 0 ? Look{"#000000", ""} : look_of(series);
+    const Look look = series < 0 ? Look{"#000000", "", {}} : look_of(series);
     lines_ += fmt::format(
         R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="1.5" stroke-dasharray="{}"/>)"
         "\n",
@@ -209,7 +163,7 @@ void Chart::add_steps(const std::vector<std::pair<double, double>>& points) {
 }
 
 void Chart::add_legend(std::string label, int series, bool is_hollow) {
-    labels_.push_back({std::move(label), series, is_hollow});
+    legend_.push_back({std::move(label), series, is_hollow});
 }
 
 std::string Chart::axes() const {
@@ -232,20 +186,20 @@ std::string Chart::axes() const {
     }
     text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
                         "\n",
-                        (kLeft + width_ - kRight) / 2, height_ - 14, escaped(x_.title));
+                        (kLeft + width_ - kRight) / 2, height_ - 14, html_escaped(x_.title));
     const int middle = (kTop + height_ - kBottom) / 2;
     text +=
         fmt::format(R"x(<text x="18" y="{0}" text-anchor="middle" transform="rotate(-90 18 {0})">{1}</text>)x"
                     "\n",
-                    middle, escaped(y_.title));
+                    middle, html_escaped(y_.title));
     return text;
 }
 
 std::string Chart::legend() const {
     std::string text;
-    const int rows = static_cast<int>(labels_.size());
+    const int rows = static_cast<int>(legend_.size());
     for (int i = 0; i < rows; ++i) {
-        const Label& label = labels_[static_cast<std::size_t>(i)];
+        const Label& label = legend_[static_cast<std::size_t>(i)];
         const int y = height_ + 6 + i / 3 * kLegendRow;
         const int x = kLeft + i % 3 * (width_ - kLeft) / 3;
         text += label.series < 0
@@ -255,20 +209,20 @@ std::string Chart::legend() const {
                     : shape(label.series, x, y, 5, label.is_hollow);
         text += fmt::format(R"(<text x="{}" y="{}">{}</text>)"
                             "\n",
-                            x + 12, y + 4, escaped(label.text));
+                            x + 12, y + 4, html_escaped(label.text));
     }
     return text;
 }
 
 std::string Chart::svg() const {
-    const int rows = (static_cast<int>(labels_.size()) + 2) / 3;
+    const int rows = (static_cast<int>(legend_.size()) + 2) / 3;
     const int full = height_ + rows * kLegendRow;
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" "
         "fill=\"#ffffff\"/>\n"
         "<text x=\"{2}\" y=\"20\" font-size=\"14\" font-weight=\"bold\">{3}</text>\n{4}{5}{6}{7}</svg>\n",
-        width_, full, kLeft, escaped(title_), axes(), lines_, marks_ + labels_text_, legend());
+        width_, full, kLeft, html_escaped(title_), axes(), lines_, marks_ + beside_marks_, legend());
 }
 
 }  // namespace gobo::study

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,20 +10,16 @@
 
 namespace gobo::study {
 
-/// `text` for use between tags and in attributes.
-[[nodiscard]] std::string escaped(std::string_view text);
-
+/// A logarithmic axis.
 struct Axis {
     std::string title;  ///< with its unit
-    bool logarithmic = false;
-    double low = 0;
+    double low = 0.1;
     double high = 1;  ///< above `low`
 };
 
-/// An axis that holds all values and a little more. A logarithmic one ends at 1, 2 or 5 of a decade and takes
-/// what is not above `least` as `least`.
-[[nodiscard]] Axis axis_for(std::string title, bool logarithmic, const std::vector<double>& values,
-                            double least = 0);
+/// An axis that holds all values and a little more. It ends at 1, 2 or 5 of a decade and takes what is not
+/// above `least` as `least`.
+[[nodiscard]] Axis axis_for(std::string title, const std::vector<double>& values, double least);
 
 /// How a series looks. Colours: Okabe and Ito, Color Universal Design, 2008.
 inline constexpr int kSeries = 7;
@@ -62,19 +57,20 @@ class Chart {
     [[nodiscard]] std::string axes() const;
     [[nodiscard]] std::string legend() const;
 
-    std::string title_;
-    Axis x_, y_;
-    int width_, height_;
-    std::string lines_;
-    std::string marks_;
-    std::string labels_text_;
-    std::vector<std::pair<double, double>> labelled_;
     struct Label {
         std::string text;
         int series = 0;
         bool is_hollow = false;
     };
-    std::vector<Label> labels_;
+
+    std::string title_;
+    Axis x_, y_;
+    int width_, height_;
+    std::string lines_;
+    std::string marks_;
+    std::string beside_marks_;  ///< their labels
+    std::vector<std::pair<double, double>> labelled_;
+    std::vector<Label> legend_;
 };
 
 }  // namespace gobo::study

@@ -35,20 +35,12 @@ struct Duel {
     }
 };
 
-/// All duels between values of one feature.
-class Duels {
-  public:
-    Duels(const Study& study, const Weights& weights, std::size_t feature) {
-        for (const EffectsResult& effects : study.effects) add(effects, weights, feature);
-    }
+/// All duels between values of one feature, by their numbers.
+using Duels = std::map<std::pair<int, int>, Duel>;
 
-    [[nodiscard]] const Duel* find(int first, int second) const {
-        const auto found = duels_.find({first, second});
-        return found == duels_.end() ? nullptr : &found->second;
-    }
-
-  private:
-    void add(const EffectsResult& effects, const Weights& weights, std::size_t feature) {
+Duels duels_of(const Study& study, const Weights& weights, std::size_t feature) {
+    Duels duels;
+    for (const EffectsResult& effects : study.effects) {
         std::map<Key, std::vector<const KeyResult*>> alike;
         for (const KeyResult& result : effects.keys) {
             Key others = result.key;
@@ -58,15 +50,13 @@ class Duels {
         for (const auto& [others, results] : alike)
             for (const KeyResult* first : results)
                 for (const KeyResult* second : results)
-                    if (first != second)
-                        for (std::size_t scene = 0; scene < first->scenes.size(); ++scene)
-                            duels_[{first->key[feature], second->key[feature]}].add(
-                                first->scenes[scene], second->scenes[scene],
-                                effects.keys.front().scenes[scene], weights);
+                    for (std::size_t scene = 0; first != second && scene < first->scenes.size(); ++scene)
+                        duels[{first->key[feature], second->key[feature]}].add(
+                            first->scenes[scene], second->scenes[scene], effects.keys.front().scenes[scene],
+                            weights);
     }
-
-    std::map<std::pair<int, int>, Duel> duels_;
-};
+    return duels;
+}
 
 void add_alone(ChoiceSummary& summary, const KeyResult& choice, const KeyResult& accurate,
                const Weights& weights) {
@@ -83,12 +73,6 @@ void add_alone(ChoiceSummary& summary, const KeyResult& choice, const KeyResult&
     ++summary.combinations;
 }
 
-const KeyResult* find(const EffectsResult& effects, const Key& key) {
-    const auto found = std::find_if(effects.keys.begin(), effects.keys.end(),
-                                    [&](const KeyResult& result) { return result.key == key; });
-    return found == effects.keys.end() ? nullptr : &*found;
-}
-
 /// The value alone, in all effects that it matters to; the most accurate value where another one matters.
 void measure_alone(const Family& family, const Study& study, const Weights& weights, int feature, int value,
                    ChoiceSummary& summary) {
@@ -97,13 +81,15 @@ void measure_alone(const Family& family, const Study& study, const Weights& weig
     for (const EffectsResult& effects : study.effects) {
         const KeyResult& accurate = effects.keys.front();
         const std::vector<Choice> choices = single_choices(family, effects.effects);
-        const bool matters = std::any_of(choices.begin(), choices.end(),
-                                         [&](const Choice& choice) { return choice.feature == feature; });
+        bool matters = false;
+        for (const Choice& choice : choices) {
+            if (choice.feature != feature) continue;
+            matters = true;
+            if (choice.value != value) continue;
+            for (const KeyResult& result : effects.keys)
+                if (result.key == choice.key) add_alone(summary, result, accurate, weights);
+        }
         if (value == best && matters) add_alone(summary, accurate, accurate, weights);
-        for (const Choice& choice : choices)
-            if (choice.feature == feature && choice.value == value)
-                if (const KeyResult* result = find(effects, choice.key))
-                    add_alone(summary, *result, accurate, weights);
     }
     if (summary.combinations == 0) summary.least_cost = 0;
 }
@@ -115,7 +101,7 @@ std::vector<ChoiceSummary> summarise_choices(const Family& family, const Study& 
     std::vector<ChoiceSummary> summaries;
     for (const int index : quality_features(family)) {
         const Feature& feature = family.features[static_cast<std::size_t>(index)];
-        const Duels duels(study, weights, static_cast<std::size_t>(index));
+        const Duels duels = duels_of(study, weights, static_cast<std::size_t>(index));
         const int values = static_cast<int>(feature.values.size());
         for (int value = 0; value < values; ++value) {
             ChoiceSummary& summary = summaries.emplace_back();
@@ -129,10 +115,11 @@ std::vector<ChoiceSummary> summarise_choices(const Family& family, const Study& 
             // scene has.
             if (summary.is_most_accurate) continue;
             for (int other = 0; other < values && summary.dominated_by.empty(); ++other) {
-                const Duel* duel = duels.find(other, value);
-                if (duel == nullptr || !duel->is_never_worse || !duel->is_ever_better) continue;
+                const auto duel = duels.find({other, value});
+                if (duel == duels.end() || !duel->second.is_never_worse || !duel->second.is_ever_better)
+                    continue;
                 summary.dominated_by = feature.values[static_cast<std::size_t>(other)];
-                summary.pairs = duel->pairs;
+                summary.pairs = duel->second.pairs;
             }
         }
     }

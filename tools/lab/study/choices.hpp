@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/study/study_csv.hpp"
+#include "lab/study/study.hpp"
 
 namespace gobo::study {
 

@@ -1,27 +1,27 @@
-// Which choices are worth their price: the Pareto front of error against cost.
+// The front of a finished study, for readers: a short table, and a chart of error against cost.
 #pragma once
 
-#include <cstddef>
-#include <optional>
+#include <string>
 #include <vector>
+
+#include "lab/study/chart.hpp"
+#include "lab/study/rows.hpp"
 
 namespace gobo::study {
 
-struct Priced {
-    double cost = 0;
-    double error = 0;
-};
+/// What is on the front, most accurate first.
+[[nodiscard]] std::vector<const StudyRow*> front_of(const std::vector<const StudyRow*>& rows);
 
-/// Whether `a` is neither dearer nor less accurate than `b`, and better in one of them.
-[[nodiscard]] bool dominates(const Priced& a, const Priced& b);
+/// A table in Markdown, of at most six lines: the most accurate quality on the front, then for each power of
+/// ten of the error the cheapest within it, then what lies furthest between.
+[[nodiscard]] std::string front_table(const std::vector<StudyRow>& rows);
 
-/// For each point the index of one that dominates it and is itself on the front (the cheapest such); nothing
-/// for those on the front.
-[[nodiscard]] std::vector<std::optional<std::size_t>> dominators(const std::vector<Priced>& points);
+/// Error against cost. `rate` are the features that say where light is computed: the first one colours the
+/// points. What is on the front is numbered in the order of front_of().
+[[nodiscard]] Chart front_chart(const Family& family, const std::vector<std::string>& rate,
+                                const std::vector<const StudyRow*>& rows, std::string title);
 
-/// The points that no other one beats by more than these factors: dearer than `cost_slack` times its cost and
-/// less accurate than `error_slack` times its error, at once.
-[[nodiscard]] std::vector<bool> near_front(const std::vector<Priced>& points, double cost_slack,
-                                           double error_slack);
+/// "12.3 (11.9 to 12.8)".
+[[nodiscard]] std::string spread_text(const Spread& spread);
 
 }  // namespace gobo::study

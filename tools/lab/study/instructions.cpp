@@ -1,10 +1,11 @@
-#include "lab/study/instructions.hpp"
-
+// How many instructions a fragment takes, counted by callgrind: slow, but the same in every run.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 
+#include <sys/wait.h>
+#include <unistd.h>
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>
 #define GOBO_HAS_CALLGRIND 1
@@ -13,41 +14,38 @@
 #endif
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "family/key.hpp"
-#include "lab/render/framebuffer.hpp"
-#include "lab/study/scene_shadows.hpp"
-#include "lab/verify/render_feed.hpp"
+#include "core/text.hpp"
+#include "lab/study/timing.hpp"
 
 namespace gobo::study {
 namespace {
 
-constexpr std::array<std::pair<int, int>, 2> kSizes = {{{64, 48}, {160, 120}}};
-
-#if GOBO_HAS_CALLGRIND
-constexpr std::string_view kOnlyWhatIsAsked = "--instr-atstart=no ";
-void start_counting_instructions() {
-    CALLGRIND_START_INSTRUMENTATION;
-}
-void stop_counting_instructions() {
-    CALLGRIND_STOP_INSTRUMENTATION;
-}
-#else  // built without valgrind's headers: all that the process does is counted, which takes ten times as long
-constexpr std::string_view kOnlyWhatIsAsked;
-void start_counting_instructions() {}
-void stop_counting_instructions() {}
-#endif
-
-/// What a command prints, both streams; nothing where it fails.
-std::optional<std::string> printed_by(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return std::nullopt;
+/// What a program prints, both streams; nothing where it cannot be run or fails.
+std::optional<std::string> printed_by(std::vector<std::string> command) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return std::nullopt;
+    std::vector<char*> arguments;
+    for (std::string& argument : command) arguments.push_back(argument.data());
+    arguments.push_back(nullptr);
+    const ::pid_t child = ::fork();
+    if (child == 0) {
+        ::dup2(ends[1], STDOUT_FILENO);
+        ::dup2(ends[1], STDERR_FILENO);
+        ::close(ends[0]);
+        ::close(ends[1]);
+        ::execvp(arguments[0], arguments.data());
+        ::_exit(127);
+    }
+    ::close(ends[1]);
     std::string text;
     std::array<char, 4096> buffer{};
-    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    FILE* printed = ::fdopen(ends[0], "r");
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), printed))
         text.append(buffer.data(), count);
-    if (::pclose(pipe) != 0) return std::nullopt;
+    std::fclose(printed);
+    int status = 0;
+    if (child < 0 || ::waitpid(child, &status, 0) != child || status != 0) return std::nullopt;
     return text;
 }
 
@@ -58,88 +56,48 @@ std::optional<double> number_after(const std::string& text, std::string_view wor
     return std::strtod(text.c_str() + at + word.size(), nullptr);
 }
 
-struct Drawn {
-    double instructions = 0;
-    double fragments = 0;
-};
-
-Result<Drawn> draw_under_callgrind(const std::string& command) {
-    const std::string whole = fmt::format(
-        "valgrind --tool=callgrind {}--callgrind-out-file=/dev/null {}", kOnlyWhatIsAsked, command);
-    const std::optional<std::string> text = printed_by(whole);
-    const auto instructions = text ? number_after(*text, "Collected :") : std::nullopt;
-    const auto fragments = text ? number_after(*text, "fragments ") : std::nullopt;
-    if (instructions && fragments) return Drawn{*instructions, *fragments};
-    return fail(Fault::file, fmt::format("callgrind counts nothing: {}", whole),
-                "install valgrind, or leave out --callgrind");
-}
-
-Result<double> slope(const DrawCommand& command, const std::string& key) {
-    std::array<Drawn, 2> drawn;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Result<Drawn> one = draw_under_callgrind(command(key, kSizes[i].first, kSizes[i].second));
-        if (!one) return tl::unexpected(one.error());
-        drawn[i] = *one;
-    }
-    return (drawn[1].instructions - drawn[0].instructions) / (drawn[1].fragments - drawn[0].fragments);
-}
-
 }  // namespace
 
-Result<double> draw_once(const FileSystem& shipped, const Family& family, const SearchPath& search,
-                         const StudyPlan& plan, const Context& context, const Key& key, int width,
-                         int height) {
-    Result<DrawnScene> scene = draw_scene(shipped, family, plan.scenes.front(), width, height);
-    if (!scene) return tl::unexpected(scene.error());
-    scene = with_shadows(family, key, std::move(*scene));
-    const Result<Variants> variants = load_variants(family, search, {key}, 1);
-    if (!variants) return tl::unexpected(variants.error());
-    const Permutation& permutation = variants->composition.permutations.front();
-    const auto framebuffer = make_framebuffer(context, width, height);
-    if (!framebuffer) return tl::unexpected(framebuffer.error());
-    const auto program = link_program(context, {stage_text(variants->composition, permutation.vertex),
-                                                stage_text(variants->composition, permutation.fragment)});
-    if (!program) return tl::unexpected(program.error());
-    const Interface& interface = variants->all.front().interface;
-    set_bindings(context, *program, interface);
-    ViewedObject viewed;
-    viewed.view = scene->view.camera.view();
-    viewed.projection = scene->view.camera.projection(static_cast<double>(width) / height);
-    viewed.viewport = {width, height};
-    const auto list = make_draw_list(context, *program, interface, scene->objects,
-                                     verify::with_plain_textures(interface, scene->values), viewed);
-    if (!list) return tl::unexpected(list.error());
-    framebuffer->bind();
-    count_fragments(context, *list);  // compiles, which is not to be counted
-    start_counting_instructions();
-    const double fragments = count_fragments(context, *list);
-    stop_counting_instructions();
+Result<double> draw_once(const Subject& subject, const StudyScene& scene, const Context& context,
+                         const Key& key, int width, int height) {
+    GOBO_TRY(DrawnScene drawn, draw_scene(subject.shipped, subject.family, scene, width, height));
+    drawn = with_shadows(subject.family, key, std::move(drawn));
+    GOBO_TRY(const Variants variants, load_variants(subject, {key}));
+    GOBO_TRY(const Framebuffer framebuffer, make_framebuffer(context, width, height));
+    GOBO_TRY(const Program program, linked_program(context, variants, key));
+    GOBO_TRY(const DrawList list, draw_list_of(context, program, variants.at(key), drawn));
+    framebuffer.bind();
+    count_fragments(context, list);  // compiles, which is not to be counted
+#if GOBO_HAS_CALLGRIND
+    CALLGRIND_START_INSTRUMENTATION;
+#endif
+    const double fragments = count_fragments(context, list);
+#if GOBO_HAS_CALLGRIND
+    CALLGRIND_STOP_INSTRUMENTATION;
+#endif
     return fragments;
 }
 
-Result<void> count_instructions(const Family& family, const SearchPath& search, const DrawCommand& command,
-                                const std::string& machine, const Progress& progress, Journal& journal,
-                                Study& study) {
-    EffectsResult& effects = study.effects.back();
-    for (std::size_t i = 0; i < effects.keys.size(); ++i) {
-        KeyResult& result = effects.keys[i];
-        if (!result.timing) continue;
-        progress("instructions of " + key_text(family, result.key), i, effects.keys.size());
-        const Result<Variants> variants = load_variants(family, search, {result.key}, 1);
-        if (!variants) return tl::unexpected(variants.error());
-        const std::string identity = identity_of_text(fmt::format(
-            "instructions 1 {} {} {:x}", machine, result.timing->renderer, variants->all.front().hash));
-        if (const auto known = journal.find(identity); known && known->is_number()) {
-            result.instructions = known->get<double>();
-            continue;
-        }
-        const Result<double> counted = slope(command, key_text(family, result.key));
-        if (!counted) return tl::unexpected(counted.error());
-        result.instructions = *counted;
-        if (auto added = journal.add(identity, *counted); !added) return added;
+Result<double> count_instructions(const DrawCommand& command, const std::string& key) {
+    std::array<double, 2> instructions{};
+    std::array<double, 2> fragments{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto [width, height] = i == 0 ? std::pair{64, 48} : std::pair{160, 120};
+        std::vector<std::string> whole = {"valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"};
+        // Built without valgrind's headers, all that the process does is counted, which takes ten times as
+        // long.
+        if (GOBO_HAS_CALLGRIND != 0) whole.emplace_back("--instr-atstart=no");
+        for (std::string& argument : command(key, width, height)) whole.push_back(std::move(argument));
+        const auto text = printed_by(whole);
+        const auto collected = text ? number_after(*text, "Collected :") : std::nullopt;
+        const auto drawn = text ? number_after(*text, "fragments ") : std::nullopt;
+        if (!collected || !drawn)
+            return fail(Fault::file, fmt::format("callgrind counts nothing: {}", join(whole, " ")),
+                        "install valgrind, or leave out --callgrind");
+        instructions[i] = *collected;
+        fragments[i] = *drawn;
     }
-    progress("", effects.keys.size(), effects.keys.size());
-    return {};
+    return (instructions[1] - instructions[0]) / (fragments[1] - fragments[0]);
 }
 
 }  // namespace gobo::study

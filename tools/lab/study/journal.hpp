@@ -8,8 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/file_system.hpp"
 
 namespace gobo::study {
@@ -17,7 +15,8 @@ namespace gobo::study {
 /// Adds text to the end of a file.
 using Append = std::function<Result<void>(const std::string& path, std::string_view text)>;
 
-/// Measurements by the identity of everything that determines them. Used by many threads.
+/// Measurements by the identity of everything that determines them. Used by many threads. What is kept is a
+/// Measurement, CurveErrors, a TimedGroup, a double or any JSON.
 class Journal {
   public:
     /// Keeps nothing on disk.
@@ -25,10 +24,12 @@ class Journal {
     /// Reads what the file holds, where there is one; a last line that was cut off is left out.
     Journal(const FileSystem& files, std::string path, Append append);
 
-    /// Nothing where it has not been measured.
-    [[nodiscard]] std::optional<nlohmann::json> find(const std::string& identity) const;
+    /// Nothing where it has not been measured, or was written by another gobo.
+    template <class Measured>
+    [[nodiscard]] std::optional<Measured> find(const std::string& identity) const;
     /// Keeps a measurement, on disk before it returns.
-    Result<void> add(const std::string& identity, const nlohmann::json& measurement);
+    template <class Measured>
+    Result<void> add(const std::string& identity, const Measured& measured);
 
   private:
     std::string path_;

@@ -1,9 +1,28 @@
-// One permutation on one scene: its error by cause, and the operations it executes.
+// One permutation on one scene: its error by cause, in linear radiance, and the operations it executes.
 #pragma once
 
-#include "lab/study/error_figures.hpp"
+#include "lab/study/points.hpp"
 
 namespace gobo::study {
+
+/// How far one picture is from another, over all points but those at a discontinuity.
+struct ErrorFigures {
+    double max = 0;   ///< largest absolute error of a channel
+    double p999 = 0;  ///< 99.9 % of the points have no channel with a larger one
+    double rms = 0;   ///< root mean square over the channels
+
+    friend bool operator==(const ErrorFigures&, const ErrorFigures&) = default;
+};
+/// Of a point of a curve: the model's, then the total.
+using CurveErrors = std::array<ErrorFigures, 2>;
+
+/// Colours of a scene's points, object by object.
+using Colors = std::vector<std::vector<Color>>;
+[[nodiscard]] Colors reference_colors(const ScenePoints& points);
+
+/// NaN is an infinite error.
+[[nodiscard]] ErrorFigures error_between(const ScenePoints& points, const Colors& actual,
+                                         const Colors& expected);
 
 /// Three causes are told apart. The total is what fp32 gives against the reference.
 struct Measurement {
@@ -12,7 +31,6 @@ struct Measurement {
     ErrorFigures approximation;  ///< fp64 at full shading rate against the reference
     ErrorFigures rate;           ///< fp64 against fp64 at full shading rate
     double relative = 0;         ///< largest relative error of the total
-
     verify::Work work;
     std::size_t pixels = 0;
     std::size_t edges = 0;

@@ -19,7 +19,7 @@ struct StudyScene {
     int floor_cells = 96;         ///< quads along a side of the floor; 0: there is none
     std::array<double, 3> camera = {0, 1.5, 5};
     std::array<double, 3> target = {0, -0.05, 0};
-    std::vector<RenderValue> values;  ///< over those of [render]
+    std::vector<RenderValue> values = {};  ///< over those of [render]
 };
 
 /// A quality feature's values, measured along a uniform.

@@ -4,12 +4,21 @@
 #include <map>
 #include <string>
 
-#include "core/file_system.hpp"
-#include "lab/study/choices.hpp"
-#include "lab/study/heat_maps.hpp"
-#include "lab/study/time_study.hpp"
+#include "lab/render/image.hpp"
+#include "lab/study/rows.hpp"
 
 namespace gobo::study {
+
+/// A picture of where the error of a choice sits.
+struct HeatMap {
+    std::string quality;  ///< what differs from the most accurate key
+    double largest = 0;   ///< error in the picture
+    Image image;          ///< four channels, linear, for the eye
+};
+
+/// Each single choice of the plan's last quick effects on its first scene, 192 x 144, after a picture of the
+/// scene itself (its quality is empty).
+[[nodiscard]] Result<std::vector<HeatMap>> draw_heat_maps(const Subject& subject, const StudyPlan& plan);
 
 /// All that the report shows.
 struct ReportInput {
@@ -19,7 +28,7 @@ struct ReportInput {
     const Weights& weights;
     std::vector<HeatMap> maps;
     std::string command;       ///< that made it
-    std::string machine;       ///< the processor's name, where it was timed
+    std::string computer;      ///< the processor's name, where it was timed
     std::string guard_prices;  ///< CSV; empty: there is none
 };
 

@@ -4,22 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <memory>
 #include <numeric>
 
-#include "family/key.hpp"
-#include "lab/render/framebuffer.hpp"
-#include "lab/study/scene_shadows.hpp"
 #include "lab/verify/random.hpp"
 #include "lab/verify/render_feed.hpp"
 
 namespace gobo::study {
 namespace {
-
-constexpr int kFewSlices = 32;
-constexpr int kManySlices = 160;
-/// So many times at most all is timed, until the control holds.
-constexpr int kMostAttempts = 3;
 
 /// Nanoseconds by both clocks.
 struct Instant {
@@ -39,130 +30,39 @@ Instant operator-(const Instant& a, const Instant& b) {
     return {a.elapsed - b.elapsed, a.processor - b.processor};
 }
 
-/// What is drawn to.
-struct Targets {
-    Framebuffer small;
-    Framebuffer large;
-    Framebuffer tiny;
+/// Nanoseconds for one fragment or vertex, by both clocks, one a round.
+struct Laps {
+    std::vector<double> elapsed;
+    std::vector<double> processor;
+
+    void add(const Instant& lap, double count) {
+        elapsed.push_back(lap.elapsed / count);
+        processor.push_back(lap.processor / count);
+    }
 };
 
-Result<Targets> make_targets(const Context& context) {
-    auto small = make_framebuffer(context, 160, 120);
-    if (!small) return tl::unexpected(small.error());
-    auto large = make_framebuffer(context, 480, 360);
-    if (!large) return tl::unexpected(large.error());
-    auto tiny = make_framebuffer(context, 16, 12);
-    if (!tiny) return tl::unexpected(tiny.error());
-    return Targets{std::move(*small), std::move(*large), std::move(*tiny)};
-}
-
-/// A linked program with what it draws.
+/// A linked program with what it draws: the scene, and spheres of few and of many vertices.
 struct Timed {
-    std::unique_ptr<Program> program;  ///< the lists hold its address
-    std::optional<DrawList> scene;
-    std::optional<DrawList> few;
-    std::optional<DrawList> many;
-    std::vector<double> fragment_elapsed, fragment_processor;  ///< slopes, one a round
-    std::vector<double> vertex_elapsed, vertex_processor;
-
-    void forget() {
-        for (auto* slopes : {&fragment_elapsed, &fragment_processor, &vertex_elapsed, &vertex_processor})
-            slopes->clear();
-    }
-};
-
-ViewedObject viewed(const View& view) {
-    ViewedObject object;
-    object.view = view.camera.view();
-    object.projection = view.camera.projection(static_cast<double>(view.width) / view.height);
-    object.viewport = {view.width, view.height};
-    return object;
-}
-
-class Stopwatch {
-  public:
-    Stopwatch(const Context& context, Targets targets) : context_(context), targets_(std::move(targets)) {}
-
-    Result<Timed> prepare(const Variants& variants, const Key& key, const DrawnScene& scene,
-                          const DrawnScene& few, const DrawnScene& many) const {
-        const Permutation& permutation = variants.composition.permutations[variants.index.at(key)];
-        auto program = link_program(context_, {stage_text(variants.composition, permutation.vertex),
-                                               stage_text(variants.composition, permutation.fragment)});
-        if (!program) return tl::unexpected(program.error());
-        Timed timed;
-        timed.program = std::make_unique<Program>(std::move(*program));
-        const Interface& interface = variants.at(key).interface;
-        set_bindings(context_, *timed.program, interface);
-        for (const auto& [list, drawn] :
-             {std::pair{&timed.scene, &scene}, std::pair{&timed.few, &few}, std::pair{&timed.many, &many}}) {
-            auto made =
-                make_draw_list(context_, *timed.program, interface, drawn->objects,
-                               verify::with_plain_textures(interface, drawn->values), viewed(drawn->view));
-            if (!made) return tl::unexpected(made.error());
-            list->emplace(std::move(*made));
-        }
-        return timed;
-    }
-
-    /// Counts the fragments that one more pixel of size costs, and warms up.
-    [[nodiscard]] double fragments_between(const Timed& timed) const {
-        return count(*timed.scene, targets_.large) - count(*timed.scene, targets_.small);
-    }
-
-    void round(Timed& timed, double fragments, double vertices) const {
-        const Instant fragment = draw(*timed.scene, targets_.large) - draw(*timed.scene, targets_.small);
-        const Instant vertex = draw(*timed.many, targets_.tiny) - draw(*timed.few, targets_.tiny);
-        timed.fragment_elapsed.push_back(fragment.elapsed / fragments);
-        timed.fragment_processor.push_back(fragment.processor / fragments);
-        timed.vertex_elapsed.push_back(vertex.elapsed / vertices);
-        timed.vertex_processor.push_back(vertex.processor / vertices);
-    }
-
-    void warm_up(const Timed& timed) const {
-        draw(*timed.scene, targets_.small);
-        draw(*timed.few, targets_.tiny);
-    }
-
-  private:
-    void clear(const Framebuffer& target) const {
-        target.bind();
-        context_.gl().ClearColor(0, 0, 0, 1);
-        context_.gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        context_.gl().Finish();
-    }
-
-    Instant draw(const DrawList& list, const Framebuffer& target) const {
-        clear(target);
-        const Instant start = now();
-        list.draw();
-        context_.gl().Finish();
-        return now() - start;
-    }
-
-    [[nodiscard]] double count(const DrawList& list, const Framebuffer& target) const {
-        clear(target);
-        return count_fragments(context_, list);
-    }
-
-    Context context_;
-    Targets targets_;
+    DrawList scene;
+    DrawList few;
+    DrawList many;
+    double fragments = 0;  ///< that the large target has more than the small one
+    Laps fragment = {};
+    Laps vertex = {};
 };
 
 double off(const Spread& first, const Spread& second) {
     return second.median > 0 ? std::abs(first.median / second.median - 1) : 1;
 }
 
-Timing timing_of(const Timed& timed, int rounds, const std::string& renderer) {
-    return {{spread_of(timed.fragment_elapsed), spread_of(timed.vertex_elapsed)},
-            {spread_of(timed.fragment_processor), spread_of(timed.vertex_processor)},
-            rounds,
-            renderer};
-}
-
 /// The last one timed is the second copy of the first.
 TimedGroup group_of(const std::vector<Timed>& all, int rounds, const std::string& renderer) {
     TimedGroup group;
-    for (const Timed& timed : all) group.timings.push_back(timing_of(timed, rounds, renderer));
+    for (const Timed& timed : all)
+        group.timings.push_back({{spread_of(timed.fragment.elapsed), spread_of(timed.vertex.elapsed)},
+                                 {spread_of(timed.fragment.processor), spread_of(timed.vertex.processor)},
+                                 rounds,
+                                 renderer});
     const Timing control = group.timings.back();
     group.timings.pop_back();
     const Timing& first = group.timings.front();
@@ -182,6 +82,14 @@ std::vector<std::size_t> order_of(std::size_t count, int round) {
 }
 
 }  // namespace
+
+const Slopes& Timing::ranked() const {
+    return draws_in_calling_thread(renderer) ? processor : elapsed;
+}
+
+double Control::ranked(const std::string& renderer) const {
+    return draws_in_calling_thread(renderer) ? processor : elapsed;
+}
 
 void make_timings_repeatable() {
     ::setenv("LP_NUM_THREADS", "0", 1);
@@ -206,15 +114,45 @@ double count_fragments(const Context& context, const DrawList& list) {
     return passed;
 }
 
-double ranked_control(const Control& control, const std::string& renderer) {
-    return draws_in_calling_thread(renderer) ? control.processor : control.elapsed;
+Result<DrawList> draw_list_of(const Context& context, const Program& program, const Variant& variant,
+                              const DrawnScene& scene) {
+    return make_draw_list(context, program, variant.interface, scene.objects,
+                          verify::with_plain_textures(variant.interface, scene.values),
+                          viewed_from(scene.view));
+}
+
+Result<Program> linked_program(const Context& context, const Variants& variants, const Key& key) {
+    GOBO_TRY(Program program, link_program(context, variants.stages_of(key)));
+    set_bindings(context, program, variants.at(key).interface);
+    return program;
 }
 
 Result<TimedGroup> time_variants(const Context& context, const Family& family, const Variants& variants,
                                  const std::vector<Key>& keys, const DrawnScene& scene, int rounds) {
-    auto targets = make_targets(context);
-    if (!targets) return tl::unexpected(targets.error());
-    const Stopwatch stopwatch(context, std::move(*targets));
+    constexpr int kFewSlices = 32;
+    constexpr int kManySlices = 160;
+    constexpr int kMostAttempts = 3;  // all is timed so many times at most, until the control holds
+    GOBO_TRY(const Framebuffer small, make_framebuffer(context, 160, 120));
+    GOBO_TRY(const Framebuffer large, make_framebuffer(context, 480, 360));
+    GOBO_TRY(const Framebuffer tiny, make_framebuffer(context, 16, 12));
+    const GladGLContext& gl = context.gl();
+    const auto clear = [&](const Framebuffer& target) {
+        target.bind();
+        gl.ClearColor(0, 0, 0, 1);
+        gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        gl.Finish();
+    };
+    const auto draw = [&](const DrawList& list, const Framebuffer& target) {
+        clear(target);
+        const Instant start = now();
+        list.draw();
+        gl.Finish();
+        return now() - start;
+    };
+    const auto fragments_of = [&](const DrawList& list, const Framebuffer& target) {
+        clear(target);
+        return count_fragments(context, list);
+    };
     // All keys have the same effects, so the same shadows.
     const DrawnScene shadowed = with_shadows(family, keys.front(), scene);
     const DrawnScene few = with_shadows(family, keys.front(), sphere_scene(family, kFewSlices, 16, 12));
@@ -225,21 +163,28 @@ Result<TimedGroup> time_variants(const Context& context, const Family& family, c
     with_control.push_back(keys.front());
     std::vector<Timed> all;
     for (const Key& key : with_control) {
-        Result<Timed> timed = stopwatch.prepare(variants, key, shadowed, few, many);
-        if (!timed) return tl::unexpected(timed.error());
-        stopwatch.warm_up(*timed);
-        all.push_back(std::move(*timed));
+        GOBO_TRY(const Program program, linked_program(context, variants, key));
+        GOBO_TRY(DrawList of_scene, draw_list_of(context, program, variants.at(key), shadowed));
+        GOBO_TRY(DrawList of_few, draw_list_of(context, program, variants.at(key), few));
+        GOBO_TRY(DrawList of_many, draw_list_of(context, program, variants.at(key), many));
+        draw(of_scene, small);  // to warm up
+        draw(of_few, tiny);
+        all.push_back({std::move(of_scene), std::move(of_few), std::move(of_many)});
     }
-    std::vector<double> fragments;
-    for (const Timed& timed : all) fragments.push_back(stopwatch.fragments_between(timed));
+    for (Timed& timed : all)
+        timed.fragments = fragments_of(timed.scene, large) - fragments_of(timed.scene, small);
     TimedGroup group;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-        for (int round = 0; round < rounds; ++round)
-            for (const std::size_t i : order_of(all.size(), round))
-                stopwatch.round(all[i], fragments[i], vertices);
+        for (Timed& timed : all) timed.fragment = timed.vertex = {};
+        for (int round = 0; round < rounds; ++round) {
+            for (const std::size_t i : order_of(all.size(), round)) {
+                Timed& timed = all[i];
+                timed.fragment.add(draw(timed.scene, large) - draw(timed.scene, small), timed.fragments);
+                timed.vertex.add(draw(timed.many, tiny) - draw(timed.few, tiny), vertices);
+            }
+        }
         group = group_of(all, rounds, context.renderer());
-        if (ranked_control(group.control, context.renderer()) <= kLargestControl) break;
-        for (Timed& timed : all) timed.forget();
+        if (group.control.ranked(context.renderer()) <= kLargestControl) break;
     }
     return group;
 }

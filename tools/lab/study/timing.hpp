@@ -1,15 +1,14 @@
-// How long a fragment and a vertex take on a renderer: slopes between two sizes, in interleaved rounds.
+// How long fragments and vertices take on a renderer: slopes between two sizes, in interleaved rounds. What
+// one operation costs there, and how many instructions a fragment takes.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/render/context.hpp"
-#include "lab/render/draw_list.hpp"
 #include "lab/study/statistics.hpp"
-#include "lab/study/variants.hpp"
+#include "lab/study/weights.hpp"
 
 namespace gobo::study {
 
@@ -20,19 +19,26 @@ struct Slopes {
 };
 
 /// One permutation's times. `elapsed` is a monotonic clock's around glFinish(); `processor` the calling
-/// thread's processor time, which other programs on the machine do not add to. It says nothing where the
+/// thread's processor time, which other programs do not add to. It says nothing where the
 /// renderer works elsewhere than in that thread.
 struct Timing {
     Slopes elapsed;
     Slopes processor;
     int rounds = 0;
     std::string renderer;
+
+    /// The slopes to rank by: the processor's time where the renderer draws in the calling thread, else the
+    /// elapsed time.
+    [[nodiscard]] const Slopes& ranked() const;
 };
 
 /// How far two copies of one program came out from one another: |ratio of the medians - 1|.
 struct Control {
     double elapsed = 0;
     double processor = 0;
+
+    /// Of the clock to rank by, as Timing::ranked().
+    [[nodiscard]] double ranked(const std::string& renderer) const;
 };
 
 /// Nothing is ranked by a clock whose control is off by more.
@@ -52,11 +58,14 @@ void make_timings_repeatable();
 /// Whether the renderer draws in the calling thread once make_timings_repeatable() was called.
 [[nodiscard]] bool draws_in_calling_thread(const std::string& renderer);
 
+/// A variant's program, ready to be drawn with, and a scene as it draws it.
+[[nodiscard]] Result<Program> linked_program(const Context& context, const Variants& variants,
+                                             const Key& key);
+[[nodiscard]] Result<DrawList> draw_list_of(const Context& context, const Program& program,
+                                            const Variant& variant, const DrawnScene& scene);
+
 /// The fragments that pass the depth test when the list is drawn to the framebuffer that is bound.
 double count_fragments(const Context& context, const DrawList& list);
-
-/// The control of the clock to rank by: see cost_against_time().
-[[nodiscard]] double ranked_control(const Control& control, const std::string& renderer);
 
 /// Times the keys in rounds, each in another order, with a second copy of the first key as the control. Where
 /// that fails, something else ran: all is timed anew, up to twice.
@@ -65,5 +74,39 @@ double count_fragments(const Context& context, const DrawList& list);
 [[nodiscard]] Result<TimedGroup> time_variants(const Context& context, const Family& family,
                                                const Variants& variants, const std::vector<Key>& keys,
                                                const DrawnScene& scene, int rounds);
+
+/// One operation repeated: what it executes more, and how much longer that takes.
+struct Weighing {
+    std::string operation;
+    ByKind counts{};     ///< of one fragment
+    Spread nanoseconds;  ///< of one fragment
+};
+
+struct WeighingResult {
+    Weights weights;
+    std::vector<Weighing> operations;
+    Control control;
+};
+
+/// Draws the family data/study/operations of `shipped` with each operation a few times and many, and solves
+/// for the prices. Errors: of the driver.
+[[nodiscard]] Result<WeighingResult> weigh_operations(const FileSystem& shipped, const Context& context,
+                                                      int rounds, int jobs);
+
+/// The weights, none negative, that explain the measured times best: least squares, each row weighted by the
+/// inverse of its time. In nanoseconds.
+[[nodiscard]] ByKind solve_for_prices(const std::vector<Weighing>& operations);
+
+/// Draws a scene once, by a key, and gives the fragments drawn. What callgrind watches.
+[[nodiscard]] Result<double> draw_once(const Subject& subject, const StudyScene& scene,
+                                       const Context& context, const Key& key, int width, int height);
+
+/// The command, without valgrind, that draws a key once at a size and prints "fragments N": a program and its
+/// arguments.
+using DrawCommand = std::function<std::vector<std::string>(const std::string& key, int width, int height)>;
+
+/// The instructions of a fragment by callgrind, the same in every run: the slope between two sizes. Errors: a
+/// command that fails under valgrind.
+[[nodiscard]] Result<double> count_instructions(const DrawCommand& command, const std::string& key);
 
 }  // namespace gobo::study

@@ -1,31 +1,14 @@
 #include "lab/study/weights.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
-#include "core/text.hpp"
 
 namespace gobo::study {
 namespace {
-
-Diagnostic problem(const std::string& path, std::size_t row, std::string message) {
-    Diagnostic diagnostic;
-    diagnostic.place = {path, static_cast<int>(row) + 2, 0};
-    diagnostic.message = std::move(message);
-    diagnostic.help = "remake the weights: gobo study lit --weights -o FOLDER";
-    return diagnostic;
-}
-
-std::optional<double> number_in(const std::string& text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 Weights& of_renderer(std::vector<Weights>& all, const std::string& renderer) {
     const auto found =
@@ -38,23 +21,27 @@ Weights& of_renderer(std::vector<Weights>& all, const std::string& renderer) {
 }  // namespace
 
 Result<std::vector<Weights>> read_weights(std::string_view csv, const std::string& path) {
+    const auto problem = [&](std::size_t row, std::string message) {
+        return fail_at_row(path, row, std::move(message),
+                           "remake the weights: gobo study lit --weights -o FOLDER");
+    };
     const CsvTable table = read_csv(csv);
     const auto renderer = table.column("renderer");
     const auto kind = table.column("kind");
     const auto weight = table.column("weight");
     const auto nanoseconds = table.column("nanoseconds");
     if (!renderer || !kind || !weight || !nanoseconds || table.rows.empty())
-        return fail(problem(path, 0, "is no table of weights: renderer, kind, weight, nanoseconds"));
+        return problem(0, "not a table of weights: renderer, kind, weight, nanoseconds");
     std::vector<Weights> all;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const std::vector<std::string>& row = table.rows[i];
         const auto at = std::find(evaluate::kKindNames.begin(), evaluate::kKindNames.end(), row[*kind]);
-        const std::optional<double> number = number_in(row[*weight]);
-        const std::optional<double> time = number_in(row[*nanoseconds]);
+        const std::optional<double> number = number_in_cell(row[*weight]);
+        const std::optional<double> time = number_in_cell(row[*nanoseconds]);
         if (at == evaluate::kKindNames.end())
-            return fail(problem(path, i, fmt::format("there is no kind of operation '{}'", row[*kind])));
+            return problem(i, fmt::format("there is no kind of operation '{}'", row[*kind]));
         if (!number || *number < 0 || !time)
-            return fail(problem(path, i, fmt::format("'{}' is no weight", row[*weight])));
+            return problem(i, fmt::format("'{}' is not a weight", row[*weight]));
         Weights& weights = of_renderer(all, row[*renderer]);
         weights.by_kind[static_cast<std::size_t>(at - evaluate::kKindNames.begin())] = *number;
         if (*number > 0) weights.nanoseconds = *time / *number;
@@ -80,14 +67,14 @@ double weighted(const evaluate::Counts& counts, const Weights& weights) {
 }
 
 Costs costs_of(const Measurement& measurement, const Weights& weights) {
-    constexpr double enlargement =
+    constexpr double kEnlargement =
         static_cast<double>(kFullWidth) * kFullHeight / (static_cast<double>(kSampleWidth) * kSampleHeight);
     const auto pixels = static_cast<double>(measurement.pixels);
     const auto vertices = static_cast<double>(std::max<std::size_t>(measurement.shown_vertices, 1));
     Costs costs;
     costs.fragment = weighted(measurement.work.fragments, weights) / pixels;
     costs.vertex = weighted(measurement.work.vertices, weights) / vertices;
-    costs.vertices_per_fragment = static_cast<double>(measurement.mesh_vertices) / (pixels * enlargement);
+    costs.vertices_per_fragment = static_cast<double>(measurement.mesh_vertices) / (pixels * kEnlargement);
     costs.total = costs.fragment + costs.vertex * costs.vertices_per_fragment;
     return costs;
 }

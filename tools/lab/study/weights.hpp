@@ -11,11 +11,14 @@
 
 namespace gobo::study {
 
+/// A number for each kind of operation.
+using ByKind = std::array<double, evaluate::kKinds>;
+
 /// Weights of one renderer. The unit is one addition of floats.
 struct Weights {
     std::string renderer;    ///< GL_RENDERER
     double nanoseconds = 0;  ///< of one unit, for one invocation
-    std::array<double, evaluate::kKinds> by_kind{};
+    ByKind by_kind{};
 };
 
 /// Columns renderer, kind, weight, nanoseconds. Errors: a missing column or kind, a number that is none; at
@@ -23,7 +26,7 @@ struct Weights {
 [[nodiscard]] Result<std::vector<Weights>> read_weights(std::string_view csv, const std::string& path);
 [[nodiscard]] std::string weights_csv(const std::vector<Weights>& weights);
 
-/// The operations of one fragment, of one vertex, and of a fragment with its share of the vertices, in the
+/// The operations of one fragment, of one vertex, and of a fragment with its part of the vertices, in the
 /// weights' unit.
 struct Costs {
     double fragment = 0;

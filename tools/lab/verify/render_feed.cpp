@@ -19,7 +19,7 @@ bool has_port(const std::vector<evaluate::Port>& ports, const std::string& name)
 /// A plain uniform's elements under their own names.
 void add_plain_uniform(const evaluate::Program& program, const Assignment& assignment,
                        evaluate::Invocations& invocations) {
-    const auto type = value_type(assignment.leaf.type);
+    const auto type = glsl_type(assignment.leaf.type);
     if (!type) return;
     const auto components = static_cast<std::size_t>(type->components());
     const std::string& name = assignment.leaf.name;

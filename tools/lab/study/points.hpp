@@ -1,18 +1,25 @@
-// The points of a scene that a picture shows, and the radiance that ought to be seen there.
+// The points of a scene that a picture shows, and the radiance that ought to be seen there; and the
+// permutations that are evaluated at them.
 #pragma once
 
 #include <array>
-#include <string>
+#include <cstdint>
+#include <map>
 #include <vector>
 
-#include "compose/composition.hpp"
-#include "lab/study/study_scene.hpp"
-#include "validate/validate.hpp"
+#include "compose/compose.hpp"
+#include "lab/study/scenes.hpp"
 #include "lab/verify/shade.hpp"
 
 namespace gobo::study {
 
-using Color = std::array<double, 3>;
+/// What is studied, and by how many threads.
+struct Subject {
+    const FileSystem& shipped;  ///< holds the meshes
+    const Family& family;
+    const SearchPath& search;  ///< where its pieces are
+    int jobs = 1;
+};
 
 /// A permutation ready to be evaluated.
 struct Variant {
@@ -21,6 +28,23 @@ struct Variant {
     Interface interface;
     std::uint64_t hash = 0;  ///< of both stages' SPIR-V
 };
+
+/// The permutations of some keys, with what they are made of.
+struct Variants {
+    Composition composition;
+    std::vector<Variant> all;  ///< in the order of the composition's permutations
+    std::map<Key, std::size_t> index;
+
+    [[nodiscard]] const Variant& at(const Key& key) const { return all[index.at(key)]; }
+    [[nodiscard]] std::vector<StageText> stages_of(const Key& key) const {
+        return gobo::stages_of(composition, composition.permutations[index.at(key)]);
+    }
+};
+
+/// Composes, validates and decodes; each key once. Errors of any of them.
+[[nodiscard]] Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys);
+
+using Color = std::array<double, 3>;
 
 /// One object's visible fragments. Its mesh holds only the triangles that have some.
 struct ObjectPoints {

@@ -1,15 +1,16 @@
 
+#include "lab/study/plan.hpp"
+
 #include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "budget/qualities.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "family/toml_reader.hpp"
-#include "lab/study/plan.hpp"
-#include "budget/qualities.hpp"
 
 namespace gobo::study {
 namespace {
@@ -49,17 +50,17 @@ void read_point(TomlReader& reader, const toml::table& row, std::string_view nam
     if (numbers.size() == 3)
         std::copy(numbers.begin(), numbers.end(), point.begin());
     else
-        reader.error(*row.get(name), fmt::format("'{}' is no point", name), "write [x, y, z]");
+        reader.error(*row.get(name), fmt::format("'{}' is not a point", name), "write [x, y, z]");
 }
 
 void read_extent(TomlReader& reader, const toml::table& row, std::string_view name, int least, int& extent) {
-    constexpr int most = 1024;
+    constexpr int kMost = 1024;
     const std::int64_t number = reader.integer(row, name).value_or(extent);
-    if (number >= least && number <= most)
+    if (number >= least && number <= kMost)
         extent = static_cast<int>(number);
     else
         reader.error(*row.get(name), fmt::format("'{}' is {}", name, number),
-                     fmt::format("choose from {} to {}", least, most));
+                     fmt::format("choose from {} to {}", least, kMost));
 }
 
 StudyScene read_scene(TomlReader& reader, const toml::table& row) {
@@ -137,9 +138,8 @@ std::vector<const toml::table*> rows_of(TomlReader& reader, const toml::table& t
 }
 
 /// Of a family that names none: as many combinations of effects as a reader can take in.
-constexpr std::size_t kMostEffects = 8;
-
 std::vector<std::string> effects_by_default(const Family& family) {
+    constexpr std::size_t kMostEffects = 8;
     std::vector<std::string> effects;
     const Result<std::vector<Key>> keys = select(family, Selection{}, "450");
     if (!keys) return {key_text(family, default_key(family))};
@@ -151,21 +151,12 @@ std::vector<std::string> effects_by_default(const Family& family) {
     return effects;
 }
 
-std::vector<StudyScene> scenes_by_default() {
-    StudyScene teapot;
-    teapot.name = "teapot";
-    StudyScene sphere;
-    sphere.name = "coarse sphere";
-    sphere.mesh = "sphere";
-    sphere.detail = 12;
-    sphere.floor_cells = 4;
-    return {std::move(teapot), std::move(sphere)};
-}
-
 StudyPlan completed(StudyPlan plan, const Family& family) {
     if (plan.effects.empty()) plan.effects = effects_by_default(family);
     if (plan.quick.empty()) plan.quick = {plan.effects.front()};
-    if (plan.scenes.empty()) plan.scenes = scenes_by_default();
+    if (plan.scenes.empty())
+        plan.scenes = {{.name = "teapot"},
+                       {.name = "coarse sphere", .mesh = "sphere", .detail = 12, .floor_cells = 4}};
     return plan;
 }
 

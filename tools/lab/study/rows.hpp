@@ -1,41 +1,40 @@
-// A study as tables: what the report shows and what budgets choose by.
+// A study as tables, out and in again: what the report shows and what budgets choose by.
 #pragma once
 
-#include "budget/budget.hpp"
 #include "core/csv.hpp"
 #include "lab/study/study.hpp"
 
 namespace gobo::study {
 
-/// One row of study.csv, in the words of its columns.
-struct StudyRow {
+/// One row of study.csv: a key on a scene, or over all of them.
+struct StudyRow : Measurement {
     std::string effects;  ///< key text
     std::string key;      ///< key text
     std::string quality;  ///< what differs from the most accurate key: "shading=vertex"
     std::string scene;
-    bool from_oracle = false;
-    std::size_t pixels = 0;
-    std::size_t edges = 0;
-    ErrorFigures error, rounding, approximation, rate;
-    double relative = 0;
     Costs costs;
     bool on_front = false;
     std::string dominated_by;  ///< the quality of a key that is neither dearer nor less accurate
     std::optional<Timing> timing;
     std::optional<double> instructions;
-    verify::Work work;
     /// Whether no key that is as accurate is measurably faster. Nothing where the row was not timed, or the
     /// control of its combination of effects does not hold.
     std::optional<bool> on_time_front;
-};
 
-/// Nanoseconds of a fragment with its share of the vertices, as Costs::total; of a row that was timed.
-[[nodiscard]] Spread time_of(const StudyRow& row);
+    /// Nanoseconds of a fragment with its part of the vertices, as Costs::total; of a row that was timed.
+    [[nodiscard]] Spread time() const;
+};
 
 /// Sorted as the study is: by effects, key, scene, the row of all scenes first.
 [[nodiscard]] std::vector<StudyRow> rows_of(const Family& family, const Study& study, const Weights& weights);
 
 [[nodiscard]] std::string study_csv(const std::vector<StudyRow>& rows);
+
+/// The rows of one combination of effects over all scenes, from a study.csv or summary.csv, but for the
+/// operations by kind. Errors, at `path` and the line: a missing column, a key that the family does not have,
+/// effects that the study does not hold.
+[[nodiscard]] Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path,
+                                                      const Family& family, const Key& effects);
 
 /// The rows of all scenes that are on their front or differ from the most accurate key in one feature: what
 /// budgets need and readers compare.

@@ -1,0 +1,297 @@
+#include "lab/study/points.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "core/parallel.hpp"
+#include "family/key.hpp"
+#include "lab/oracle/model.hpp"
+#include "lab/verify/expectation.hpp"
+#include "lab/verify/feed.hpp"
+#include "lab/verify/render_feed.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo::study {
+namespace {
+
+Result<Variant> decode(const Validated& validated, const Permutation& permutation) {
+    if (permutation.vertex < 0 || permutation.fragment < 0)
+        return fail(Fault::input, "a study needs a vertex stage and a fragment stage");
+    const SpirvModule& vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
+    const SpirvModule& fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
+    GOBO_TRY(verify::SoftwareProgram program, verify::software_program(vertex, fragment));
+    const XXH64_hash_t hash =
+        XXH3_64bits_withSeed(fragment.data(), fragment.size() * sizeof fragment[0],
+                             XXH3_64bits(vertex.data(), vertex.size() * sizeof vertex[0]));
+    return Variant{permutation.key, std::move(program), interface_of(validated, permutation), hash};
+}
+
+double number_at(const std::vector<std::byte>& bytes, std::uint32_t offset, evaluate::Scalar scalar) {
+    if (offset + 4 > bytes.size()) return 0;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes.data() + offset, sizeof bits);
+    if (scalar == evaluate::Scalar::real) return std::bit_cast<float>(bits);
+    if (scalar == evaluate::Scalar::unsigned_integer) return bits;
+    return static_cast<std::int32_t>(bits);
+}
+
+/// Uniform blocks as values by name, as samples take them.
+void spell_out_blocks(const evaluate::Program& program, evaluate::Invocations& invocations) {
+    for (const evaluate::Port& port : program.uniforms) {
+        if (port.block < 0 || invocations.values.contains(port.name)) continue;
+        const std::string& block = program.uniform_blocks[static_cast<std::size_t>(port.block)].name;
+        const auto bytes = invocations.blocks.find(block);
+        if (bytes == invocations.blocks.end()) continue;
+        std::vector<double>& values = invocations.values[port.name];
+        for (const std::uint32_t offset : port.offsets)
+            values.push_back(number_at(bytes->second, offset, port.scalar));
+    }
+}
+
+/// An input of the fragment stage that differs from fragment to fragment.
+struct VaryingField {
+    verify::Field field;
+    const std::vector<double>* values = nullptr;  ///< component by component, all fragments of each
+    std::size_t components = 0;
+};
+
+/// The oracle's radiance at the fragments of an object, and where something was decided within a rounding of
+/// its edge. False where the oracle does not know the variant's model, or the object's uniforms mean nothing
+/// to it.
+Result<bool> refer_to_oracle(const Family& family, const Variant& variant,
+                             const verify::SoftwareObject& object, ObjectPoints& part) {
+    const auto model = oracle::model_of(family, variant.key);
+    if (!model) return false;
+    const evaluate::Program& program = variant.program.fragment;
+    GOBO_TRY(const evaluate::Invocations inputs, verify::exact_fragment_inputs(variant.program, object));
+    evaluate::Invocations first = inputs;
+    first.count = 1;
+    std::vector<VaryingField> varyings;
+    for (const evaluate::Port& port : program.inputs) {
+        const auto found = inputs.values.find(port.name);
+        if (found == inputs.values.end()) continue;
+        if (const auto field = verify::field_of(port.name))
+            varyings.push_back({*field, &found->second, port.components});
+        std::vector<double>& one = first.values[port.name];
+        one.resize(port.components);
+        for (std::size_t c = 0; c < port.components; ++c) one[c] = found->second[c * inputs.count];
+    }
+    spell_out_blocks(program, first);
+    std::optional<verify::Sample> sample = verify::sample_of(program, first);
+    if (!sample) return false;
+    std::vector<double> one;
+    for (std::size_t i = 0; i < inputs.count; ++i) {
+        for (const VaryingField& varying : varyings) {
+            one.resize(varying.components);
+            for (std::size_t c = 0; c < varying.components; ++c)
+                one[c] = (*varying.values)[c * inputs.count + i];
+            varying.field.set(*sample, one);
+        }
+        oracle::Decisions decisions;
+        const auto expected = verify::expect(*model, StageKind::fragment, *sample, decisions);
+        const auto color = std::find_if(expected.begin(), expected.end(), [&](const auto& output) {
+            return output.output == variant.program.color;
+        });
+        if (color == expected.end()) return false;
+        part.reference[i] = {color->value[0], color->value[1], color->value[2]};
+        part.at_edge[i] = decisions.open() > 0;
+    }
+    return true;
+}
+
+/// The nearest fragment of a pixel.
+struct Nearest {
+    std::size_t object = 0;
+    std::size_t fragment = 0;
+    double depth = 1;
+};
+
+/// Which fragments the depth test leaves, object by object, in order.
+Result<std::vector<std::vector<std::size_t>>> visible_fragments(
+    const verify::SoftwareProgram& program, const std::vector<verify::SoftwareObject>& objects) {
+    std::map<std::pair<int, int>, Nearest> pixels;
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        GOBO_TRY(const auto shaded, verify::shade_in<double>(program, objects[o]));
+        for (std::size_t i = 0; i < shaded.size(); ++i) {
+            const verify::Fragment& fragment = objects[o].fragments[i];
+            if (!fragment.is_covered || shaded[i].is_discarded) continue;
+            Nearest& nearest = pixels[{fragment.y, fragment.x}];
+            if (shaded[i].depth < nearest.depth) nearest = {o, i, shaded[i].depth};
+        }
+    }
+    std::vector<std::vector<std::size_t>> visible(objects.size());
+    for (const auto& [pixel, nearest] : pixels)
+        if (nearest.depth < 1) visible[nearest.object].push_back(nearest.fragment);
+    return visible;
+}
+
+/// Takes over the triangles of some fragments, and their vertices, each once.
+class PartOfObject {
+  public:
+    PartOfObject(const Object& object, const std::vector<glm::dvec4>& positions)
+        : whole_(object), positions_(positions) {
+        part.object.model = object.model;
+        part.object.values = object.values;
+    }
+
+    void add(verify::Fragment fragment, const Color& reference, bool at_edge) {
+        fragment.triangle = triangle(fragment.triangle);
+        part.fragments.push_back(fragment);
+        part.reference.push_back(reference);
+        part.at_edge.push_back(at_edge);
+    }
+
+    ObjectPoints part;
+
+  private:
+    std::uint32_t triangle(std::uint32_t number) {
+        std::vector<std::uint32_t>& indices = part.object.mesh.indices;
+        const auto [found, is_new] =
+            triangles_.try_emplace(number, static_cast<std::uint32_t>(indices.size() / 3));
+        if (is_new)
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                indices.push_back(vertex(whole_.mesh.indices[3 * std::size_t{number} + corner]));
+        return found->second;
+    }
+
+    std::uint32_t vertex(std::uint32_t number) {
+        Mesh& mesh = part.object.mesh;
+        const auto [found, is_new] =
+            vertices_.try_emplace(number, static_cast<std::uint32_t>(mesh.positions.size()));
+        if (!is_new) return found->second;
+        mesh.positions.push_back(whole_.mesh.positions[number]);
+        mesh.normals.push_back(whole_.mesh.normals[number]);
+        mesh.texcoords.push_back(whole_.mesh.texcoords[number]);
+        part.positions.push_back(positions_[number]);
+        return found->second;
+    }
+
+    const Object& whole_;
+    const std::vector<glm::dvec4>& positions_;
+    std::map<std::uint32_t, std::uint32_t> triangles_;
+    std::map<std::uint32_t, std::uint32_t> vertices_;
+};
+
+/// The sampler of lit's shadow maps answers from the scene's.
+void give_shadow_maps(evaluate::Invocations& invocations, const evaluate::Image& maps) {
+    for (auto& [name, image] : invocations.images)
+        if (name.starts_with("shadowMaps")) image = maps;
+}
+
+/// The permutation's own colours in fp64, and where a shadow is decided within a rounding.
+Result<void> refer_to_fp64(const Variant& accurate, verify::SoftwareObject object, const DrawnScene& scene,
+                           ObjectPoints& part) {
+    const auto mark = [&part](std::size_t invocation) { part.at_edge[invocation] = true; };
+    // In quads, invocations are not the fragments alone.
+    if (scene.shadow_maps && !accurate.program.link.needs_quads)
+        give_shadow_maps(object.uniforms, image_of(scene.shadow_maps, mark));
+    GOBO_TRY(const auto shaded, verify::shade_in<double>(accurate.program, object));
+    for (std::size_t i = 0; i < shaded.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) part.reference[i][c] = shaded[i].color[c];
+    return {};
+}
+
+/// Fills in what ought to be seen.
+Result<void> add_reference(const Family& family, const Variant& accurate, ScenePoints& points) {
+    for (ObjectPoints& part : points.objects) {
+        if (part.fragments.empty()) continue;
+        GOBO_TRY(verify::SoftwareObject object, shaded_object(accurate, points.scene, part));
+        GOBO_TRY(points.from_oracle, refer_to_oracle(family, accurate, object, part));
+        if (points.from_oracle) continue;
+        GOBO_TRY_DO(refer_to_fp64(accurate, std::move(object), points.scene, part));
+    }
+    return {};
+}
+
+void count(ScenePoints& points) {
+    points.pixels = points.edges = points.shown_vertices = 0;
+    for (const ObjectPoints& part : points.objects) {
+        points.pixels += part.fragments.size();
+        points.edges += static_cast<std::size_t>(std::count(part.at_edge.begin(), part.at_edge.end(), true));
+        points.shown_vertices += part.object.mesh.positions.size();
+    }
+}
+
+}  // namespace
+
+Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys) {
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    Variants variants;
+    GOBO_TRY(variants.composition, compose(subject.family, keys, subject.search, Dialect::own));
+    ValidateOptions options;
+    options.jobs = subject.jobs;
+    options.keep_spirv = true;
+    const Validated validated = validate(subject.family, variants.composition, options);
+    if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);
+    GOBO_TRY(variants.all, parallel_results(subject.jobs, keys.size(), [&](std::size_t i) {
+                 return decode(validated, variants.composition.permutations[i]);
+             }));
+    for (std::size_t i = 0; i < keys.size(); ++i) variants.index[keys[i]] = i;
+    return variants;
+}
+
+Result<ScenePoints> find_points(const Family& family, const Variant& accurate, DrawnScene scene) {
+    scene = with_shadows(family, accurate.key, std::move(scene));
+    GOBO_TRY(
+        const auto objects,
+        verify::rasterise_objects(accurate.program, accurate.interface, scene.objects,
+                                  verify::with_plain_textures(accurate.interface, scene.values), scene.view));
+    GOBO_TRY(const auto visible, visible_fragments(accurate.program, objects));
+    ScenePoints points;
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        PartOfObject shown(scene.objects[o], objects[o].positions);
+        for (const std::size_t i : visible[o]) shown.add(objects[o].fragments[i], {}, false);
+        points.objects.push_back(std::move(shown.part));
+        points.mesh_vertices += scene.objects[o].mesh.positions.size();
+    }
+    points.scene = std::move(scene);
+    GOBO_TRY_DO(add_reference(family, accurate, points));
+    count(points);
+    if (points.pixels > 0) return points;
+    return fail(Fault::input, "the scene '" + points.scene.name + "' shows no surface");
+}
+
+ScenePoints thinned(const ScenePoints& points, std::size_t count_wanted) {
+    ScenePoints thin = points;
+    const std::size_t step = std::max<std::size_t>(1, points.pixels / count_wanted);
+    std::size_t next = 0;
+    for (std::size_t o = 0; o < points.objects.size(); ++o) {
+        const ObjectPoints& all = points.objects[o];
+        PartOfObject kept(all.object, all.positions);
+        for (std::size_t i = 0; i < all.fragments.size(); ++i)
+            if (next++ % step == 0) kept.add(all.fragments[i], all.reference[i], all.at_edge[i]);
+        thin.objects[o] = std::move(kept.part);
+    }
+    count(thin);
+    return thin;
+}
+
+Result<verify::SoftwareObject> shaded_object(const Variant& variant, const DrawnScene& scene,
+                                             const ObjectPoints& points) {
+    ViewedObject viewed = viewed_from(scene.view);
+    viewed.model = points.object.model;
+    std::vector<RenderValue> values = verify::with_plain_textures(variant.interface, scene.values);
+    values.insert(values.end(), points.object.values.begin(), points.object.values.end());
+    verify::SoftwareObject object;
+    GOBO_TRY(object.vertices, verify::uniforms_of(variant.program.vertex, variant.interface, values, viewed));
+    GOBO_TRY(object.uniforms,
+             verify::uniforms_of(variant.program.fragment, variant.interface, values, viewed));
+    verify::add_attributes(variant.program.vertex, points.object.mesh, values, object.vertices);
+    if (scene.shadow_maps)
+        for (evaluate::Invocations* stage : {&object.vertices, &object.uniforms})
+            give_shadow_maps(*stage, image_of(scene.shadow_maps));
+    object.indices = points.object.mesh.indices;
+    object.positions = points.positions;
+    object.fragments = points.fragments;
+    object.width = scene.view.width;
+    object.height = scene.view.height;
+    return object;
+}
+
+}  // namespace gobo::study

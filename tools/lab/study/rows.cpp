@@ -1,0 +1,291 @@
+#include "lab/study/rows.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "budget/qualities.hpp"
+#include "family/key.hpp"
+
+namespace gobo::study {
+namespace {
+
+std::string counts_text(const evaluate::Counts& counts) {
+    std::string text;
+    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)
+        if (counts[kind] > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : " ", evaluate::kKindNames[kind], counts[kind]);
+    return text;
+}
+
+using Part = double Spread::*;
+constexpr std::array<std::pair<const char*, Part>, 3> kParts = {
+    {{"", &Spread::median}, {"_q1", &Spread::low}, {"_q3", &Spread::high}}};
+
+/// What a cell of a column says: a number, a text, or one of two words. Nothing is an empty cell.
+struct Words {
+    const char* yes = "yes";
+    const char* no = "no";
+};
+
+std::string cell_of(const std::string& text) {
+    return text;
+}
+std::string cell_of(double number) {
+    return csv_number(number);
+}
+std::string cell_of(std::integral auto number) {
+    return std::to_string(number);
+}
+std::string cell_of(bool value, const Words& words) {
+    return value ? words.yes : words.no;
+}
+std::string cell_of(const auto& value, const auto&... words) requires requires {
+    value.has_value();
+}
+{ return value ? cell_of(*value, words...) : ""; }
+
+void read_cell(const std::string& cell, std::string& text) {
+    text = cell;
+}
+void read_cell(const std::string& cell, double& number) {
+    number = number_in_cell(cell).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+void read_cell(const std::string& cell, std::integral auto& number) {
+    number = static_cast<std::remove_reference_t<decltype(number)>>(number_in_cell(cell).value_or(0));
+}
+void read_cell(const std::string& cell, bool& value, const Words& words) {
+    value = cell == words.yes;
+}
+void read_cell(const std::string& cell, auto& value, const auto&... words) requires requires {
+    value.has_value();
+}
+{
+    if (!cell.empty()) read_cell(cell, value.emplace(), words...);
+}
+
+/// The columns of study.csv: calls `column` with the name of each and a row's member, and `derived` with the
+/// names and cells of those that nobody reads.
+template <class Row>
+void visit_columns(Row& row, const auto& column, const auto& derived) {
+    column("effects", row.effects);
+    column("key", row.key);
+    column("scene", row.scene);
+    column("reference", row.from_oracle, Words{"oracle", "fp64"});
+    column("pixels", row.pixels);
+    column("edges", row.edges);
+    column("error_max", row.total.max);
+    column("error_p999", row.total.p999);
+    column("error_rms", row.total.rms);
+    column("error_relative", row.relative);
+    column("rounding_max", row.rounding.max);
+    column("rounding_rms", row.rounding.rms);
+    column("approximation_max", row.approximation.max);
+    column("approximation_rms", row.approximation.rms);
+    column("rate_max", row.rate.max);
+    column("rate_rms", row.rate.rms);
+    column("fragment_cost", row.costs.fragment);
+    column("vertex_cost", row.costs.vertex);
+    column("vertices_per_fragment", row.costs.vertices_per_fragment);
+    column("cost", row.costs.total);
+    column("front", row.on_front, Words{});
+    column("dominated_by", row.dominated_by);
+    Timing timing = row.timing.value_or(Timing{});
+    const auto spread = [&](const std::string& name, Spread& own) {
+        for (const auto& [suffix, part] : kParts) {
+            std::optional<double> number;
+            if (row.timing) number = own.*part;
+            column(name + suffix, number);
+            own.*part = number.value_or(0);
+        }
+    };
+    spread("fragment_ns_elapsed", timing.elapsed.fragment);
+    spread("vertex_ns_elapsed", timing.elapsed.vertex);
+    spread("fragment_ns_processor", timing.processor.fragment);
+    spread("vertex_ns_processor", timing.processor.vertex);
+    for (const auto& [suffix, part] : kParts)
+        derived(std::string("time_ns") + suffix, row.timing ? csv_number(row.time().*part) : "");
+    column("time_front", row.on_time_front, Words{});
+    std::optional<int> rounds;
+    if (row.timing) rounds = timing.rounds;
+    column("rounds", rounds);
+    column("renderer", timing.renderer);
+    timing.rounds = rounds.value_or(0);
+    if constexpr (!std::is_const_v<Row>)
+        if (rounds) row.timing = timing;
+    column("fragment_instructions", row.instructions);
+    derived("fragment_operations", counts_text(row.work.fragments));
+    derived("vertex_operations", counts_text(row.work.vertices));
+}
+
+void widen(ErrorFigures& worst, const ErrorFigures& other) {
+    worst.max = std::max(worst.max, other.max);
+    worst.p999 = std::max(worst.p999, other.p999);
+    worst.rms = std::max(worst.rms, other.rms);
+}
+
+/// The worst error, the mean cost.
+StudyRow row_of_all(const std::vector<StudyRow>& scenes) {
+    StudyRow all;
+    const auto count = static_cast<double>(scenes.size());
+    all.from_oracle = true;
+    for (const StudyRow& row : scenes) {
+        all.from_oracle = all.from_oracle && row.from_oracle;
+        all.pixels += row.pixels;
+        all.edges += row.edges;
+        for (const auto figures :
+             {&StudyRow::total, &StudyRow::rounding, &StudyRow::approximation, &StudyRow::rate})
+            widen(all.*figures, row.*figures);
+        all.relative = std::max(all.relative, row.relative);
+        for (const auto cost :
+             {&Costs::fragment, &Costs::vertex, &Costs::vertices_per_fragment, &Costs::total})
+            all.costs.*cost += row.costs.*cost / count;
+        for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind) {
+            all.work.vertices[kind] += row.work.vertices[kind];
+            all.work.fragments[kind] += row.work.fragments[kind];
+        }
+    }
+    return all;
+}
+
+/// `rows` are one scene's, one for each key.
+void mark_front(const std::vector<StudyRow*>& rows) {
+    std::vector<Priced> points;
+    for (const StudyRow* row : rows) points.push_back({row->costs.total, row->total.max});
+    const auto by = dominators(points);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i]->on_front = !by[i];
+        if (by[i]) rows[i]->dominated_by = rows[*by[i]]->key;
+    }
+}
+
+/// `rows` are those over all scenes, one for each key: the timed ones are compared.
+void mark_time_front(std::vector<StudyRow*> rows, const std::optional<Control>& control) {
+    std::erase_if(rows, [](const StudyRow* row) { return !row->timing; });
+    if (rows.empty() || !control || control->ranked(rows.front()->timing->renderer) > kLargestControl) return;
+    for (StudyRow* row : rows)
+        row->on_time_front = std::none_of(rows.begin(), rows.end(), [&](const StudyRow* other) {
+            return other->total.max <= row->total.max && other->time().high < row->time().low;
+        });
+}
+
+}  // namespace
+
+Spread StudyRow::time() const {
+    const Slopes& slopes = timing->ranked();
+    Spread time;
+    for (const auto& [suffix, part] : kParts)
+        time.*part = slopes.fragment.*part + costs.vertices_per_fragment * slopes.vertex.*part;
+    return time;
+}
+
+std::vector<StudyRow> rows_of(const Family& family, const Study& study, const Weights& weights) {
+    std::vector<StudyRow> rows;
+    const std::size_t stride = study.scenes.size() + 1;
+    for (const EffectsResult& effects : study.effects) {
+        const std::size_t first = rows.size();
+        for (const KeyResult& result : effects.keys) {
+            std::vector<StudyRow> own;
+            for (const Measurement& measured : result.scenes) {
+                StudyRow& row = own.emplace_back();
+                static_cast<Measurement&>(row) = measured;
+                row.costs = costs_of(measured, weights);
+            }
+            own.insert(own.begin(), row_of_all(own));
+            own.front().timing = result.timing;
+            own.front().instructions = result.instructions;
+            for (std::size_t i = 0; i < own.size(); ++i) {
+                own[i].effects = key_text(family, effects.effects);
+                own[i].key = key_text(family, result.key);
+                own[i].quality = quality_text(family, result.key);
+                own[i].scene = i == 0 ? kAllScenes : study.scenes[i - 1];
+                rows.push_back(std::move(own[i]));
+            }
+        }
+        for (std::size_t scene = 0; scene < stride; ++scene) {
+            std::vector<StudyRow*> of_scene;
+            for (std::size_t i = first + scene; i < rows.size(); i += stride) of_scene.push_back(&rows[i]);
+            mark_front(of_scene);
+            if (scene == 0) mark_time_front(std::move(of_scene), effects.control);
+        }
+    }
+    return rows;
+}
+
+std::string study_csv(const std::vector<StudyRow>& rows) {
+    CsvTable table;
+    const StudyRow none;
+    const auto name = [&](const std::string& column, const auto&...) { table.columns.push_back(column); };
+    visit_columns(none, name, name);
+    for (const StudyRow& row : rows) {
+        std::vector<std::string>& cells = table.rows.emplace_back();
+        visit_columns(
+            row,
+            [&](const std::string&, const auto& member, const auto&... words) {
+                cells.push_back(cell_of(member, words...));
+            },
+            [&](const std::string&, const std::string& cell) { cells.push_back(cell); });
+    }
+    return csv_text(table);
+}
+
+Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path, const Family& family,
+                                        const Key& effects) {
+    const auto problem = [&](std::size_t row, std::string message) {
+        return fail_at_row(path, row, std::move(message),
+                           "name effects that the study holds, or make a study of them: gobo study FAMILY "
+                           "--effects KEY -o FOLDER");
+    };
+    const CsvTable table = read_csv(csv);
+    for (const char* column : {"effects", "key", "scene", "error_max", "cost", "front"})
+        if (!table.column(column)) return problem(0, fmt::format("has no column '{}'", column));
+    std::vector<StudyRow> rows;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        StudyRow row;
+        visit_columns(
+            row,
+            [&](const std::string& name, auto& member, const auto&... words) {
+                if (const auto index = table.column(name)) read_cell(table.rows[i][*index], member, words...);
+            },
+            [](const auto&...) {});
+        if (row.scene != kAllScenes) continue;
+        const auto own = parse_key(family, row.effects);
+        const auto key = parse_key(family, row.key);
+        if (!own || !key) return problem(i, (own ? key.error() : own.error()).front().message);
+        if (*own != effects) continue;
+        row.quality = quality_text(family, *key);
+        rows.push_back(std::move(row));
+    }
+    if (!rows.empty()) return rows;
+    return problem(0, fmt::format("holds no '{}'", key_text(family, effects)));
+}
+
+std::vector<StudyRow> summary_of(const Family& family, const std::vector<StudyRow>& rows) {
+    std::vector<StudyRow> summary;
+    for (const StudyRow& row : rows) {
+        if (row.scene != kAllScenes) continue;
+        const std::vector<Choice> singles = single_choices(family, parse_key(family, row.effects).value());
+        const bool is_single =
+            row.quality.empty() || std::any_of(singles.begin(), singles.end(), [&](const Choice& choice) {
+                return key_text(family, choice.key) == row.key;
+            });
+        if (row.on_front || is_single) summary.push_back(row);
+    }
+    return summary;
+}
+
+std::string curves_csv(const std::vector<CurvePoint>& curves) {
+    CsvTable table;
+    table.columns = {"feature",   "value",     "over",      "number",   "effects",
+                     "model_max", "model_rms", "error_max", "error_rms"};
+    for (const CurvePoint& point : curves)
+        table.rows.push_back({point.feature, point.value, point.over, csv_number(point.number), point.effects,
+                              csv_number(point.error.max), csv_number(point.error.rms),
+                              csv_number(point.total.max), csv_number(point.total.rms)});
+    return csv_text(table);
+}
+
+}  // namespace gobo::study
