@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
             "open_comment", "int a;\nint b; /* c */ /* d\n\n",
             "a.glsl:2: error: a comment has no end\n    int b; /* c */ /* d\n  help: close it with */\n"},
         BadPieceRow{"nul_byte", std::string("int a;\n\0", 8),
-                    "a.glsl:2: error: holds a NUL byte and is no text\n  help: name a GLSL file\n"},
+                    "a.glsl:2: error: holds a NUL byte and is not text\n  help: name a GLSL file\n"},
         BadPieceRow{"nested_over_lines",
                     std::string(201, '\n') + std::string(150, '{') + "\n" + std::string(51, '{') + "\n",
                     "a.glsl:203: error: brackets are nested more than 200 deep\n"

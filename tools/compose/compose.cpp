@@ -397,7 +397,7 @@ std::string_view line_of(const Piece& piece, int number) {
 
 std::string source_of(const Composition& composition, const Stage& stage) {
     std::string source;
-    for (const int piece : stage.pieces) source += composition.pieces[static_cast<std::size_t>(piece)].text;
+    for (const int piece : stage.pieces) source += composition.piece(piece).text;
     return source;
 }
 

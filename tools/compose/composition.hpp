@@ -67,6 +67,9 @@ struct Composition {
     std::map<std::string, int> stated_bindings;
     Diagnostics warnings;  ///< of the pieces, by path and line
     Dialect dialect = Dialect::own;
+
+    [[nodiscard]] const Piece& piece(int number) const { return pieces[static_cast<std::size_t>(number)]; }
+    [[nodiscard]] const Stage& stage(int number) const { return stages[static_cast<std::size_t>(number)]; }
 };
 
 /// The whole source of a stage: its pieces one after the other.

@@ -11,7 +11,7 @@
 namespace gobo {
 namespace {
 
-/// glslang 12 recurses once per bracket and overflows its stack on hostile input; no honest shader comes
+/// glslang 12 recurses once per bracket and overflows its stack on hostile input; no real shader comes
 /// near.
 constexpr int kDeepestNesting = 200;
 
@@ -256,7 +256,8 @@ class Scanner {
 Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     if (const auto nul = text.find('\0'); nul != std::string::npos)
-        return fail({path, line_at(text, nul), 0}, "", "holds a NUL byte and is no text", "name a GLSL file");
+        return fail({path, line_at(text, nul), 0}, "", "holds a NUL byte and is not text",
+                    "name a GLSL file");
     return Scanner(std::move(text), path).run();
 }
 

@@ -16,6 +16,15 @@ std::pair<std::string, std::string> folder_and_name(const std::string& path) {
     return {path.substr(0, std::max<std::size_t>(slash, 1)), path.substr(slash + 1)};
 }
 
+/// The stage that a file's name tells: .vert or .frag, also with .glsl behind; nothing for any other name.
+std::optional<StageKind> stage_of_file(const std::string& path) {
+    std::string_view name = path;
+    if (name.ends_with(".glsl")) name.remove_suffix(5);
+    if (name.ends_with(".vert")) return StageKind::vertex;
+    if (name.ends_with(".frag")) return StageKind::fragment;
+    return std::nullopt;
+}
+
 }  // namespace
 
 bool stays_inside(std::string_view include_path) {
@@ -75,14 +84,6 @@ std::vector<std::string> SearchPath::all_include_paths() const {
     std::sort(paths.begin(), paths.end());
     paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
     return paths;
-}
-
-std::optional<StageKind> stage_of_file(const std::string& path) {
-    std::string_view name = path;
-    if (name.ends_with(".glsl")) name.remove_suffix(5);
-    if (name.ends_with(".vert")) return StageKind::vertex;
-    if (name.ends_with(".frag")) return StageKind::fragment;
-    return std::nullopt;
 }
 
 bool is_shader_file(const std::string& path) {

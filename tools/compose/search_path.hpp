@@ -47,9 +47,6 @@ class SearchPath {
 /// Whether a path is relative and stays within its folder once `.` and `..` are followed.
 [[nodiscard]] bool stays_inside(std::string_view include_path);
 
-/// The stage that a file's name tells: .vert or .frag, also with .glsl behind; nothing for any other name.
-[[nodiscard]] std::optional<StageKind> stage_of_file(const std::string& path);
-
 /// Whether a name looks like a shader file's rather than a family's.
 [[nodiscard]] bool is_shader_file(const std::string& path);
 

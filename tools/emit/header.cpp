@@ -23,7 +23,7 @@ Result<std::string> namespace_of(const EmitInput& input) {
     while (true) {
         const auto end = rest.find("::");
         if (!is_cpp_identifier(rest.substr(0, end))) {
-            return fail(Fault::usage, fmt::format("'{}' is no C++ namespace", input.cpp_namespace),
+            return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
                         "use identifiers with '::' between them, such as game::shaders");
         }
         if (end == std::string_view::npos) return input.cpp_namespace;

@@ -12,41 +12,29 @@ namespace {
 
 constexpr int kWordBits = 64;
 
-std::string cpp_condition(const Expression& condition, const CppKey& key);
-
-std::string cpp_comparison(const Expression& condition, const CppKey& key) {
-    constexpr std::string_view operators[] = {"==", "!=", "<", "<=", ">", ">="};  // as Comparison lists them
-    std::vector<std::string> terms;
-    for (const int feature : condition.features) terms.push_back("key." + key[feature].member);
-    return fmt::format("{} {} {}", fmt::join(terms, " + "),
-                       operators[static_cast<std::size_t>(condition.comparison)],
-                       key[condition.features.front()].value(condition.value));
-}
-
-std::string cpp_parts(const Expression& condition, const CppKey& key) {
-    std::vector<std::string> parts;
-    for (const auto& part : condition.parts) {
-        const bool is_list =
-            part->kind == Expression::Kind::conjunction || part->kind == Expression::Kind::disjunction;
-        const std::string text = cpp_condition(*part, key);
-        parts.push_back(is_list ? "(" + text + ")" : text);
-    }
-    return fmt::format("{}",
-                       fmt::join(parts, condition.kind == Expression::Kind::conjunction ? " && " : " || "));
-}
-
 /// The C++ of a condition over a key named `key`.
 std::string cpp_condition(const Expression& condition, const CppKey& key) {
+    using Kind = Expression::Kind;
+    constexpr std::string_view operators[] = {"==", "!=", "<", "<=", ">", ">="};  // as Comparison lists them
+    std::vector<std::string> parts;
     switch (condition.kind) {
-        case Expression::Kind::constant:
+        case Kind::constant:
             return condition.constant ? "true" : "false";
-        case Expression::Kind::compare:
-            return cpp_comparison(condition, key);
-        case Expression::Kind::negation:
+        case Kind::compare:
+            for (const int feature : condition.features) parts.push_back("key." + key[feature].member);
+            return fmt::format("{} {} {}", fmt::join(parts, " + "),
+                               operators[static_cast<std::size_t>(condition.comparison)],
+                               key[condition.features.front()].value(condition.value));
+        case Kind::negation:
             return "!(" + cpp_condition(*condition.parts.front(), key) + ")";
-        case Expression::Kind::conjunction:
-        case Expression::Kind::disjunction:
-            return cpp_parts(condition, key);
+        case Kind::conjunction:
+        case Kind::disjunction:
+            for (const auto& part : condition.parts) {
+                const bool is_list = part->kind == Kind::conjunction || part->kind == Kind::disjunction;
+                const std::string text = cpp_condition(*part, key);
+                parts.push_back(is_list ? "(" + text + ")" : text);
+            }
+            return fmt::format("{}", fmt::join(parts, condition.kind == Kind::conjunction ? " && " : " || "));
     }
     return "true";
 }

@@ -1,9 +1,9 @@
-#include "emit/std140_type.hpp"
-
+// The C++ type of a member of a uniform block, from its reflected layout.
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "emit/sections.hpp"
 #include "spirv/glsl_type.hpp"
 
 namespace gobo {

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
-#include "emit/std140_type.hpp"
 
 namespace gobo {
 namespace {

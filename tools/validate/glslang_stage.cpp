@@ -19,19 +19,13 @@ namespace {
 constexpr auto kSpirvRules = static_cast<EShMessages>(EShMsgSpvRules);
 
 /// The texture functions of before GLSL 1.30, which carried their sampler's type in their name.
-constexpr std::string_view kRenamedFunctions =
-    "#define texture1D texture\n"
-    "#define texture1DProj textureProj\n"
-    "#define texture1DLod textureLod\n"
-    "#define texture2D texture\n"
-    "#define texture2DProj textureProj\n"
-    "#define texture2DLod textureLod\n"
-    "#define texture2DProjLod textureProjLod\n"
-    "#define texture3D texture\n"
-    "#define texture3DProj textureProj\n"
-    "#define texture3DLod textureLod\n"
-    "#define textureCube texture\n"
-    "#define textureCubeLod textureLod\n";
+std::string renamed_functions() {
+    std::string text;
+    for (const char* shape : {"1D", "2D", "3D", "Cube"})
+        for (const char* kind : {"", "Proj", "Lod", "ProjLod"})
+            text += fmt::format("#define texture{0}{1} texture{1}\n", shape, kind);
+    return text;
+}
 
 /// Whether glslang makes SPIR-V of the version as it is.
 bool makes_spirv(const GlslVersion& version) {
@@ -48,8 +42,8 @@ std::string raised_for_spirv(std::string_view prologue) {
     // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
     const bool is_first_es = version.es && version.number == 100;
     const bool has_old_names = is_first_es || (!version.es && version.number < 130);
-    return fmt::format("#version {}{}{}{}", version.es && !is_first_es ? "310 es" : "330 core",
-                       has_old_names ? "\n" : "", has_old_names ? kRenamedFunctions : "", rest);
+    return fmt::format("#version {}{}{}", version.es && !is_first_es ? "310 es" : "330 core",
+                       has_old_names ? "\n" + renamed_functions() : "", rest);
 }
 
 /// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
@@ -66,7 +60,7 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
         diagnostic.place = {piece->path, line, 0};
         // A generated piece carries the lines of the file it comes from only where it stands for one.
         diagnostic.quoted_line = line_of(*piece, line);
-        return;
+        if (!diagnostic.quoted_line.empty()) return;  // else another piece of the same file may hold it
     }
 }
 

@@ -39,7 +39,7 @@ void append(Diagnostics& all, const Diagnostics& more) {
 }
 
 Interface stage_interface(const Validated& validated, int stage) {
-    return stage < 0 ? Interface{} : validated.stages[static_cast<std::size_t>(stage)].interface;
+    return stage < 0 ? Interface{} : validated.stage(stage).interface;
 }
 
 /// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
@@ -187,8 +187,7 @@ class Validator {
 
     [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
         std::vector<const Piece*> pieces;
-        for (const int piece : composition_.stages[static_cast<std::size_t>(stage)].pieces)
-            pieces.push_back(&composition_.pieces[static_cast<std::size_t>(piece)]);
+        for (const int piece : composition_.stage(stage).pieces) pieces.push_back(&composition_.piece(piece));
         return pieces;
     }
     [[nodiscard]] Place template_of(int stage) const { return {pieces_of(stage).back()->path, 0, 0}; }
@@ -214,8 +213,7 @@ class Validator {
         Job& at = job(stage);
         const std::scoped_lock lock(at.mutex);
         if (std::exchange(at.is_parsed, true)) return at.is_fine;
-        at.glslang = std::make_unique<GlslangStage>(composition_.stages[static_cast<std::size_t>(stage)].kind,
-                                                    pieces_of(stage));
+        at.glslang = std::make_unique<GlslangStage>(composition_.stage(stage).kind, pieces_of(stage));
         at.is_fine = at.glslang->parse();
         at.diagnostics = at.glslang->diagnostics();
         return at.is_fine;

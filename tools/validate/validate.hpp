@@ -25,6 +25,10 @@ struct ValidatedStage {
 struct Validated {
     std::vector<ValidatedStage> stages;  ///< those of failed permutations are empty
     Diagnostics diagnostics;             ///< errors and warnings, grouped over permutations
+
+    [[nodiscard]] const ValidatedStage& stage(int number) const {
+        return stages[static_cast<std::size_t>(number)];
+    }
 };
 
 struct ValidateOptions {

@@ -4,7 +4,6 @@
 #include "emit/cpp_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/sections.hpp"
-#include "emit/std140_type.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {
@@ -202,7 +201,7 @@ TEST(EmitHeader, RefusesWhatIsNoNamespace) {
         ASSERT_FALSE(header) << name;
         EXPECT_EQ(to_text(header.error().front()),
                   std::string("gobo: error: '") + name +
-                      "' is no C++ namespace\n"
+                      "' is not a valid C++ namespace\n"
                       "  help: use identifiers with '::' between them, such as game::shaders\n");
         EXPECT_EQ(exit_status(header.error()), 2);
     }
