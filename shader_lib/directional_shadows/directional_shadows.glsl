@@ -1,7 +1,5 @@
-// Shadows of directional lights (S15): the first DIRECTIONAL_SHADOWS of them have one map each.
-//
-// Model, source, edges: mapVisibility().
-// Range:  eye space; result 0 to 1.
+// Shadows of directional lights: the first DIRECTIONAL_SHADOWS of them have one map each.
+
 #include "shadow/one_map.glsl"
 #include "shadow/parameters.glsl"
 

@@ -1,10 +1,7 @@
-// The whole lighting model at a vertex of the surface's back (S11, E2).
+// The whole lighting model at a vertex of the surface's back, the normal flipped.
 //
-// Model:  as litSurface(), n flipped.
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Implementing Two-sided Shading.
-// Space:  eye.
-// Range:  as litSurface().
-// Edges:  as litSurface().
+
 #include "lighting/radiance.glsl"
 #include "surface/side.glsl"
 

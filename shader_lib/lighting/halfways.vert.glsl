@@ -1,9 +1,8 @@
-// The half vectors of all lights, at a vertex, for hybrid shading (E3, S3).
+// The half vectors of all lights, h = (l + v) / |l + v|, at a vertex, for hybrid shading.
 //
-// Model:  h = (s + v) / |s + v|.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Moving Calculations to the Vertex Shader.
-// Space:  eye. Ranges: directionalRay(), pointRay(), spotRay().
-// Edges:  zero where the light stands exactly behind the viewer's ray (H-N4).
+// Edges:  zero where the light stands exactly behind the viewer's ray.
+
 #include <directional/ray>
 #include <guards/unit_vector>
 #include <viewer>

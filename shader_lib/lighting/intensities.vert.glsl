@@ -1,8 +1,8 @@
-// The cosines of all lights at a vertex, for tones that are found per fragment (S8).
+// n.l of all lights at a vertex, for tones that are found per fragment; n is the front's normal.
 //
-// Model:  n.s, n the front's normal.
 // Source: Lighthouse3D, GLSL Tutorial, Toon Shader, version I.
-// Space:  eye. Range: -1 to 1. Edges: 0 where there is no normal or no direction to the light (H-N1, H-L1).
+// Edges:  0 where there is no normal or no direction to the light.
+
 #include <directional/ray>
 #include <homogeneous/ray>
 #include <point/ray>

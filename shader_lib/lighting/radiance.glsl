@@ -1,9 +1,8 @@
-// The whole lighting model at one point of the surface, in whichever stage it is evaluated (L7).
+// The whole lighting model at one point of the surface, in whichever stage it is evaluated: emission + ambient light +
+// what is mirrored + the response to exactly the lights that the key counts. Linear, unclamped, not negative.
 //
-// Model:  emission + ambient light + what is mirrored + the response to exactly the lights that the key counts.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
-// Space:  eye. Range: linear radiance, unclamped, not negative.
-// Edges:  without lights emission, ambient light and what is mirrored remain.
+
 #include <directional>
 #include <homogeneous>
 #include <material>

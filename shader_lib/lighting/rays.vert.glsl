@@ -1,8 +1,7 @@
-// The rays to all local lights, at a vertex, for hybrid shading (E3).
+// The rays to all local lights at a vertex, for hybrid shading: direction and weight of each, as a varying.
 //
-// Model:  (s, share) of each light, as a varying.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Moving Calculations to the Vertex Shader.
-// Space:  eye. Ranges, edges: pointRay(), spotRay().
+
 #include <point/ray>
 #include <spot/ray>
 

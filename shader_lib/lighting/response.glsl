@@ -1,10 +1,9 @@
-// The surface's response to its lights: scattered (diffuse) and reflected (specular) light, summed apart.
+// The surface's response to its lights, diffuse and specular summed apart: K_d sum f_d(n.l) L + K_s sum f_s L, L after
+// attenuation. Linear and unclamped.
 //
-// Model:  K_d sum f_d(n.s) L + K_s sum f_s L, L after attenuation; f_d is chosen by `diffuse`, f_s by
-//         `specular`; and what `light_ambient` makes of the lights' ambient terms (L9).
-// Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour (S5).
-// Space:  eye. Ranges: n and s unit or zero; result linear and unclamped.
-// Edges:  a light gives exactly nothing unless n.s > 0 (S1, S4, H-S4), nor where s or n is zero (H-N1, H-L1).
+// Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour.
+// Edges:  a light gives exactly nothing unless n.l > 0: neither from behind nor where there is no normal or direction.
+
 #include <diffuse>
 #include <intensity>
 #include <light_ambient>

@@ -1,7 +1,5 @@
-// Shadows of point lights (S15): the first POINT_SHADOWS of them have six maps each, the faces of a cube.
-//
-// Model, source, edges: cubeVisibility().
-// Range:  eye space; result 0 to 1.
+// Shadows of point lights: the first POINT_SHADOWS of them have six maps each, the faces of a cube.
+
 #include "shadow/parameters.glsl"
 #include "shadow/six_maps.glsl"
 

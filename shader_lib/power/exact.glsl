@@ -1,13 +1,11 @@
-// The power of a cosine: the lobe of a highlight and of a spot light.
+// max(c, 0)^m with c = 1 - u: the lobe of a highlight and of a spot light, as exp(m log(1 - u)). Below u = 3/16
+// log(1 - u) = -2 artanh(z), z = u / (2 - u), by its series to z^7: 2e-7 relative to u, where the rounding of c alone costs
+// a plain pow(c, m) up to m 2^-24.
 //
-// Model:  max(c, 0)^m with c = 1 - versine (S2, S3, L5), as exp(m log(1 - versine)). Below a versine of 3/16
-//         log(1 - u) = -2 artanh(z), z = u / (2 - u), by its series to z^7: 2e-7 relative to u, where the
-//         rounding of c alone costs a plain pow(c, m) up to m 2^-24.
 // Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.1.27.
-// Ranges: versine 0 to 2, exponent 0 to 1e6; result 0 to 1.
-// Edges:  x^0 is 1 for every x, 0^0 too (H-S1); the base is never negative (H-S2, H-P3) nor above 1; at a
-//         large exponent what remains is the rounding of the directions, about 2 sqrt(m) 2^-24 / |s + v|
-//         (H-S3).
+// Ranges: u 0 to 2, exponent 0 to 1e6; result 0 to 1.
+// Edges:  x^0 is 1 for every x, 0^0 too; the base is never negative nor above 1; at a large exponent what remains is the
+//         rounding of the directions, about 2 sqrt(m) 2^-24 / |l + v|.
 
 /// log(1 - versine) for a versine in [0, 1).
 float logarithmOfCosine(float versine) {

@@ -1,6 +1,6 @@
-// The angle of Blinn's highlights, where light and viewer are known (S3).
-//
-// Model, source, range, edges: halfwayVersine().
+// The angle of Blinn's highlights.
+
+// Computed where the model is evaluated.
 #include <normal/halfway_versine>
 #include <viewer>
 
@@ -12,3 +12,17 @@ void beginHalfways() { halfwayViewer = towardViewer(); }
 
 /// 1 - cos of the angle between the normal and the half vector of a light and the viewer.
 float versineOfHighlight(vec3 normal, vec3 toLight) { return halfwayVersine(normal, toLight, halfwayViewer); }
+
+#piece hybrid.frag
+// 1 - n.h, h interpolated between the vertices.
+#include <normal>
+#include <normal/versine>
+#include "shading/light_number.glsl"
+
+/// Prepares what all half vectors share: nothing.
+void beginHalfways() {}
+
+/// 1 - cos of the angle between the normal and the half vector of the light that was asked for last.
+float versineOfHighlight(vec3 normal, vec3 toLight) {
+    return highlightVersine(normal, shadingDirection(lightsHalfways[lightNumber]));
+}

@@ -1,9 +1,8 @@
-// How a point light reaches the surface, computed where the model is evaluated (L4).
+// How a point light reaches the surface: l = (P - p) / d, attenuated by distance. A light at the surface's own position
+// comes from direction zero.
 //
-// Model:  s = (P - p) / d, attenuated by distance.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights.
-// Space:  eye. Range: as directionAndLength() and attenuation().
-// Edges:  a light at the surface's own position comes from direction zero (H-L1).
+
 #include <guards/polar>
 #include "lighting/attenuation.glsl"
 #include "point/lights.glsl"
@@ -15,4 +14,15 @@ LightRay pointRay(int i) {
     vec4 ray = directionAndLength(pointLights.lights[i].position.xyz - surfacePosition());
     float fading = attenuation(pointLights.lights[i].attenuation, ray.w);
     return LightRay(ray.xyz, fading, fading);
+}
+
+#piece hybrid.frag
+// Interpolated between the vertices.
+#include "shading/interpolated_ray.glsl"
+#include "shading/light_number.glsl"
+
+/// The ray to light number i.
+LightRay pointRay(int i) {
+    lightNumber = DIRECTIONAL_LIGHTS + i;
+    return interpolatedRay(lightRays[i]);
 }

@@ -1,9 +1,7 @@
-// How a spot light reaches the surface, computed where the model is evaluated (L5).
+// How a spot light reaches the surface: a point light times what its cone leaves.
 //
-// Model:  a point light (L4) times the share of its cone.
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Spotlights; glTF 2.0 KHR_lights_punctual.
-// Space:  eye. Ranges: as directionAndLength(), attenuation() and coneFactor().
-// Edges:  a light at the surface's own position comes from direction zero (H-L1).
+
 #include <guards/polar>
 #include "lighting/attenuation.glsl"
 #include "shading/light_ray.glsl"
@@ -18,4 +16,15 @@ LightRay spotRay(int i) {
     float cone = coneFactor(light.axis, -ray.xyz, light.innerVersine, light.outerVersine, light.exponent);
     float fading = attenuation(light.attenuation, ray.w);
     return LightRay(ray.xyz, fading, cone * fading);
+}
+
+#piece hybrid.frag
+// Interpolated between the vertices. A cone's rim runs through faces: it is a ramp as wide as the face.
+#include "shading/interpolated_ray.glsl"
+#include "shading/light_number.glsl"
+
+/// The ray to light number i.
+LightRay spotRay(int i) {
+    lightNumber = DIRECTIONAL_LIGHTS + POINT_LIGHTS + i;
+    return interpolatedRay(lightRays[POINT_LIGHTS + i]);
 }

@@ -1,7 +1,5 @@
-// Shadows of spot lights (S15): the first SPOT_SHADOWS of them have one map each, with the light's perspective.
-//
-// Model, source, edges: mapVisibility().
-// Range:  eye space; result 0 to 1.
+// Shadows of spot lights: the first SPOT_SHADOWS of them have one map each, with the light's perspective.
+
 #include "shadow/one_map.glsl"
 #include "shadow/parameters.glsl"
 

@@ -18,12 +18,12 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/render/framebuffer.hpp"
-#include "scene/read_scene.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "lab/scene_picture/scene_object.hpp"
 #include "lab/scene_picture/software_scene.hpp"
 #include "lab/scene_picture/uber_values.hpp"
 #include "lab/study/weights.hpp"
+#include "scene/read_scene.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -47,9 +47,10 @@ struct Shipped {
             const std::string path = folder + "templates/" + base + ".toml";
             return FamilyText{must(files.read(path)), path};
         };
-        const std::string path = folder + "templates/" + name + ".toml";
+        const std::string own_folder = name == "uber" ? "tests/ubershader" : "templates";
+        const std::string path = folder + own_folder + "/" + name + ".toml";
         family = must(read_family(must(files.read(path)), path, find));
-        for (const std::string part : {"shader_lib", "templates"})
+        for (const std::string& part : {own_folder, std::string("shader_lib"), std::string("templates")})
             search.add(files, folder + part, part + "/", false);
     }
     DiskFileSystem files;

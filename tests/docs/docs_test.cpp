@@ -39,7 +39,7 @@ TEST_P(Page, DoesWhatItSays) {
 INSTANTIATE_TEST_SUITE_P(Docs, Page,
                          testing::Values("adding_an_effect.md", "command_line.md", "family_file.md",
                                          "formats.md", "probes.md", "scene_format.md", "shadows.md",
-                                         "study.md", "uber.md"),
+                                         "study.md"),
                          [](const auto& page) { return page.param.substr(0, page.param.find('.')); });
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
+#include "../shipped_pieces.hpp"
 #include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
 
@@ -31,11 +31,7 @@ std::string stage_of(const std::string& piece) {
 }
 
 std::vector<std::string> sum_pieces() {
-    std::vector<std::string> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(GOBO_SOURCE_DIR "/shader_lib/light_sum"))
-        paths.push_back(entry.path().string());
-    std::sort(paths.begin(), paths.end());
-    return paths;
+    return piece_paths("light_sum/");
 }
 
 std::string piece_name(const std::string& path) {
@@ -44,9 +40,9 @@ std::string piece_name(const std::string& path) {
 
 double drawn_sum(const Context& context, const std::string& path) {
     const Result<Framebuffer> target = make_framebuffer(context, 1, 1);
-    const Result<Program> program = link_program(
-        context, {stage_text(StageKind::vertex, "whole_target.vert", kWholeTarget),
-                  stage_text(StageKind::fragment, path, stage_of(*DiskFileSystem().read(path)))});
+    const Result<Program> program =
+        link_program(context, {stage_text(StageKind::vertex, "whole_target.vert", kWholeTarget),
+                               stage_text(StageKind::fragment, path, stage_of(piece_text(path)))});
     EXPECT_TRUE(target);
     EXPECT_TRUE(program) << (program ? "" : to_text(program.error().front()));
     if (!target || !program) return 0;

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
+#include "../shipped_pieces.hpp"
 #include "evaluate_support.hpp"
 #include "lab/sanitize/machine.hpp"
 
@@ -54,11 +54,8 @@ void PrintTo(const SumPiece& piece, std::ostream* out) {
 
 std::vector<SumPiece> sum_pieces() {
     std::vector<SumPiece> pieces;
-    const std::filesystem::path folder = GOBO_SOURCE_DIR "/shader_lib/light_sum";
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        pieces.push_back({entry.path().stem().string(), *DiskFileSystem().read(entry.path().string())});
-    std::sort(pieces.begin(), pieces.end(),
-              [](const SumPiece& a, const SumPiece& b) { return a.name < b.name; });
+    for (const std::string& path : piece_paths("light_sum/"))
+        pieces.push_back({std::filesystem::path(path).stem().string(), piece_text(path)});
     return pieces;
 }
 

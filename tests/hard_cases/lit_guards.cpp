@@ -1,17 +1,14 @@
 #include "lit_guards.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
+#include "../shipped_pieces.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
 namespace {
-
-const std::string kLibrary = GOBO_SOURCE_DIR "/shader_lib";
 
 // One row for each guard; a line may hold several. Removing it (taking `plain` for `guarded`) must make the
 // case fail that is named last.
@@ -125,12 +122,6 @@ const std::vector<Guard> kGuards = {
      "H_X1_display"},
 };
 
-std::string text_of_piece(const std::string& piece) {
-    const Result<std::string> text = DiskFileSystem().read(kLibrary + "/" + piece);
-    EXPECT_TRUE(text) << piece;
-    return text ? *text : std::string();
-}
-
 /// Code, and behind it a comment that begins with a case's id.
 bool is_mark(std::string_view line) {
     const auto comment = line.find("// H-");
@@ -145,10 +136,8 @@ const std::vector<Guard>& lit_guards() {
 
 std::vector<GuardMark> guard_marks() {
     std::vector<GuardMark> marks;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kLibrary)) {
-        if (!entry.is_regular_file()) continue;
-        const std::string piece = std::filesystem::relative(entry.path(), kLibrary).generic_string();
-        const std::string text = text_of_piece(piece);
+    for (const std::string& piece : piece_paths()) {
+        const std::string text = piece_text(piece);
         const auto lines = std::count(text.begin(), text.end(), '\n');
         for (int line = 1; line <= lines; ++line)
             if (is_mark(line_of(text, line)))
@@ -162,7 +151,7 @@ std::vector<GuardMark> guard_marks() {
 }
 
 std::string without_guard(const Guard& guard) {
-    std::string text = text_of_piece(guard.piece);
+    std::string text = piece_text(guard.piece);
     const auto at = text.find(guard.guarded);
     EXPECT_NE(at, std::string::npos) << "shader_lib/" << guard.piece << " has no '" << guard.guarded << "'";
     return at == std::string::npos ? text : text.replace(at, guard.guarded.size(), guard.plain);

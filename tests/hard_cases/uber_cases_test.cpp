@@ -6,38 +6,34 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
-#include "lab/evaluate/images.hpp"
+#include "core/file_system.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lit_cases.hpp"
+#include "lab/evaluate/images.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/scene_picture/uber_values.hpp"
+#include "lit_cases.hpp"
+#include "settings.hpp"
+#include "uber_ports.hpp"
 #include "validate/validate.hpp"
-#include "lab/verify/uber_ports.hpp"
 
 namespace gobo {
 namespace {
 
 const DiskFileSystem disk;
 
-Family shipped_family(const std::string& name) {
-    const auto text_of = [](const std::string& base) -> Result<FamilyText> {
-        const std::string path = GOBO_SOURCE_DIR "/templates/" + base + ".toml";
-        return FamilyText{disk.read(path).value(), path};
-    };
-    const FamilyText text = text_of(name).value();
-    return read_family(text.text, text.path, text_of).value();
+Family lit_family() {
+    return read_family(disk.read(GOBO_SOURCE_DIR "/templates/lit.toml").value(), "templates/lit.toml")
+        .value();
 }
 
 /// The fragment stage of the ubershader's key.
 evaluate::Program fragment_of(const Family& family, const Key& key) {
     SearchPath search;
-    search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
-    search.add(disk, GOBO_SOURCE_DIR "/templates", "templates/", false);
+    uber::add_pieces(search);
     const Composition composition = compose(family, {key}, search, Dialect::own).value();
     ValidateOptions options;
     options.keep_spirv = true;
@@ -54,7 +50,7 @@ evaluate::Invocations switched(const evaluate::Program& uber, const oracle::Mode
     result.count = given.count;
     for (const auto* ports : {&uber.inputs, &uber.uniforms})
         for (const evaluate::Port& port : *ports) {
-            const auto from = verify::uber_port(model, port.name);
+            const auto from = uber::uber_port(model, port.name);
             const auto value = given.values.find(from ? from->lit_name : port.name);
             std::vector<double>& numbers = result.values[port.name];
             if (value != given.values.end()) numbers = value->second;
@@ -100,8 +96,8 @@ class UberCase : public testing::TestWithParam<Case> {
             ADD_FAILURE() << finding.place.file << ":" << finding.place.line << ": " << to_text(finding);
     }
 
-    const Family lit_ = shipped_family("lit");
-    const Family uber_ = shipped_family("uber");
+    const Family lit_ = lit_family();
+    const Family uber_ = uber::family();
 
   private:
     std::map<Key, evaluate::Program> programs_;

@@ -14,14 +14,17 @@ Result<std::vector<Model>> read_catalogue(std::string_view toml, const std::stri
     for (const auto& [id, node] : reader.root()) {
         const toml::table* table = node.as_table();
         if (table == nullptr) {
-            reader.error(node, "a model is a table", "write [ID] above its title, family, key and where");
+            reader.error(node, "a model is a table",
+                         "write [ID] above its title, family, key, where and pieces");
             continue;
         }
-        reader.only(*table, "model", {"title", "family", "key", "where"});
-        by_line[node.source().begin.line] = {
-            std::string(id.str()), reader.required_string(*table, "model", "title"),
-            reader.string(*table, "family").value_or("lit"), reader.required_string(*table, "model", "key"),
-            reader.required_string(*table, "model", "where")};
+        reader.only(*table, "model", {"title", "family", "key", "where", "pieces"});
+        by_line[node.source().begin.line] = {std::string(id.str()),
+                                             reader.required_string(*table, "model", "title"),
+                                             reader.string(*table, "family").value_or("lit"),
+                                             reader.required_string(*table, "model", "key"),
+                                             reader.required_string(*table, "model", "where"),
+                                             reader.strings(*table, "pieces")};
     }
     if (reader.failed()) return tl::unexpected(reader.errors());
     std::vector<Model> models;

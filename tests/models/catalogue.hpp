@@ -16,6 +16,7 @@ struct Model {
     std::string family;  ///< "lit"
     std::string key;     ///< an example
     std::string where;   ///< the permutations that have the model: a condition over the family's features
+    std::vector<std::string> pieces;  ///< files whose pieces say it: "fog.glsl" of shader_lib, or "tests/..."
 };
 
 /// The models in the order of the file. Errors: a syntax error, an unknown or missing name, at its line.

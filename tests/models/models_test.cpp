@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const Model kFog = {"F1", "linear fog", "lit", "fog=linear", "fog == linear"};
+const Model kFog = {"F1", "linear fog", "lit", "fog=linear", "fog == linear", {"fog.glsl"}};
 
 /// Three permutations, two of which have linear fog.
 std::map<std::string, Figures> figures() {
@@ -30,9 +30,7 @@ std::string page_of(const Model& model) {
 TEST(ModelsPage, GivesTheLargestErrorsOfAllPermutationsThatHaveTheModel) {
     EXPECT_THAT(
         page_of(kFog),
-        HasSubstr("| F1 | linear fog | `lit: fog=linear` | [fog/blend.glsl](../shader_lib/fog/blend.glsl), "
-                  "[fog/linear.glsl](../shader_lib/fog/linear.glsl), "
-                  "[fog/parameters.glsl](../shader_lib/fog/parameters.glsl) | "
+        HasSubstr("| F1 | linear fog | `lit: fog=linear` | [fog.glsl](../shader_lib/fog.glsl) | "
                   "![F1](pictures/models/F1.png) | 1.0e-07 | 4.0e-16 | 111 points, 2 permutations |\n"));
 }
 
@@ -44,22 +42,20 @@ TEST(ModelsPage, RefusesWhatItCannotShow) {
     };
     for (const Row& row : {
              Row{"a key without the model",
-                 {"F1", "", "lit", "point=1", "fog == linear"},
+                 {"F1", "", "lit", "point=1", "fog == linear", {"fog.glsl"}},
                  "F1: 'point=1' has not the model"},
-             Row{"no piece that names it",
-                 {"Z9", "", "lit", "fog=linear", "fog == linear"},
-                 "Z9: no piece of the example names it"},
-             Row{"an id that begins another",
-                 {"F", "", "lit", "fog=linear", "fog == linear"},
-                 "F: no piece of the example names it"},
+             Row{"no pieces", {"F1", "", "lit", "fog=linear", "fog == linear", {}}, "F1: no pieces say it"},
+             Row{"a piece that the example has not",
+                 {"F1", "", "lit", "fog=linear", "fog == linear", {"fog.glsl", "spot.glsl"}},
+                 "F1: the example has no piece of 'spot.glsl'"},
              Row{"nothing measured",
-                 {"F3", "", "lit", "fog=exponential_squared", "fog == exponential_squared"},
+                 {"F3", "", "lit", "fog=exponential_squared", "fog == exponential_squared", {"fog.glsl"}},
                  "F3: no measured permutation has it"},
              Row{"an unknown value",
-                 {"F1", "", "lit", "fog=murk", "fog == linear"},
+                 {"F1", "", "lit", "fog=murk", "fog == linear", {"fog.glsl"}},
                  "feature 'fog' has no value 'murk'"},
              Row{"a family without figures",
-                 {"F1", "", "uber", "fog=linear", "fog == linear"},
+                 {"F1", "", "uber", "fog=linear", "fog == linear", {"fog.glsl"}},
                  "F1: no figures of the family 'uber' were given"},
          })
         EXPECT_THAT(page_of(row.model), HasSubstr(row.message)) << row.name;
@@ -67,12 +63,14 @@ TEST(ModelsPage, RefusesWhatItCannotShow) {
 
 TEST(Catalogue, KeepsTheOrderOfItsFile) {
     const auto models = read_catalogue(
-        "[S2]\ntitle=\"a\"\nkey=\"b\"\nwhere=\"c\"\n[S10]\ntitle=\"d\"\nkey=\"e\"\nwhere=\"f\"\n[L1]\ntitle="
+        "[S2]\ntitle=\"a\"\nkey=\"b\"\nwhere=\"c\"\npieces=[\"p.glsl\"]\n[S10]\ntitle=\"d\"\nkey="
+        "\"e\"\nwhere=\"f\"\n[L1]\ntitle="
         "\"\"\nkey=\"\"\nwhere=\"\"\n",
         "m.toml");
     ASSERT_TRUE(models);
     ASSERT_EQ(models->size(), 3U);
     EXPECT_EQ((*models)[0].id, "S2");
+    EXPECT_EQ((*models)[0].pieces, std::vector<std::string>{"p.glsl"});
     EXPECT_EQ((*models)[1].id, "S10");
     EXPECT_EQ((*models)[1].key, "e");
     EXPECT_EQ((*models)[2].id, "L1");

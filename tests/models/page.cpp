@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <regex>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,10 +18,9 @@ namespace {
 
 constexpr const char* kHeading = R"(# The lighting models
 
-Every model of the classic texts by its id, an example of a permutation that has it, the pieces that say so in their first lines, and the
-largest errors that `gobo test` met over all permutations that have it: in single precision and, of the same shader, in double precision, both
+Every model of the classic texts by its id, an example of a permutation that has it, the files with its pieces, and the largest errors that `gobo test` met over all permutations that have it: in single precision and, of the same shader, in double precision, both
 relative to the largest term of the light ([verification](verification.md)). What is measured in the tests are the permutations of `gobo test lit
---cover 3` and `gobo test uber`; they mix models and qualities, and the largest errors are those of `spot_edge=cosine`, which tells narrow cones apart no better than a cosine in single
+--cover 3` and, of the ubershader, those of `tests/ubershader`; they mix models and qualities, and the largest errors are those of `spot_edge=cosine`, which tells narrow cones apart no better than a cosine in single
 precision does ([quality](quality.md)). One command writes this page, its pictures and its figures; a test fails
 where it is stale:
 
@@ -65,32 +63,32 @@ Result<Largest> largest_of(const Measured& measured, const Expression& where) {
 Result<Composition> compose_example(const FileSystem& files, const std::string& root, const Family& family,
                                     const Key& key) {
     SearchPath search;
+    if (family.name == "uber") search.add(files, root + "/tests/ubershader", "tests/ubershader/", false);
     search.add(files, root + "/shader_lib", "shader_lib/", false);
     search.add(files, root + "/templates", "templates/", false);
-    return compose(family, {key}, search, Dialect::own, Comments::keep);
+    return compose(family, {key}, search, Dialect::own);
 }
 
-/// The comment that a piece begins with.
-std::string header_of(const std::string& text) {
-    std::size_t end = 0;
-    while (text.compare(end, 2, "//") == 0) end = std::min(text.find('\n', end), text.size() - 1) + 1;
-    return text.substr(0, end);
+/// "shader_lib/fog.glsl" of "fog.glsl".
+std::string path_of(const std::string& piece) {
+    return piece.starts_with("tests/") ? piece : "shader_lib/" + piece;
 }
 
-/// The pieces that say in their header comment that they are of the model: "(S3)", "(S2, S3)".
-std::vector<std::string> pieces_naming(const Composition& composition, const std::string& id) {
-    const std::regex mention(fmt::format(R"((\(|, ){}[,)])", id));
-    std::vector<std::string> names;
-    for (const Piece& piece : composition.pieces)
-        if (std::regex_search(header_of(piece.text), mention)) names.push_back(piece.name);
-    std::sort(names.begin(), names.end());
-    return names;
+/// A file of pieces with a link to it.
+std::string link_to(const std::string& piece) {
+    return fmt::format("[{}](../{})", piece, path_of(piece));
 }
 
-/// A piece's name with a link to it, without the folder that all have.
-std::string piece_link(const std::string& name) {
-    const std::string folder = "shader_lib/";
-    return fmt::format("[{}](../{})", name.starts_with(folder) ? name.substr(folder.size()) : name, name);
+/// A file of which the example has no piece; empty where there is none.
+std::string absent(const Composition& example, const std::vector<std::string>& files) {
+    for (const std::string& file : files) {
+        const std::string path = path_of(file);
+        const bool is_there = std::any_of(
+            example.pieces.begin(), example.pieces.end(),
+            [&](const Piece& piece) { return piece.name == path || piece.name.starts_with(path + "#"); });
+        if (!is_there) return file;
+    }
+    return "";
 }
 
 Result<std::string> row_of(const FileSystem& files, const std::string& root, const Model& model,
@@ -107,9 +105,9 @@ Result<std::string> row_of(const FileSystem& files, const std::string& root, con
         return refuse(fmt::format("'{}' has not the model", model.key), "fix docs/models.toml");
     const Result<Composition> example = compose_example(files, root, family, *key);
     if (!example) return tl::unexpected(example.error());
-    const std::vector<std::string> pieces = pieces_naming(*example, model.id);
-    if (pieces.empty())
-        return refuse("no piece of the example names it", "name the id in a piece's header comment");
+    if (model.pieces.empty()) return refuse("no pieces say it", "name their files in docs/models.toml");
+    if (const std::string file = absent(*example, model.pieces); !file.empty())
+        return refuse(fmt::format("the example has no piece of '{}'", file), "mend docs/models.toml");
     const Result<Largest> largest = largest_of(measured, *where);
     if (!largest) return tl::unexpected(largest.error());
     if (largest->permutations == 0) return refuse("no measured permutation has it", "measure a larger cover");
@@ -117,7 +115,7 @@ Result<std::string> row_of(const FileSystem& files, const std::string& root, con
     if (!files.is_file(fmt::format("{}/docs/{}", root, picture)))
         return refuse(fmt::format("there is no docs/{}", picture), "build the target models");
     std::vector<std::string> links;
-    for (const std::string& piece : pieces) links.push_back(piece_link(piece));
+    for (const std::string& piece : model.pieces) links.push_back(link_to(piece));
     return fmt::format(
         "| {} | {} | `{}: {}` | {} | ![{}]({}) | {:.1e} | {:.1e} | {} points, {} permutations |\n", model.id,
         model.title, model.family, key_text(family, *key), fmt::join(links, ", "), model.id, picture,
@@ -125,7 +123,8 @@ Result<std::string> row_of(const FileSystem& files, const std::string& root, con
 }
 
 Result<Family> family_of(const FileSystem& files, const std::string& root, const std::string& name) {
-    const std::string path = fmt::format("templates/{}.toml", name);
+    const std::string path =
+        fmt::format("{}/{}.toml", name == "uber" ? "tests/ubershader" : "templates", name);
     const Result<std::string> text = files.read(root + "/" + path);
     if (!text) return tl::unexpected(text.error());
     return read_family(*text, path, [&](const std::string& base) -> Result<FamilyText> {

@@ -13,9 +13,9 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
-#include "mutants.hpp"
 #include "lab/verify/parallel.hpp"
 #include "lab/verify/test_meshes.hpp"
+#include "mutants.hpp"
 
 namespace gobo {
 namespace {
@@ -161,8 +161,8 @@ int run(const std::string& only) {
     const auto meshes = verify::test_meshes(read_obj(disk, source + "/data/meshes/teapot.obj").value());
     const int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Tally tally;
-    for (const std::string& piece : disk.files_below(source + "/shader_lib")) {
-        const auto users = keys.find("shader_lib/" + piece);
+    for (const std::string& piece : piece_paths()) {
+        const auto users = keys.find(shipped_pieces().find(piece).value()->name);
         if (users == keys.end() || !piece.starts_with(only)) continue;
         const std::vector<Mutant> mutants = mutants_of(piece, piece_text(piece));
         const std::vector<Key> some = some_of(users->second);

@@ -7,13 +7,12 @@ package=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 work="$scratch/with spaces"
-mkdir -p "$work/wrong/fog"
+mkdir "$work/wrong"
 cp -r "$source/tests/permutation_tests/application/." "$work"
 # Fog that begins where it should end.
-sed 's/fog\.near/fog.swapped/g; s/fog\.far/fog.near/g; s/fog\.swapped/fog.far/g' "$source/shader_lib/fog/linear.glsl" \
-  >"$work/wrong/fog/linear.glsl"
-if cmp -s "$source/shader_lib/fog/linear.glsl" "$work/wrong/fog/linear.glsl"; then
-  echo "FAILED: fog/linear.glsl has no near and far to swap"
+sed 's/fog\.near/fog.swapped/g; s/fog\.far/fog.near/g; s/fog\.swapped/fog.far/g' "$source/shader_lib/fog.glsl" >"$work/wrong/fog.glsl"
+if cmp -s "$source/shader_lib/fog.glsl" "$work/wrong/fog.glsl"; then
+  echo "FAILED: fog.glsl has no near and far to swap"
   exit 1
 fi
 # Shaders of an application's own, and the same with the last light forgotten: right GLSL, and precise.

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
+#include "../shipped_pieces.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
+#include "core/file_system.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "validate/validate.hpp"
@@ -15,11 +16,10 @@ namespace {
 /// The changed piece, in a folder that is searched first.
 void write_changed(const Change& change, MemoryFileSystem& memory) {
     if (change.piece.empty()) return;
-    const Result<std::string> text = DiskFileSystem().read(GOBO_SOURCE_DIR "/shader_lib/" + change.piece);
-    ASSERT_TRUE(text) << change.piece;
-    std::string changed = *text;
-    // Comments tell of the code in its own words.
-    const auto at = changed.find(change.from, changed.find("\n\n"));
+    std::string changed = piece_text(change.piece);
+    std::size_t code = 0;  // the comment before it tells of it in its own words
+    while (changed[code] == '\n' || changed.compare(code, 2, "//") == 0) code = changed.find('\n', code) + 1;
+    const auto at = changed.find(change.from, code);
     ASSERT_NE(at, std::string::npos) << change.piece << " has no " << change.from;
     changed.replace(at, change.from.size(), change.to);
     ASSERT_TRUE(memory.write("overlay/" + change.piece, changed));

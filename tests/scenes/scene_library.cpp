@@ -27,7 +27,8 @@ std::string text_of(const Diagnostics& diagnostics) {
 }
 
 ShippedFamily::ShippedFamily(const std::string& name) {
-    const std::string path = source + "/templates/" + name + ".toml";
+    const std::string own_folder = name == "uber" ? "tests/ubershader" : "templates";
+    const std::string path = source + "/" + own_folder + "/" + name + ".toml";
     const FindFamily find_base = [this](const std::string& base) -> Result<FamilyText> {
         const std::string base_path = source + "/templates/" + base + ".toml";
         Result<std::string> text = files.read(base_path);
@@ -39,7 +40,7 @@ ShippedFamily::ShippedFamily(const std::string& name) {
     Result<Family> read = read_family(*text, path, find_base);
     EXPECT_TRUE(read) << text_of(read.error());
     family = std::move(*read);
-    for (const std::string folder : {"shader_lib", "templates"})
+    for (const std::string& folder : {own_folder, std::string("shader_lib"), std::string("templates")})
         search.add(files, source + "/" + folder, folder + "/", false);
 }
 

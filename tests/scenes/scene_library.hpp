@@ -13,7 +13,7 @@
 
 namespace gobo::scene {
 
-/// A shipped family with its pieces, as they stand in the source tree.
+/// A shipped family with its pieces, or `uber` of tests/ubershader, as they stand in the source tree.
 struct ShippedFamily {
     explicit ShippedFamily(const std::string& name);
     DiskFileSystem files;

@@ -153,9 +153,9 @@ TEST(UberKey, KeepsQualityAndSwitchesTheRest) {
     const ShippedFamily uber("uber");
     const Key key = *parse_key(lit.family, "fog=linear fog_distance=planar specular=phong point=2");
     EXPECT_EQ(key_text(uber.family, uber_key(uber.family, lit.family, key, UberLights::switched)),
-              "ambient=switched cutout=switched diffuse=switched fog=switched fog_distance=planar "
-              "light_ambient=switched lighting=switched material=switched reflection=switched sides=switched "
-              "specular=switched vertex_color=switched");
+              "ambient=switched cutout=switched diffuse=switched directional=1 directional_shadows=1 fog=switched "
+              "fog_distance=planar light_ambient=switched lighting=switched material=switched "
+              "reflection=switched sides=switched specular=switched spot=1 vertex_color=switched");
     EXPECT_EQ(lights_of(lit.family, key), 2);
 }
 

@@ -205,18 +205,12 @@ TEST_F(Compose, WritesExactlyTheVaryingsThatAreRead) {
               "void main() { eyeNormal; eyePosition; }\n");
 }
 
-TEST_F(Compose, PlacesPiecesUnderOtherNames) {
-    files["tiny.frag"] = "#include \"a.glsl\" with f as g, x as y\n#include \"b.glsl\"\nvoid main() {}\n";
-    files["a.glsl"] = "int x; void f() {}\n";
-    files["b.glsl"] = "#include \"a.glsl\" with f as g, x as y\n";
+TEST_F(Compose, PlacesPiecesThatShareAFile) {
+    files["tiny.frag"] = "#include \"a/two.glsl\"\n#include \"a/one.glsl\"\nvoid main() {}\n";
+    files["a.glsl"] = "// Both\n#piece one\nint one;\n\n#piece two\n#include \"a/one.glsl\"\nint two;\n";
     EXPECT_EQ(fragment("default").source,
-              "#version 450 core\n#define f g\n#define x y\nint x; void f() {}\n#undef f\n#undef x\n"
-              "\n\n\nvoid main() {}\n");
-    files["b.glsl"] = "#include \"a.glsl\" with f as h\n";
-    EXPECT_EQ(first_error(),
-              "b.glsl:1:1: error: 'a.glsl' is in this stage already, under other names\n"
-              "    #include \"a.glsl\" with f as h\n    ^\n"
-              "  help: include it with the same renaming everywhere; a stage holds each piece once\n");
+              "#version 450 core\n\n\nint one;\n\n\n\n\n\n\n\nint two;\n\n\nvoid main() {}\n");
+    EXPECT_THAT(fragment("default").names, ElementsAre("prologue", "a.glsl#one", "a.glsl#two", "tiny.frag"));
 }
 
 TEST_F(Compose, LaysCountedVaryingsBehindTheOthers) {

@@ -130,9 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadPieceRow{"include_of_no_feature", "#include <fog linear>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include <fog linear>\n    ^\n"
                     "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
-        BadPieceRow{"renaming_without_a_name", "#include \"a.glsl\" with one as\n",
-                    "a.glsl:1:1: error: malformed renaming\n    #include \"a.glsl\" with one as\n    ^\n"
-                    "  help: write #include \"folder/piece.glsl\" with name as otherName, ...\n"},
         BadPieceRow{
             "open_comment", "int a;\nint b; /* c */ /* d\n\n",
             "a.glsl:2: error: a comment has no end\n    int b; /* c */ /* d\n  help: close it with */\n"},

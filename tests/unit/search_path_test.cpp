@@ -48,6 +48,32 @@ TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
     EXPECT_THAT(search.all_include_paths(), testing::ElementsAre("fog/linear.glsl", "fog/none.glsl"));
 }
 
+TEST(SearchPath, FindsPiecesThatShareAFile) {
+    MemoryFileSystem files(
+        {{"lib/fog.glsl", "// All fogs\n\n#piece linear\na\nb\n\n#piece distance/radial\nc"},
+         {"lib/fog/none.glsl", "none"},
+         {"own/fog/linear.glsl", "own"},
+         {"own/fog.glsl", "d\n#piece linear\ne"}});
+    SearchPath search;
+    search.add(files, "lib", "lib/", false);
+    const auto text = [&](const char* path) { return search.find(path).value().value().text; };
+    EXPECT_EQ(search.find("fog/linear.glsl").value(),
+              (Piece{"lib/fog.glsl#linear", "lib/fog.glsl", "\n\n\na\nb\n\n", false}))
+        << "lines have the file's numbers";
+    EXPECT_EQ(text("fog/distance/radial.glsl"), "\n\n\n\n\n\n\nc\n");
+    EXPECT_EQ(text("fog/none.glsl"), "none");
+    EXPECT_EQ(search.find("fog.glsl").value(), std::nullopt) << "it has nothing but a comment of its own";
+    EXPECT_EQ(search.find("fog/distance/planar.glsl").value(), std::nullopt);
+    EXPECT_EQ(search.find("fog/distance.glsl").value(), std::nullopt);
+    EXPECT_THAT(search.all_include_paths(), testing::ElementsAre("fog.glsl", "fog/distance/radial.glsl",
+                                                                 "fog/linear.glsl", "fog/none.glsl"));
+    SearchPath overridden;
+    overridden.add(files, "own", "", true);
+    overridden.add(files, "lib", "lib/", false);
+    EXPECT_EQ(overridden.find("fog/linear.glsl").value()->text, "own");
+    EXPECT_EQ(overridden.find("fog.glsl").value()->text, "d\n");
+}
+
 TEST(SearchPath, TakesANamedFileWhateverFolderHoldsAnother) {
     MemoryFileSystem files({{"one/a.frag", "first"}, {"two/a.frag", "second"}, {"one/b.glsl", "b"}});
     SearchPath search;

@@ -1,7 +1,7 @@
 #include "lit_library.hpp"
 
-#include "core/file_system.hpp"
 #include "compose/compose.hpp"
+#include "core/file_system.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "validate/validate.hpp"
@@ -16,21 +16,6 @@ const std::string kSource = GOBO_SOURCE_DIR;
 Family lit_family() {
     const DiskFileSystem disk;
     return read_family(disk.read(kSource + "/templates/lit.toml").value(), "templates/lit.toml").value();
-}
-
-Family uber_family() {
-    const DiskFileSystem disk;
-    const FindFamily find_base = [&disk](const std::string& base) -> Result<FamilyText> {
-        const std::string path = "templates/" + base + ".toml";
-        return FamilyText{disk.read(kSource + "/" + path).value(), path};
-    };
-    return read_family(disk.read(kSource + "/templates/uber.toml").value(), "templates/uber.toml", find_base)
-        .value();
-}
-
-std::string piece_text(const std::string& include_path) {
-    const DiskFileSystem disk;
-    return disk.read(kSource + "/shader_lib/" + include_path).value();
 }
 
 Result<Composition> compose_lit(const Family& family, const std::vector<Key>& keys, const Overlay& overlay) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../shipped_pieces.hpp"
 #include "lab/verify/verify.hpp"
 
 namespace gobo {
@@ -14,12 +15,6 @@ using Overlay = std::map<std::string, std::string, std::less<>>;
 
 /// lit as it stands in the source tree.
 [[nodiscard]] Family lit_family();
-
-/// The ubershader `uber` as it stands in the source tree.
-[[nodiscard]] Family uber_family();
-
-/// The text of a piece of shader_lib/.
-[[nodiscard]] std::string piece_text(const std::string& include_path);
 
 /// The keys of `lit`, or of the family that extends it, composed with the overlay; errors in the pieces come back.
 [[nodiscard]] Result<Composition> compose_lit(const Family& family, const std::vector<Key>& keys,

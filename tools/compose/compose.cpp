@@ -189,9 +189,8 @@ struct Placement {
     StageKind stage;
     const std::vector<int>* varyings;  ///< to write, in the vertex stage
     std::vector<int> placed = {};
-    std::map<int, std::vector<Renaming>> names = {};  ///< of the pieces placed under other names
-    std::vector<int> open = {};                       ///< pieces whose includes are being followed
-    bool wants_varyings = false;                      ///< an `#include <varyings>` was met
+    std::vector<int> open = {};   ///< pieces whose includes are being followed
+    bool wants_varyings = false;  ///< an `#include <varyings>` was met
 };
 
 class Composer {
@@ -227,13 +226,7 @@ class Composer {
 
     /// Places a piece after everything it includes, once.
     Result<void> place(Placement& placement, int piece, const Include& from) {
-        if (has(placement.placed, piece)) {
-            if (from.renamings.empty() || placement.names[piece] == from.renamings) return {};
-            return fail_at(from,
-                           fmt::format("'{}' is in this stage already, under other names",
-                                       library_.entry(piece).piece.name),
-                           "include it with the same renaming everywhere; a stage holds each piece once");
-        }
+        if (has(placement.placed, piece)) return {};
         if (has(placement.open, piece)) return cycle(placement, piece, from);
         if (placement.open.size() > kDeepestInclude) {
             return fail_at(from, fmt::format("includes are nested more than {} deep", kDeepestInclude),
@@ -242,23 +235,8 @@ class Composer {
         placement.open.push_back(piece);
         for (const Include& include : library_.entry(piece).includes) GOBO_TRY_DO(follow(placement, include));
         placement.open.pop_back();
-        put(placement, piece, from.renamings);
-        return {};
-    }
-
-    /// The piece itself, its names changed by the preprocessor for as long as it lasts.
-    void put(Placement& placement, int piece, const std::vector<Renaming>& renamings) {
-        std::string before;
-        std::string after;
-        for (const Renaming& renaming : renamings) {
-            before += fmt::format("#define {} {}\n", renaming.from, renaming.to);
-            after += fmt::format("#undef {}\n", renaming.from);
-        }
-        const std::string& path = library_.entry(piece).piece.path;
-        if (!before.empty()) placement.placed.push_back(library_.generated({"[renaming]", path, before}));
         placement.placed.push_back(piece);
-        if (!after.empty()) placement.placed.push_back(library_.generated({"[renamed]", path, after}));
-        placement.names[piece] = renamings;
+        return {};
     }
 
     Result<void> follow(Placement& placement, const Include& include) {

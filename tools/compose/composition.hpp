@@ -28,7 +28,7 @@ enum class Comments { remove, keep };
 
 /// One text of a stage. All pieces of a stage, one after the other, are its source.
 struct Piece {
-    std::string name;  ///< portable: "shader_lib/fog/linear.glsl", or relative to the folder it was found in
+    std::string name;  ///< portable: "shader_lib/fog.glsl#linear", or relative to the folder it was found in
     std::string path;  ///< as diagnostics and depfiles show it; for a generated piece, the file it comes from
     std::string text;  ///< what is validated and shipped, line for line as the file: includes are blanked
     bool on_disk = false;        ///< read from a file that a depfile must name

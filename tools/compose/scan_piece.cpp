@@ -140,31 +140,7 @@ std::string without_trailing_blanks(std::string_view text) {
     return result;
 }
 
-/// "a as b, c as d"
-std::optional<std::vector<Renaming>> parse_renamings(std::string_view text) {
-    std::vector<Renaming> renamings;
-    for (const std::string& one : split(text, ',')) {
-        const std::size_t middle = one.find(" as ");
-        if (middle == std::string::npos) return std::nullopt;
-        const std::string from(trim(std::string_view(one).substr(0, middle)));
-        const std::string to(trim(std::string_view(one).substr(middle + 4)));
-        if (!is_identifier(from) || !is_identifier(to)) return std::nullopt;
-        renamings.push_back({from, to});
-    }
-    return renamings;
-}
-
 Result<Include> parse_include(std::string_view rest, const Place& place, std::string_view shown) {
-    std::optional<std::vector<Renaming>> renamings = std::vector<Renaming>{};
-    const std::size_t close = rest.size() > 1 ? rest.find_first_of(">\"", 1) : std::string_view::npos;
-    if (close != std::string_view::npos && trim(rest.substr(close + 1)).starts_with("with ")) {
-        renamings = parse_renamings(trim(rest.substr(close + 1)).substr(5));
-        rest = rest.substr(0, close + 1);
-        if (!renamings) {
-            return fail(place, shown, "malformed renaming",
-                        "write #include \"folder/piece.glsl\" with name as otherName, ...");
-        }
-    }
     const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
     const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
     const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
@@ -172,7 +148,7 @@ Result<Include> parse_include(std::string_view rest, const Place& place, std::st
         return fail(place, shown, "malformed #include",
                     "write #include <feature> or #include \"folder/piece.glsl\"");
     }
-    return Include{angle, target, place, std::string(shown), std::move(*renamings)};
+    return Include{angle, target, place, std::string(shown)};
 }
 
 /// Walks over the lines of one file, collecting into `result`.

@@ -12,21 +12,12 @@
 
 namespace gobo {
 
-/// A name that the included piece gives to something, and what it is called instead.
-struct Renaming {
-    std::string from;
-    std::string to;
-
-    friend bool operator==(const Renaming&, const Renaming&) = default;
-};
-
-/// `#include <feature>`, `#include <feature/part>` or `#include "path"`, and behind it `with a as b, c as d`.
+/// `#include <feature>`, `#include <feature/part>` or `#include "path"`.
 struct Include {
     bool of_feature = false;
     std::string target;
     Place place;
     std::string line;  ///< as it stands in the file, for diagnostics
-    std::vector<Renaming> renamings = {};
 };
 
 /// One GLSL file as the composer sees it.

@@ -9,6 +9,45 @@
 namespace gobo {
 namespace {
 
+constexpr std::string_view kMarker = "#piece ";
+constexpr std::string_view kExtension = ".glsl";
+
+/// The name behind `#piece`, where the line is such a marker.
+std::optional<std::string_view> marked(std::string_view line) {
+    if (!line.starts_with(kMarker)) return std::nullopt;
+    return trim(line.substr(kMarker.size()));
+}
+
+/// Calls visit(line) for each, its end left out, until it answers false.
+template <class Visit>
+void for_each_line(std::string_view text, Visit visit) {
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        if (!visit(text.substr(start, end - start))) return;
+        start = end + 1;
+    }
+}
+
+/// What a file holds between the marker of that name and the next one, behind as many empty lines as stand
+/// before it: line numbers are the file's. With an empty name, what stands before the first marker, unless
+/// that is but a comment on all that follows.
+std::optional<std::string> section_of(const std::string& text, const std::string& name) {
+    if (text.find(kMarker) == std::string::npos) return name.empty() ? std::optional(text) : std::nullopt;
+    std::string section;
+    bool is_inside = name.empty();
+    bool has_code = false;
+    for_each_line(text, [&](std::string_view line) {
+        const std::optional<std::string_view> mark = marked(line);
+        if (mark && is_inside) return false;
+        if (mark) is_inside = *mark == name;
+        if (is_inside && !mark) section += line;
+        has_code = has_code || (is_inside && !mark && !line.empty() && !line.starts_with("//"));
+        section += '\n';
+        return true;
+    });
+    return has_code ? std::optional(std::move(section)) : std::nullopt;
+}
+
 /// "a/b.frag" -> "a" and "b.frag"; of a file in the root "/".
 std::pair<std::string, std::string> folder_and_name(const std::string& path) {
     const auto slash = path.rfind('/');
@@ -51,19 +90,36 @@ void SearchPath::add_file(const FileSystem& files, const std::string& path) {
 Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) const {
     for (const Root& root : roots_) {
         if (!root.only.empty() && root.only != include_path) continue;
-        const bool here = root.folder.empty() || root.folder == ".";
-        const std::string path = here ? include_path : root.folder + "/" + include_path;
-        if (!root.files->is_file(path)) continue;
-        const std::string real_root = root.files->real_path(here ? "." : root.folder);
-        if (root.on_disk && root.only.empty() &&
-            !root.files->real_path(path).starts_with(real_root == "/" ? real_root : real_root + "/")) {
-            return fail({path, 0, 0}, "", fmt::format("is a link that leads out of '{}'", root.folder),
-                        "put the piece itself into the folder, or name its folder with -I");
+        Result<std::optional<Piece>> piece = read(root, include_path, "");
+        const bool can_be_marked = root.only.empty() && include_path.ends_with(kExtension);
+        for (std::size_t slash = include_path.rfind('/');
+             can_be_marked && piece && !*piece && slash != std::string::npos && slash != 0;
+             slash = include_path.rfind('/', slash - 1)) {
+            const std::string behind = include_path.substr(slash + 1);
+            piece = read(root, include_path.substr(0, slash).append(kExtension),
+                         behind.substr(0, behind.size() - kExtension.size()));
         }
-        GOBO_TRY(std::string text, root.files->read(path));
-        return Piece{root.name_prefix + include_path, path, std::move(text), root.on_disk};
+        if (!piece || *piece) return piece;
     }
     return std::nullopt;
+}
+
+Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::string& file,
+                                              const std::string& section) {
+    const bool here = root.folder.empty() || root.folder == ".";
+    const std::string path = here ? file : root.folder + "/" + file;
+    if (!root.files->is_file(path)) return std::nullopt;
+    const std::string real_root = root.files->real_path(here ? "." : root.folder);
+    if (root.on_disk && root.only.empty() &&
+        !root.files->real_path(path).starts_with(real_root == "/" ? real_root : real_root + "/")) {
+        return fail({path, 0, 0}, "", fmt::format("is a link that leads out of '{}'", root.folder),
+                    "put the piece itself into the folder, or name its folder with -I");
+    }
+    GOBO_TRY(const std::string text, root.files->read(path));
+    std::optional<std::string> found = section_of(text, section);
+    if (!found) return std::nullopt;
+    const std::string name = root.name_prefix + file + (section.empty() ? "" : "#" + section);
+    return Piece{name, path, std::move(*found), root.on_disk};
 }
 
 std::vector<std::string> SearchPath::folders() const {
@@ -78,8 +134,17 @@ std::vector<std::string> SearchPath::all_include_paths() const {
     for (const Root& root : roots_) {
         if (!root.only.empty()) continue;
         const std::string folder = root.on_disk && root.folder.empty() ? "." : root.folder;
-        const std::vector<std::string> below = root.files->files_below(folder);
-        paths.insert(paths.end(), below.begin(), below.end());
+        for (const std::string& file : root.files->files_below(folder)) {
+            paths.push_back(file);
+            if (!file.ends_with(kExtension)) continue;
+            const Result<std::string> text = root.files->read(folder.empty() ? file : folder + "/" + file);
+            for_each_line(text.value_or(""), [&](std::string_view line) {
+                if (const auto mark = marked(line))
+                    paths.push_back(fmt::format("{}/{}{}", file.substr(0, file.size() - kExtension.size()),
+                                                *mark, kExtension));
+                return true;
+            });
+        }
     }
     std::sort(paths.begin(), paths.end());
     paths.erase(std::unique(paths.begin(), paths.end()), paths.end());

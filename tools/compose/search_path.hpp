@@ -23,13 +23,15 @@ class SearchPath {
     void add_file(const FileSystem& files, const std::string& path);
 
     /// The first piece of that include path ("fog/linear.glsl"), its text as it stands in the file; nothing
-    /// where no folder has it. Fault::file where it cannot be read; Fault::input where a link leads out of
-    /// its folder.
+    /// where no folder has it. A file may hold several pieces: `fog/linear.glsl` is also what stands in
+    /// `fog.glsl` between `#piece linear` and the next such line, its name then `fog.glsl#linear`; a file of
+    /// its own goes before. Fault::file where it cannot be read; Fault::input where a link leads out of its
+    /// folder.
     [[nodiscard]] Result<std::optional<Piece>> find(const std::string& include_path) const;
 
     /// The folders as diagnostics name them.
     [[nodiscard]] std::vector<std::string> folders() const;
-    /// The include paths of all files, sorted, each once.
+    /// The include paths of all files and pieces, sorted, each once.
     [[nodiscard]] std::vector<std::string> all_include_paths() const;
 
   private:
@@ -40,6 +42,10 @@ class SearchPath {
         bool on_disk;
         std::string only;  ///< the one file of the folder that counts; empty: all
     };
+    /// A piece of a root's file: behind `#piece SECTION`, or before the first marker.
+    static Result<std::optional<Piece>> read(const Root& root, const std::string& file,
+                                             const std::string& section);
+
     std::vector<Root> roots_;
     std::size_t named_files_ = 0;  ///< they stand first
 };

@@ -117,7 +117,7 @@ const std::map<std::string, Setter>& setters() {
 }  // namespace
 
 tl::expected<Model, std::string> model_of(const Family& family, const Key& key) {
-    if (family.name != "lit" && family.name != "uber")
+    if (family.name != "lit")
         return tl::unexpected(fmt::format("the oracle does not know the family '{}'", family.name));
     Model model;
     for (std::size_t i = 0; i < key.size(); ++i) {

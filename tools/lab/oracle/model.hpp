@@ -1,4 +1,4 @@
-// Which of the lighting models a key of the families `lit` and `uber` stands for.
+// Which of the lighting models a key of the family `lit` stands for.
 #pragma once
 
 #include <string>
@@ -83,8 +83,8 @@ struct Model {
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 
-/// The model of a key of `lit` or `uber`; otherwise the reason why the oracle has none: another family, or a feature or value
-/// that stands at anything but its default and that the oracle's equations do not cover, such as a switch.
+/// The model of a key of `lit`; otherwise the reason why the oracle has none: another family, or a feature or value
+/// that stands at anything but its default and that the oracle's equations do not cover.
 [[nodiscard]] tl::expected<Model, std::string> model_of(const Family& family, const Key& key);
 
 }  // namespace gobo::oracle

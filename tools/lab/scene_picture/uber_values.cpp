@@ -143,6 +143,12 @@ Key uber_key(const Family& uber, const Family& lit, const Key& key, UberLights l
         } else if (own) {
             result[i] = key[static_cast<std::size_t>(*own)];  // the values of lit come first in uber
         }
+        if (feature.kind ==
+            FeatureKind::count) {  // what counted lights ask for, all lights may need (uber.toml)
+            const bool stands_in = feature.name == "directional" || feature.name == "directional_shadows" ||
+                                   feature.name == "spot";
+            result[i] = stands_in ? 1 : 0;
+        }
     }
     return canonical(uber, result, "450");
 }

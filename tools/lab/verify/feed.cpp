@@ -12,7 +12,6 @@
 #include "lab/verify/intensities.hpp"
 #include "lab/verify/sample_textures.hpp"
 #include "lab/verify/shadow_feed.hpp"
-#include "lab/verify/switched_feed.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -110,6 +109,23 @@ std::optional<Field> spot_field(const ElementName& name) {
     return point_field(&oracle::Scene::spot, name);
 }
 
+FieldOfFamily family_field = nullptr;
+
+std::optional<Field> lit_field_of(const std::string& name) {
+    static const Fields plain = plain_fields();
+    if (const auto found = plain.find(name); found != plain.end()) return found->second;
+    if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
+    if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
+    if (auto cosines = intensities_field(name)) return cosines;
+    if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
+    if (const auto light = element_name(name, "PointLights.lights"))
+        return point_field(&oracle::Scene::point, *light);
+    if (const auto light = element_name(name, "SpotLights.lights")) return spot_field(*light);
+    if (auto surface = surface_field_of(name)) return surface;
+    if (const auto image = image_light_field(name)) return image;
+    return shadow_field(name);
+}
+
 Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> samples,
                        evaluate::Invocations& invocations) {
     const std::optional<Field> field = field_of(port.name);
@@ -130,20 +146,13 @@ Result<bool> feed_port(const evaluate::Port& port, std::span<const Sample> sampl
 
 }  // namespace
 
+void lay_fields_over_lit(FieldOfFamily field) {
+    family_field = field;
+}
+
 std::optional<Field> field_of(const std::string& name) {
-    static const Fields plain = plain_fields();
-    if (const auto found = plain.find(name); found != plain.end()) return found->second;
-    if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
-    if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
-    if (auto cosines = intensities_field(name)) return cosines;
-    if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
-    if (const auto light = element_name(name, "PointLights.lights"))
-        return point_field(&oracle::Scene::point, *light);
-    if (const auto light = element_name(name, "SpotLights.lights")) return spot_field(*light);
-    if (auto surface = surface_field_of(name)) return surface;
-    if (const auto image = image_light_field(name)) return image;
-    if (const auto switched = switched_field(name)) return switched;
-    return shadow_field(name);
+    std::optional<Field> field = lit_field_of(name);
+    return family_field == nullptr ? field : family_field(name, std::move(field));
 }
 
 Result<evaluate::Invocations> feed(const evaluate::Program& program, std::span<const Sample> samples) {

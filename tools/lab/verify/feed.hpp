@@ -22,6 +22,11 @@ struct Field {
 /// The field of that reflected name: "PointLights.lights[2].color". Nothing where samples have no such field.
 [[nodiscard]] std::optional<Field> field_of(const std::string& name);
 
+/// What a name means to a family over `lit` that the oracle's samples are to be tried on: asked for each
+/// name, with what `lit` has by it. To be set before anything is read: tests do so for a family of theirs.
+using FieldOfFamily = std::optional<Field> (*)(const std::string& name, std::optional<Field> of_lit);
+void lay_fields_over_lit(FieldOfFamily field);
+
 /// The samples as invocations of the stage. An error for an input or uniform that samples have no value for.
 [[nodiscard]] Result<evaluate::Invocations> feed(const evaluate::Program& program,
                                                  std::span<const Sample> samples);

@@ -78,19 +78,10 @@ std::optional<Field> homogeneous_member(const ElementName& name) {
     return std::nullopt;
 }
 
-/// A member of a row of the table. An ubershader's first row is the sample's only material, where its model
-/// has no table.
+/// A member of a row of the table.
 std::optional<Field> row_member(const ElementName& row) {
-    auto field = material_member(
+    return material_member(
         row.member, [i = row.index](auto& s) -> auto& { return s.scene.materials[i]; });
-    const auto only = material_member(
-        row.member, [](auto& s) -> auto& { return s.scene.material; });
-    if (field && row.index == 0)
-        field->get = [in_table = field->get, alone = only->get](const Sample& sample) {
-            const bool has_table = sample.model.material == oracle::MaterialChoice::array;
-            return has_table ? in_table(sample) : alone(sample);
-        };
-    return field;
 }
 
 }  // namespace

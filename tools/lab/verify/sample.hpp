@@ -18,7 +18,7 @@ namespace gobo::verify {
 
 /// One invocation of a stage: every sample has lights, a material and matrices of its own.
 struct Sample {
-    oracle::Model model;  ///< that it was made for: what the switches of an ubershader are set to
+    oracle::Model model;  ///< that it was made for
     oracle::Scene scene;
 
     // What a vertex stage reads besides.

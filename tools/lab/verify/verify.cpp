@@ -6,7 +6,6 @@
 #include <xxhash.h>
 
 #include "family/key.hpp"
-#include "lab/oracle/settings.hpp"
 #include "lab/verify/against_oracle.hpp"
 #include "lab/verify/alone.hpp"
 #include "lab/verify/on_mesh.hpp"
@@ -16,8 +15,8 @@
 namespace gobo::verify {
 namespace {
 
-/// Samples of each stage for each setting of an ubershader's switches.
-constexpr int kPointsOfSetting = 16;
+/// Samples of each stage for each model, where a key stands for several.
+constexpr int kPointsOfModel = 16;
 
 /// Verifies one permutation after the other, keeping what all share.
 class Verifier {
@@ -28,7 +27,7 @@ class Verifier {
     [[nodiscard]] PermutationReport verify(const Permutation& permutation) const {
         PermutationReport report;
         report.key = permutation.key;
-        const std::vector<oracle::Model> models = oracle::models_of(family_, permutation.key);
+        const std::vector<oracle::Model> models = models_of(permutation.key);
         report.has_oracle = !models.empty();
         for (const int stage : {permutation.vertex, permutation.fragment}) {
             if (stage < 0) continue;  // loose files may leave one out
@@ -46,6 +45,12 @@ class Verifier {
     }
 
   private:
+    [[nodiscard]] std::vector<oracle::Model> models_of(const Key& key) const {
+        if (options_.models) return options_.models(key);
+        const auto model = oracle::model_of(family_, key);
+        return model ? std::vector{*model} : std::vector<oracle::Model>{};
+    }
+
     [[nodiscard]] Result<StageReport> check(int stage, const Key& key,
                                             const std::vector<oracle::Model>& models) const {
         const Result<evaluate::Program>& program = decoded_.stage(stage);
@@ -58,7 +63,7 @@ class Verifier {
         StageReport all;
         for (std::size_t i = 0; i < models.size(); ++i) {
             Result<StageReport> one =
-                check_against_oracle(*program, kind, models[i], is_one ? count : kPointsOfSetting, seed + i);
+                check_against_oracle(*program, kind, models[i], is_one ? count : kPointsOfModel, seed + i);
             if (!one) return one;
             all.figures += one->figures;
             all.failed_points += one->failed_points;

@@ -2,8 +2,11 @@
 // fp64.
 #pragma once
 
+#include <functional>
+
 #include "compose/composition.hpp"
 #include "family/family.hpp"
+#include "lab/oracle/model.hpp"
 #include "lab/render/mesh.hpp"
 #include "validate/validate.hpp"
 #include "lab/verify/relations.hpp"
@@ -17,6 +20,8 @@ struct VerifyOptions {
     int fragments = 384;  ///< samples of each fragment stage
     /// So many of the last permutations are not verified: relations compare others with them.
     std::size_t partners = 0;
+    /// The models that a key stands for; where it is not set, the one that the oracle knows it by.
+    std::function<std::vector<oracle::Model>(const Key&)> models;
     std::vector<Mesh> meshes;  ///< on which the stages together are tried where there is an oracle
 };
 

@@ -1,2 +1,0 @@
-// The direction of a directional light, where there are any: directionalRay().
-#include <shading/directional_ray>

@@ -1,0 +1,56 @@
+// What is seen of a surface through fog: f L + (1 - f) C, f the fog factor, L the surface's radiance, C the fog's.
+//
+// Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.
+// Edges:  GLSL allows exp() three roundings even at 0, where a factor above 1 would take more of the fog away than
+//         there is.
+
+#piece none
+// Clear air.
+/// The radiance that is seen.
+vec3 throughFog(vec3 radiance) { return radiance; }
+
+#piece linear
+// Thickens evenly: f = (far - z) / (far - near) within [0, 1]. near = far is a step: clear before, hidden from there on.
+#include <fog_distance>
+#include "fog/blend.glsl"
+
+/// The radiance that is seen.
+vec3 throughFog(vec3 radiance) {
+    float ahead = fog.far - fogDistance();
+    float depth = fog.far - fog.near;
+    if (depth == 0.0) return blendFog(radiance, ahead > 0.0 ? 1.0 : 0.0);  // H-F1
+    return blendFog(radiance, clamp(ahead / depth, 0.0, 1.0));
+}
+
+#piece exponential
+// Constant density, the law of Beer and Lambert: f = exp(-density z).
+#include <fog_distance>
+#include "fog/blend.glsl"
+
+/// The radiance that is seen.
+vec3 throughFog(vec3 radiance) { return blendFog(radiance, min(exp(-fog.density * fogDistance()), 1.0)); }
+
+#piece exponential_squared
+// Thin nearby, closing quickly further on: f = exp(-(density z)^2).
+#include <fog_distance>
+#include "fog/blend.glsl"
+
+/// The radiance that is seen.
+vec3 throughFog(vec3 radiance) {
+    float thickness = min(fog.density * fogDistance(), 16.0);  // H-F2: the square does not overflow
+    return blendFog(radiance, min(exp(-thickness * thickness), 1.0));
+}
+
+#piece blend
+/// The fog's colour; the density of exponential fog; where linear fog begins and where it hides everything.
+BLOCK(3, Fog) {
+    vec3 color;
+    float density;
+    float near;
+    float far;
+} fog;
+
+/// The radiance that is seen, of a surface's radiance behind fog of which `clearness` gets through.
+vec3 blendFog(vec3 radiance, float clearness) {
+    return clearness > 1e-30 ? mix(fog.color, radiance, clearness) : fog.color;  // H-F3
+}

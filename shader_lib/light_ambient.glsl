@@ -1,0 +1,50 @@
+// Ambient light that each light brings of its own: K_a sum A_l attenuation. A spot light's stays outside its cone: the
+// Cookbook keeps it, the Programming Guide drops it. It needs neither a normal nor a direction to the light.
+//
+// Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating a Spotlight; OpenGL Programming Guide, 9th ed., ch. 7,
+//         Multiple Lights and Materials.
+
+#piece none
+/// Prepares the sum of the lights' ambient terms: there is none.
+void beginLightAmbient() {}
+
+/// Adds the ambient term of the next light: none.
+void addLightAmbient(float fading) {}
+
+/// The radiance that the surface scatters of all ambient terms.
+vec3 lightAmbientRadiance() { return vec3(0.0); }
+
+#piece each
+// Numbered as the lights are.
+#include "light_ambient/sum.glsl"
+
+/// A_l of each light: first the directional ones, then point, spot and homogeneous lights.
+BLOCK(13, LightAmbients) {
+    vec3 colors[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS];
+} lightAmbients;
+
+/// The number of the next light.
+int nextLight;
+
+/// Prepares the sum of the lights' ambient terms. To be called before the first light.
+void beginLightAmbient() {
+    ambientOfLights = emptySum();
+    nextLight = 0;
+}
+
+/// Adds the ambient term of the next light, weakened by `fading`.
+void addLightAmbient(float fading) {
+    addTerm(ambientOfLights, fading * lightAmbients.colors[nextLight]);
+    ++nextLight;
+}
+
+#piece sum
+#include <light_sum>
+#include <material>
+#include <vertex_color>
+
+/// The ambient light so far.
+LightSum ambientOfLights;
+
+/// The radiance that the surface scatters of all ambient terms.
+vec3 lightAmbientRadiance() { return tinted(material.ambient) * totalOf(ambientOfLights); }

@@ -1,0 +1,55 @@
+// What becomes of a direction that was interpolated between unit vectors, and what follows for angles to it.
+//
+// Source: OpenGL Programming Guide, 9th ed., ch. 7: an interpolated normal is shorter than 1, and the power's base is the
+//         dot product itself.
+// Edges:  where the vectors cancel each other it is zero: no light from there. Interpolation may pass 1 by a rounding.
+
+#piece renormalised
+// Made unit again.
+#include <guards/unit_vector>
+
+/// The direction to shade with.
+vec3 shadingDirection(vec3 interpolated) { return unitVector(interpolated); }
+
+#piece interpolated
+// Taken as it is. Between two that are an angle a apart it is as short as cos(a / 2), which darkens what lies between
+// vertices, and a highlight of shininess m by as much to the power of m.
+/// The direction to shade with.
+vec3 shadingDirection(vec3 interpolated) { return interpolated; }
+
+#piece length/renormalised
+// A zero normal counts as unit: who asks has no direction for it.
+/// The length: 1.
+float normalLength(vec3 normal) { return 1.0; }
+
+#piece length/interpolated
+/// The length.
+float normalLength(vec3 normal) { return length(normal); }
+
+#piece versine/renormalised
+#include "angle/versine.glsl"
+
+/// 1 - cos of the angle between the unit vectors a and b.
+float highlightVersine(vec3 a, vec3 b) { return versineBetween(a, b); }
+
+#piece versine/interpolated
+// |a - b|^2 / 2 is not the same where one is shorter than 1.
+/// 1 - a.b.
+float highlightVersine(vec3 a, vec3 b) { return max(1.0 - dot(a, b), 0.0); }  // H-I1
+
+#piece halfway_versine/renormalised
+#include "angle/halfway.glsl"
+
+/// 1 - cos of the angle between `normal` and the half vector of the directions to the light and the viewer.
+float halfwayVersine(vec3 normal, vec3 toLight, vec3 toViewer) {
+    return versineToHalfway(normal, toLight, toViewer);
+}
+
+#piece halfway_versine/interpolated
+#include <guards/unit_vector>
+#include <normal/versine>
+
+/// 1 - n.h of the half vector of the directions to the light and the viewer.
+float halfwayVersine(vec3 normal, vec3 toLight, vec3 toViewer) {
+    return highlightVersine(normal, unitVector(toLight + toViewer));
+}

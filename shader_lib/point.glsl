@@ -1,0 +1,39 @@
+// Point lights: they shine from a position to all sides alike, attenuated by distance.
+//
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights.
+// Ranges: eye space; positions within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
+
+#piece point
+#include <point_shadows>
+#include <shading/point_ray>
+#include "lighting/response.glsl"
+#include "point/lights.glsl"
+
+/// Adds every point light to the surface's response.
+void addPointLights() {
+    for (int i = 0; i < POINT_LIGHTS; ++i) {
+        LightRay ray = pointRay(i);
+        float share = ray.share;
+#if POINT_SHADOWS > 0
+        if (i < POINT_SHADOWS) share *= pointVisibility(i);
+#endif
+        addLightAmbient(ray.fading);
+        addLight(ray.toLight, share * pointLights.lights[i].color);
+    }
+}
+
+#piece lights
+/// `position` is in eye space, its w is 1 (L6); `attenuation` holds k_c, k_l, k_q.
+struct PointLight {
+    vec4 position;
+    vec3 color;
+    vec3 attenuation;
+};
+
+BLOCK(5, PointLights) {
+    PointLight lights[POINT_LIGHTS];
+} pointLights;
+
+#piece ray/point
+// pointRay(), where there are such lights.
+#include <shading/point_ray>

@@ -1,2 +1,0 @@
-// How a point light reaches a vertex, where there are point lights: pointRay().
-#include <shading/point_ray>

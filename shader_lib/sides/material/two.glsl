@@ -1,2 +1,0 @@
-// One material for both sides, from a table (S10, S11).
-#include "sides/material/one.glsl"

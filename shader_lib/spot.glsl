@@ -1,0 +1,67 @@
+// Spot lights: point lights with a cone.
+//
+// Source: OpenGL Programming Guide, 9th ed., ch. 7, Spotlights; glTF 2.0 KHR_lights_punctual for the inner cone and the
+//         edge.
+// Ranges: eye space; as point lights, 1 - cos of half angles 0 to 2, exponent 0 to 1e6, axis unit.
+
+#piece spot
+#include <shading/spot_ray>
+#include <spot_shadows>
+#include "lighting/response.glsl"
+#include "spot/lights.glsl"
+
+/// Adds every spot light to the surface's response.
+void addSpotLights() {
+    for (int i = 0; i < SPOT_LIGHTS; ++i) {
+        LightRay ray = spotRay(i);
+        float share = ray.share;
+#if SPOT_SHADOWS > 0
+        if (i < SPOT_SHADOWS) share *= spotVisibility(i);
+#endif
+        addLightAmbient(ray.fading);  // L9: outside the cone too
+        addLight(ray.toLight, share * spotLights.lights[i].color);
+    }
+}
+
+#piece lights
+/// `position` is in eye space, its w is 1 (L6); `axis` is the unit vector along which the light shines. The
+/// cone is given by the versines of its half angles, 1 - cos(angle), which hold an angle of 1e-4 as well as
+/// one of 90 degrees; `attenuation` holds k_c, k_l, k_q.
+struct SpotLight {
+    vec4 position;
+    vec3 color;
+    float exponent;
+    vec3 attenuation;
+    float innerVersine;
+    vec3 axis;
+    float outerVersine;
+};
+
+BLOCK(6, SpotLights) {
+    SpotLight lights[SPOT_LIGHTS];
+} spotLights;
+
+#piece ray/spot
+// spotRay(), where there are such lights.
+#include <shading/spot_ray>
+
+#piece cone
+// e(u) c^exponent with u = 1 - c, c the cosine of the angle to the axis, and the edge e: 1 up to the inner angle, 0 from
+// the outer angle on, between them ((u_outer - u) / (u_outer - u_inner))^2. Outer angle 0 is nothing, 90 degrees the half
+// space, 180 degrees everything; inner = outer is a hard edge; it is true to 0.3 % of the angle down to 1e-4 radians.
+#include <spot_edge>
+#include "power/exact.glsl"
+
+/// The edge at a versine: its order of questions leaves the division only where inner < outer.
+float coneEdge(float versine, float innerVersine, float outerVersine) {
+    if (versine >= outerVersine) return 0.0;
+    if (versine <= innerVersine) return 1.0;  // H-P1
+    float fade = (outerVersine - versine) / (outerVersine - innerVersine);
+    return fade * fade;
+}
+
+/// The share of the light on the unit vector `ray`, which leads away from the light.
+float coneFactor(vec3 axis, vec3 ray, float innerVersine, float outerVersine, float exponent) {
+    float versine = min(coneVersine(axis, ray), 1.9999998);  // H-P2: 180 degrees holds all directions
+    return coneEdge(versine, innerVersine, outerVersine) * cosinePower(versine, exponent);
+}
