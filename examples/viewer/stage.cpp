@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/read_scene.hpp"
 #include "lab/scene_picture/posed_mesh.hpp"
+#include "scene/read_scene.hpp"
 
 namespace viewer {
 namespace {
@@ -88,10 +88,10 @@ StageDraw make_draw(const Scene& scene, const Draw& draw) {
     result.model = posed.model;
     result.double_sided = material_of(scene, draw).double_sided;
     result.material = material_block(material_of(scene, draw));
-    const gobo::scene::Wishes wishes = wishes_of(scene, draw);
-    if (wishes.fog) result.fog = fog_block(*wishes.fog);
-    result.probe = wishes.probe.value_or(gobo::scene::Probe());
-    result.toon.levels = std::max(wishes.toon_levels.value_or(0), 0) > 0 ? *wishes.toon_levels : 4;
+    const gobo::scene::Overrides overrides = overrides_of(scene, draw);
+    if (overrides.fog) result.fog = fog_block(*overrides.fog);
+    result.probe = overrides.probe.value_or(gobo::scene::Probe());
+    result.toon.levels = std::max(overrides.toon_levels.value_or(0), 0) > 0 ? *overrides.toon_levels : 4;
     for (std::size_t i = 0; i < draw.effects.size(); ++i) {
         const Effect& effect = draw.effects[i];
         if (!effect.is_in) continue;
@@ -109,7 +109,7 @@ gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string&
     Stage stage;
     stage.scene = std::move(*scene);
     gobo::scene::Box bounds;
-    for (const Draw& draw : gobo::scene::what_draws_call_for(stage.scene, {}, {})) {
+    for (const Draw& draw : gobo::scene::required_effects(stage.scene, {}, {})) {
         if (!draw.excluded.empty()) continue;
         if (draw.bounds) bounds.add(*draw.bounds);
         stage.draws.push_back(make_draw(stage.scene, draw));

@@ -19,11 +19,10 @@
 #include "family/read_family.hpp"
 #include "lab/render/framebuffer.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/scene_picture/scene_object.hpp"
-#include "lab/scene_picture/software_scene.hpp"
-#include "lab/scene_picture/uber_values.hpp"
 #include "lab/study/weights.hpp"
 #include "scene/read_scene.hpp"
+#include "software_scene.hpp"
+#include "uber_values.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -69,14 +68,14 @@ struct Rival {
 
 Rival specialised(const std::string& name, const Shipped& lit, const Scene& scene,
                   const std::vector<Draw>& draws) {
-    Rival rival{name, must(shaders_called_for(lit.family, lit.search, draws, {}, Dialect::own, 1)), {}, {}};
+    Rival rival{name, must(shaders_for_draws(lit.family, lit.search, draws, {}, Dialect::own, 1)), {}, {}};
     rival.objects = objects_of(scene, rival.shaders);
     return rival;
 }
 
 Rival ubershader(const std::string& name, const Shipped& lit, const Shipped& uber, const Scene& scene,
                  const std::vector<Draw>& draws, UberLights lights) {
-    const auto keys = must(keys_called_for(lit.family, draws, {}, "450"));
+    const auto keys = must(keys_for_draws(lit.family, draws, {}, "450"));
     std::vector<std::optional<Key>> uber_keys;
     std::vector<Object> objects;
     for (std::size_t i = 0; i < draws.size(); ++i) {
@@ -118,7 +117,7 @@ Ready make_ready(const Context& context, const Scene& scene, const std::vector<D
                  const Rival& rival, const std::vector<RenderValue>& values, int width) {
     const SceneView view = view_at(scene, draws, width);
     Ready ready{must(make_framebuffer(context, view.width, view.height)),
-                must(make_scene_drawing(context, rival.shaders, rival.objects, values, view))};
+                must(SceneDrawing::make(context, rival.shaders, rival.objects, values, view))};
     ready.framebuffer.bind();
     ready.framebuffer.clear(view.background);
     ready.drawing.draw();
@@ -216,7 +215,7 @@ void run_scene(const std::string& path, const Shipped& lit, const Shipped& uber,
                const std::optional<study::Weights>& weights) {
     const DiskFileSystem files;
     const Scene scene = must(read_scene(files, path));
-    const auto draws = what_draws_call_for(scene, eye_of_cameras(scene), {});
+    const auto draws = required_effects(scene, eye_of_cameras(scene), {});
     std::vector<Rival> rivals;
     rivals.push_back(ubershader("uber, switches", lit, uber, scene, draws, UberLights::switched));
     rivals.push_back(ubershader("uber, loops", lit, uber, scene, draws, UberLights::looped));

@@ -14,10 +14,10 @@
 #include "lab/evaluate/images.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/sanitize/sanitize.hpp"
-#include "lab/scene_picture/uber_values.hpp"
 #include "lit_cases.hpp"
 #include "settings.hpp"
 #include "uber_ports.hpp"
+#include "uber_values.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file_system.hpp"
+#include "lab/scene_picture/posed_mesh.hpp"
 #include "scene/effects.hpp"
 #include "scene/read_scene.hpp"
-#include "lab/scene_picture/posed_mesh.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -198,7 +198,7 @@ bool use(const Content& files, const std::string& file) {
         EXPECT_TRUE(status == 1 || status == 3) << to_text(scene.error().front());
         return false;
     }
-    for (const Draw& draw : what_draws_call_for(*scene, eye_of_cameras(*scene), {}))
+    for (const Draw& draw : required_effects(*scene, eye_of_cameras(*scene), {}))
         if (draw.excluded.empty())
             static_cast<void>(posed_mesh(*scene, draw.node, primitive_of(*scene, draw)));
     return true;

@@ -35,7 +35,7 @@ Scene hung_scene(const std::string& file) {
     Scene scene = shipped_scene(file);
     if (!place_lights(scene).empty()) return scene;
     Box bounds;
-    for (const Draw& draw : what_draws_call_for(scene, {}, {}))
+    for (const Draw& draw : required_effects(scene, {}, {}))
         if (draw.bounds) bounds.add(*draw.bounds);
     if (bounds.is_empty()) return scene;
     const glm::dvec3 middle = (bounds.low + bounds.high) / 2.0;
@@ -57,7 +57,7 @@ std::vector<Vantage> vantages(const Scene& scene, std::size_t count, int width, 
         const auto view = view_of_camera(scene, camera, width, height);
         if (view) result.push_back({eye_of_camera(scene, camera)->low, *view});
     }
-    const auto draws = what_draws_call_for(scene, {}, {});
+    const auto draws = required_effects(scene, {}, {});
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (std::size_t i = 0; result.size() < count; ++i) {
         const double y = 1 - 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(count);

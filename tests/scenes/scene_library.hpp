@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/file_system.hpp"
 #include "compose/search_path.hpp"
+#include "core/file_system.hpp"
 #include "family/family.hpp"
 #include "lab/render/shadow_maps.hpp"
-#include "lab/scene_picture/scene_shaders.hpp"
-#include "lab/scene_picture/scene_view.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
 
 namespace gobo::scene {
 

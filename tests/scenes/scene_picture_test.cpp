@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "lab/render/image.hpp"
-#include "scene_library.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/scene_picture/scene_object.hpp"
-#include "lab/scene_picture/software_scene.hpp"
+#include "scene_library.hpp"
+#include "software_scene.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -67,8 +66,8 @@ TEST_P(Scenes, LookTheSameDrawnAndEvaluated) {
     const Scene scene = shipped_scene(GetParam().file);
     const auto buckets = parse_buckets(GetParam().buckets);
     const auto shaders =
-        shaders_called_for(lit.family, lit.search, what_draws_call_for(scene, eye_of_cameras(scene), {}),
-                           *buckets, Dialect::own, 1);
+        shaders_for_draws(lit.family, lit.search, required_effects(scene, eye_of_cameras(scene), {}),
+                          *buckets, Dialect::own, 1);
     ASSERT_TRUE(shaders) << text_of(shaders.error());
     const auto view = view_of_camera(scene, 0, width, height);
     ASSERT_TRUE(view);
@@ -117,8 +116,8 @@ TEST(Scenes, WithLightsToSpareAreTheSameToTheBit) {
     std::vector<Image> pictures;
     for (const char* buckets : {"", "0,4"}) {
         const auto shaders =
-            shaders_called_for(lit.family, lit.search, what_draws_call_for(scene, eye_of_cameras(scene), {}),
-                               *parse_buckets(buckets), Dialect::own, 1);
+            shaders_for_draws(lit.family, lit.search, required_effects(scene, eye_of_cameras(scene), {}),
+                              *parse_buckets(buckets), Dialect::own, 1);
         ASSERT_TRUE(shaders) << text_of(shaders.error());
         pictures.push_back(evaluated(scene, *shaders, lit.family, *view).color);
     }
@@ -134,7 +133,7 @@ TEST(SceneViews, AreOfTheCamerasThatNodesHold) {
 
 TEST(SceneViews, OfEverythingHoldAllBounds) {
     const Scene scene = shipped_scene("teapot.gltf");
-    const auto draws = what_draws_call_for(scene, eye_of_cameras(scene), {});
+    const auto draws = required_effects(scene, eye_of_cameras(scene), {});
     for (const glm::dvec3 direction : {glm::dvec3(0, 1, 0), glm::dvec3(1, 0.2, -3), glm::dvec3(-1, 0, 0)}) {
         const SceneView view = view_of_all(draws, direction, 30, 90);
         for (const Draw& draw : draws) {

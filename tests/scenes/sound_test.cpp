@@ -5,11 +5,10 @@
 
 #include "family/key.hpp"
 #include "hung_scene.hpp"
-#include "scene_library.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/scene_picture/scene_object.hpp"
-#include "lab/scene_picture/software_scene.hpp"
-#include "lab/scene_picture/uber_values.hpp"
+#include "scene_library.hpp"
+#include "software_scene.hpp"
+#include "uber_values.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -27,16 +26,16 @@ bool may_be_seen(const Effect& light) {
 
 /// Whether the file asks for the effect, be it to be seen or not.
 bool is_asked_for(const Scene& scene, const Draw& draw, const Effect& effect) {
-    const Wishes wishes = wishes_of(scene, draw);
+    const Overrides overrides = overrides_of(scene, draw);
     const Material& material = material_of(scene, draw);
-    const bool is_toon = wishes.toon_levels.value_or(0) > 0;
+    const bool is_toon = overrides.toon_levels.value_or(0) > 0;
     if (effect.name == "toon") return is_toon;
     if (effect.name == "specular") return effect.value != "none" && !is_toon;
     if (effect.name == "fog" || effect.name == "probe") return effect.value != "none";
-    if (effect.name == "reflection") return wishes.reflection.value_or(0) > 0;
+    if (effect.name == "reflection") return overrides.reflection.value_or(0) > 0;
     if (effect.name == "vertex_color") return !primitive_of(scene, draw).colors.empty();
     if (effect.name == "cutout") return material.alpha_mode == AlphaMode::mask;
-    if (effect.name.starts_with("shadow of ")) return wishes.shadow.value_or(true);
+    if (effect.name.starts_with("shadow of ")) return overrides.shadow.value_or(true);
     return effect.is_in;
 }
 
@@ -110,13 +109,13 @@ TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
     const ShippedFamily uber("uber");
     const Scene scene = hung_scene(GetParam());
     const auto from = vantages(scene, views, width, height);
-    const std::vector<Draw> draws = what_draws_call_for(scene, eyes_of(from), {});
-    const auto chosen = shaders_called_for(lit.family, lit.search, draws, {}, Dialect::own, 1);
+    const std::vector<Draw> draws = required_effects(scene, eyes_of(from), {});
+    const auto chosen = shaders_for_draws(lit.family, lit.search, draws, {}, Dialect::own, 1);
     ASSERT_TRUE(chosen) << text_of(chosen.error());
 
     std::vector<Draw> full;
     for (const Draw& draw : draws) full.push_back(draw.excluded.empty() ? everything_on(scene, draw) : draw);
-    const auto full_keys = keys_called_for(lit.family, full, {}, "450");
+    const auto full_keys = keys_for_draws(lit.family, full, {}, "450");
     ASSERT_TRUE(full_keys) << text_of(full_keys.error());
     auto everything = everything_by_uber(lit, uber, scene, full, *full_keys);
     ASSERT_TRUE(everything) << text_of(everything.error());

@@ -5,10 +5,9 @@
 
 #include "family/key.hpp"
 #include "hung_scene.hpp"
-#include "scene_library.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/scene_picture/scene_object.hpp"
-#include "lab/scene_picture/software_scene.hpp"
+#include "scene_library.hpp"
+#include "software_scene.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -38,7 +37,7 @@ std::vector<Removal> removals_of(const Family& lit, const std::vector<Draw>& dra
             // A light takes its shadow with it.
             for (Effect& effect : removal.without.effects)
                 if (effect.name == "shadow of " + draws[i].effects[k].name) effect.is_in = false;
-            const auto keys = keys_called_for(lit, {draws[i], removal.without}, {}, "450");
+            const auto keys = keys_for_draws(lit, {draws[i], removal.without}, {}, "450");
             if (keys && (*keys)[0]->key != (*keys)[1]->key) removals.push_back(std::move(removal));
         }
     }
@@ -58,7 +57,7 @@ Variants variants_of(const ShippedFamily& lit, const Scene& scene, const std::ve
     std::vector<Draw> all = draws;
     for (const Removal& removal : removals) all.push_back(removal.without);
     Variants variants;
-    auto shaders = shaders_called_for(lit.family, lit.search, all, {}, Dialect::own, 1);
+    auto shaders = shaders_for_draws(lit.family, lit.search, all, {}, Dialect::own, 1);
     EXPECT_TRUE(shaders) << text_of(shaders.error());
     variants.shaders = std::move(*shaders);
     variants.programs = *software_programs(variants.shaders);
@@ -124,7 +123,7 @@ Tally tally(const std::string& file) {
     const ShippedFamily lit("lit");
     const Scene scene = hung_scene(file);
     const auto from = vantages(scene, places, width, height);
-    const std::vector<Draw> draws = what_draws_call_for(scene, eyes_of(from), {});
+    const std::vector<Draw> draws = required_effects(scene, eyes_of(from), {});
     std::vector<Removal> removals = removals_of(lit.family, draws);
     if (removals.empty()) return {};
     const Variants variants = variants_of(lit, scene, draws, removals);

@@ -6,8 +6,8 @@
 #include "family/key.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
-#include "lab/scene_picture/uber_values.hpp"
 #include "scene_library.hpp"
+#include "uber_values.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -9,9 +9,9 @@
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "lab/render/render.hpp"
-#include "lab/scene_picture/software_scene.hpp"
-#include "lab/scene_picture/uber_values.hpp"
 #include "scene_library.hpp"
+#include "software_scene.hpp"
+#include "uber_values.hpp"
 
 namespace gobo::scene {
 namespace {

@@ -16,7 +16,7 @@ namespace {
 
 /// "in, why" or "out, why" of the quad's effect of that name.
 std::string verdict(const Scene& scene, const std::string& name) {
-    for (const Draw& draw : what_draws_call_for(scene, eye_of_cameras(scene), {})) {
+    for (const Draw& draw : required_effects(scene, eye_of_cameras(scene), {})) {
         for (const Effect& effect : draw.effects)
             if (effect.name == name) return fmt::format("{}, {}", effect.is_in ? "in" : "out", effect.reason);
     }
@@ -303,7 +303,7 @@ TEST(SceneEffects, SharedMeshesAreJudgedForEachNode) {
     const Scene scene = read_patched(
         R"([{"op": "add", "path": "/nodes/-", "value": {"name": "far quad", "mesh": 0, "translation": [0, 0, -90]}},
             {"op": "add", "path": "/scenes/0/nodes/-", "value": 3}])");
-    const std::vector<Draw> draws = what_draws_call_for(scene, {}, {});
+    const std::vector<Draw> draws = required_effects(scene, {}, {});
     ASSERT_EQ(draws.size(), 2U);
     EXPECT_TRUE(draws[0].effects[0].is_in);
     EXPECT_FALSE(draws[1].effects[0].is_in);

@@ -60,7 +60,7 @@ class DrawKeys : public testing::TestWithParam<Keyed> {};
 
 TEST_P(DrawKeys, FollowFromEffects) {
     const Family family = small_family();
-    const auto keys = keys_called_for(family, {draw("draw", GetParam().effects)}, GetParam().buckets, "450");
+    const auto keys = keys_for_draws(family, {draw("draw", GetParam().effects)}, GetParam().buckets, "450");
     ASSERT_TRUE(keys) << to_text(keys.error().front());
     ASSERT_TRUE(keys->front());
     EXPECT_EQ(key_text(family, keys->front()->key), GetParam().key);
@@ -164,8 +164,8 @@ TEST(SceneDemo, CallsForTwoPermutationsOfLit) {
     ASSERT_TRUE(family);
     const auto scene = read_scene(disk, root + "/tests/assets/scenes/teapot.gltf");
     ASSERT_TRUE(scene) << to_text(scene.error().front());
-    const auto draws = what_draws_call_for(*scene, eye_of_cameras(*scene), {});
-    const auto keys = keys_called_for(*family, draws, {}, "450");
+    const auto draws = required_effects(*scene, eye_of_cameras(*scene), {});
+    const auto keys = keys_for_draws(*family, draws, {}, "450");
     ASSERT_TRUE(keys);
     ASSERT_EQ(keys->size(), 2U);
     EXPECT_EQ(key_text(*family, (*keys)[0]->key), "directional=1 fog=linear point=1 specular=blinn spot=1");

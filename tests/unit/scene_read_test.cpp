@@ -25,7 +25,7 @@ std::string text_of(const Box& box) {
 
 /// The bounds of the first draw.
 std::string bounds_of(const Scene& scene) {
-    const std::vector<Draw> draws = what_draws_call_for(scene, {}, {});
+    const std::vector<Draw> draws = required_effects(scene, {}, {});
     if (draws.empty() || !draws.front().bounds) return "unknown";
     return text_of(*draws.front().bounds);
 }
@@ -219,7 +219,7 @@ class Modes : public testing::TestWithParam<Topologies> {};
 
 TEST_P(Modes, AreTrianglesOrOut) {
     const Scene scene = read_patched(put("/meshes/0/primitives/0/mode", std::to_string(GetParam().mode)));
-    const std::vector<Draw> draws = what_draws_call_for(scene, {}, {});
+    const std::vector<Draw> draws = required_effects(scene, {}, {});
     ASSERT_EQ(draws.size(), 1U);
     EXPECT_EQ(draws[0].excluded, GetParam().excluded);
     EXPECT_EQ(scene.meshes[0].primitives[0].indices.size(), GetParam().indices);

@@ -64,7 +64,7 @@ Result<Diagnostics> compile(const CommonOptions& options, const LoadedFamily& fa
 Result<SceneReport> make_report(const Family& family, const std::vector<scene::Draw>& draws,
                                 const scene::Buckets& buckets, std::string_view dialect) {
     SceneReport report{family, draws, {}, {}, buckets, {}, 0, 0};
-    auto keys = scene::keys_called_for(family, draws, buckets, dialect);
+    auto keys = scene::keys_for_draws(family, draws, buckets, dialect);
     if (!keys) return tl::unexpected(keys.error());
     auto rows = scene::compare_bucketings(family, draws, buckets, dialect);
     if (!rows) return tl::unexpected(rows.error());
@@ -101,7 +101,7 @@ Outcome run(const SceneOptions& options, const World& world) {
     if (!scene) return failed(scene.error());
     const Result<scene::EyePlace> eye = place_eye(*scene, options.camera);
     if (!eye) return failed(eye.error());
-    const auto draws = scene::what_draws_call_for(*scene, *eye, options.thresholds);
+    const auto draws = scene::required_effects(*scene, *eye, options.thresholds);
     Result<SceneReport> report = make_report(family->family, draws, *buckets, name_of(*dialect));
     if (!report) return failed(report.error());
     if (options.budget.is_set())

@@ -14,8 +14,8 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
     const Result<scene::Scene> scene = scene::read_scene(world.disk, path);
     if (!scene) return tl::unexpected(scene.error());
     family.files.insert(family.files.end(), scene->files.begin(), scene->files.end());
-    const auto draws = scene::what_draws_call_for(*scene, scene::eye_of_cameras(*scene), {});
-    const auto keys = scene::keys_called_for(family.family, draws, *buckets, name_of(dialect));
+    const auto draws = scene::required_effects(*scene, scene::eye_of_cameras(*scene), {});
+    const auto keys = scene::keys_for_draws(family.family, draws, *buckets, name_of(dialect));
     if (!keys) return tl::unexpected(keys.error());
     std::vector<NamedKey> named;
     for (const Key& key : scene::distinct_keys(*keys))

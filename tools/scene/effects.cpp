@@ -55,8 +55,8 @@ bool scatters_or_reflects(const Material& material) {
 }
 
 /// What the surface gives back of a light that arrives with radiance 1, at most (the models of `lit`).
-double response_of(const Material& material, const Wishes& wishes) {
-    const bool has_highlight = wishes.specular != "none" && wishes.toon_levels.value_or(0) == 0;
+double response_of(const Material& material, const Overrides& overrides) {
+    const bool has_highlight = overrides.specular != "none" && overrides.toon_levels.value_or(0) == 0;
     const glm::dvec3 most =
         material.diffuse + (has_highlight ? material.strength * material.specular : glm::dvec3(0));
     return std::max({most.r, most.g, most.b});
@@ -68,7 +68,7 @@ std::vector<Effect> judge_lights(const Subject& subject, const std::vector<Place
     const Receiver receiver{
         subject.draw.bounds,
         fixed_normals(subject.scene, subject.draw.node, subject.primitive, subject.material),
-        response_of(subject.material, subject.wishes)};
+        response_of(subject.material, subject.overrides)};
     for (const PlacedLight& light : lights) {
         Verdict verdict{false, "its material gives back no light"};
         if (scatters_or_reflects(subject.material)) verdict = light_reach(light, receiver, thresholds.light);
@@ -80,7 +80,7 @@ std::vector<Effect> judge_lights(const Subject& subject, const std::vector<Place
 
 Effect judge_toon(const Subject& subject) {
     Effect effect{"toon", "diffuse", "toon", false, ""};
-    const int levels = subject.wishes.toon_levels.value_or(0);
+    const int levels = subject.overrides.toon_levels.value_or(0);
     if (levels == 0) {
         effect.reason = "not asked for";
     } else if (!subject.is_lit) {
@@ -93,7 +93,7 @@ Effect judge_toon(const Subject& subject) {
 }
 
 Effect judge_specular(const Subject& subject, bool is_toon) {
-    const std::string model = subject.wishes.specular.value_or("blinn");
+    const std::string model = subject.overrides.specular.value_or("blinn");
     Effect effect{"specular", "specular", model, false, ""};
     const Material& material = subject.material;
     if (model == "none") {
@@ -118,7 +118,7 @@ double hidden_share(const Fog& fog, double distance) {
 }
 
 Effect judge_fog(const Subject& subject, const EyePlace& eye, double threshold) {
-    const Fog fog = subject.wishes.fog.value_or(Fog{"none", {}, 0, 0, 0});
+    const Fog fog = subject.overrides.fog.value_or(Fog{"none", {}, 0, 0, 0});
     Effect effect{"fog", "fog", fog.kind, true, ""};
     if (fog.kind == "none") {
         effect.is_in = false;
@@ -160,7 +160,8 @@ std::vector<Draw> draws_of(const Scene& scene) {
 }
 
 Subject subject_of(const Scene& scene, const Draw& draw) {
-    return {scene, draw, primitive_of(scene, draw), material_of(scene, draw), wishes_of(scene, draw), false};
+    return {scene, draw, primitive_of(scene, draw), material_of(scene, draw), overrides_of(scene, draw),
+            false};
 }
 
 EyePlace eye_where(const Scene& scene, const std::optional<int>& camera) {
@@ -185,10 +186,10 @@ const Material& material_of(const Scene& scene, const Draw& draw) {
     return scene.materials[static_cast<std::size_t>(primitive_of(scene, draw).material)];
 }
 
-Wishes wishes_of(const Scene& scene, const Draw& draw) {
-    Wishes wishes = material_of(scene, draw).wishes;
-    wishes.fill_from(scene.nodes[static_cast<std::size_t>(draw.node)].wishes);
-    return wishes;
+Overrides overrides_of(const Scene& scene, const Draw& draw) {
+    Overrides overrides = material_of(scene, draw).overrides;
+    overrides.fill_from(scene.nodes[static_cast<std::size_t>(draw.node)].overrides);
+    return overrides;
 }
 
 EyePlace eye_of_cameras(const Scene& scene) {
@@ -199,7 +200,7 @@ EyePlace eye_of_camera(const Scene& scene, int camera) {
     return eye_where(scene, camera);
 }
 
-std::vector<Draw> what_draws_call_for(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds) {
+std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds) {
     std::vector<Draw> draws = draws_of(scene);
     const std::vector<PlacedLight> lights = place_lights(scene);
     for (Draw& draw : draws) {

@@ -38,7 +38,7 @@ struct Draw {
 [[nodiscard]] const Primitive& primitive_of(const Scene& scene, const Draw& draw);
 [[nodiscard]] const Material& material_of(const Scene& scene, const Draw& draw);
 /// What the draw's material asks for, else its node, else the scene.
-[[nodiscard]] Wishes wishes_of(const Scene& scene, const Draw& draw);
+[[nodiscard]] Overrides overrides_of(const Scene& scene, const Draw& draw);
 
 /// Where the eye may be: nothing where any place is possible, as when the application moves its camera.
 using EyePlace = std::optional<Box>;
@@ -50,7 +50,7 @@ using EyePlace = std::optional<Box>;
 
 /// Every draw of the scene, in the order of its nodes. An effect is out only where it is certain that it
 /// cannot be seen, or only below a threshold.
-[[nodiscard]] std::vector<Draw> what_draws_call_for(const Scene& scene, const EyePlace& eye,
-                                                    const Thresholds& thresholds);
+[[nodiscard]] std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye,
+                                                 const Thresholds& thresholds);
 
 }  // namespace gobo::scene

@@ -22,9 +22,9 @@ std::uint64_t full_product(const Family& family) {
 
 Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws, const Buckets& buckets,
                               std::string_view dialect) {
-    const auto exact = keys_called_for(family, draws, {}, dialect);
+    const auto exact = keys_for_draws(family, draws, {}, dialect);
     if (!exact) return tl::unexpected(exact.error());
-    const auto rounded = keys_called_for(family, draws, buckets, dialect);
+    const auto rounded = keys_for_draws(family, draws, buckets, dialect);
     if (!rounded) return tl::unexpected(rounded.error());
     Funnel funnel;
     funnel.full_product = full_product(family);
@@ -43,7 +43,7 @@ Result<std::vector<BucketingRow>> compare_bucketings(const Family& family, const
         bucketings.push_back(chosen);
     std::vector<BucketingRow> rows;
     for (const Buckets& buckets : bucketings) {
-        const auto keys = keys_called_for(family, draws, buckets, dialect);
+        const auto keys = keys_for_draws(family, draws, buckets, dialect);
         if (!keys) return tl::unexpected(keys.error());
         BucketingRow row{buckets, distinct_keys(*keys).size(), 0, 0};
         for (const auto& key : *keys) {

@@ -89,7 +89,7 @@ std::map<std::string, std::string> read_quality(Document& document, const Value&
 
 }  // namespace
 
-void Wishes::fill_from(const Wishes& outer) {
+void Overrides::fill_from(const Overrides& outer) {
     if (!fog) fog = outer.fog;
     if (!toon_levels) toon_levels = outer.toon_levels;
     if (!specular) specular = outer.specular;
@@ -106,25 +106,25 @@ std::optional<Value> gobo_extras(Document& document, const Value& object) {
     return document.object({&*extras, path_to(object, "extras")}, "gobo");
 }
 
-Wishes read_wishes(Document& document, const Value& extras, std::vector<std::string> others) {
+Overrides read_overrides(Document& document, const Value& extras, std::vector<std::string> others) {
     for (const char* name : {"fog", "probe", "quality", "reflection", "shadow", "specular", "toon"})
         others.emplace_back(name);
     document.only(extras, others);
-    Wishes wishes;
-    if (extras.json->contains("fog")) wishes.fog = read_fog(document, extras);
+    Overrides overrides;
+    if (extras.json->contains("fog")) overrides.fog = read_fog(document, extras);
     if (const auto levels = document.integer(extras, "toon")) {
-        wishes.toon_levels = static_cast<int>(*levels);
+        overrides.toon_levels = static_cast<int>(*levels);
         if (*levels < 0 || *levels > 64) {
             document.error(path_to(extras, "toon"),
                            fmt::format("is {}, but must be between 0 and 64 levels", *levels));
         }
     }
-    wishes.specular = document.choice(extras, "specular", {"none", "phong", "blinn"});
-    if (extras.json->contains("probe")) wishes.probe = read_probe(document, extras);
-    wishes.reflection = document.number_within(extras, "reflection", 0, 1);
-    wishes.quality = read_quality(document, extras);
-    wishes.shadow = document.boolean(extras, "shadow");
-    return wishes;
+    overrides.specular = document.choice(extras, "specular", {"none", "phong", "blinn"});
+    if (extras.json->contains("probe")) overrides.probe = read_probe(document, extras);
+    overrides.reflection = document.number_within(extras, "reflection", 0, 1);
+    overrides.quality = read_quality(document, extras);
+    overrides.shadow = document.boolean(extras, "shadow");
+    return overrides;
 }
 
 std::optional<glm::dvec3> read_color(Document& document, const Value& parent, std::string_view name) {

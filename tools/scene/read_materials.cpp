@@ -88,7 +88,7 @@ void read_extensions(Document& document, const Value& value, Surface& surface, M
 void read_material_extras(Document& document, const Value& value, Material& material) {
     const auto extras = gobo_extras(document, value);
     if (!extras) return;
-    material.wishes = read_wishes(document, *extras, {"model"});
+    material.overrides = read_overrides(document, *extras, {"model"});
     const auto model = document.object(*extras, "model");
     if (!model) return;
     document.only(*model, {"ambient", "diffuse", "shininess", "specular", "strength"});

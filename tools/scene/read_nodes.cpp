@@ -56,7 +56,7 @@ void read_light_index(Document& document, const Value& value, const Scene& scene
 void read_node_extras(Document& document, const Value& value, Node& node) {
     const auto extras = gobo_extras(document, value);
     if (!extras) return;
-    node.wishes = read_wishes(document, *extras, {});
+    node.overrides = read_overrides(document, *extras, {});
 }
 
 /// EXT_mesh_gpu_instancing: a translation, a rotation and a scale for each instance, each optional.

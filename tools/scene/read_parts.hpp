@@ -11,9 +11,10 @@ namespace gobo::scene {
 
 /// The `extras.gobo` of an object; nothing where it has none.
 [[nodiscard]] std::optional<Value> gobo_extras(Document& document, const Value& object);
-/// The wishes among the members of an `extras.gobo`. Members that are neither a wish nor one of `others` are
-/// errors.
-[[nodiscard]] Wishes read_wishes(Document& document, const Value& extras, std::vector<std::string> others);
+/// The overrides among the members of an `extras.gobo`. Members that are neither an override nor one of
+/// `others` are errors.
+[[nodiscard]] Overrides read_overrides(Document& document, const Value& extras,
+                                       std::vector<std::string> others);
 /// A colour whose parts are not negative.
 [[nodiscard]] std::optional<glm::dvec3> read_color(Document& document, const Value& parent,
                                                    std::string_view name);

@@ -54,7 +54,7 @@ void check_extensions(Document& document) {
 void read_scene_extras(Document& document, const Value& object, Scene& scene) {
     const auto extras = gobo_extras(document, object);
     if (!extras) return;
-    scene.wishes = read_wishes(document, *extras, {"ambient", "background"});
+    scene.overrides = read_overrides(document, *extras, {"ambient", "background"});
     scene.ambient = read_color(document, *extras, "ambient").value_or(glm::dvec3(0));
     scene.background = read_color(document, *extras, "background");
 }
@@ -96,7 +96,7 @@ void check_place(Document& document, int index, const Node& node) {
     }
 }
 
-/// Marks what is in the scene, in order, with its place in the world and the wishes of the nodes above it.
+/// Marks what is in the scene, in order, with its place in the world and the overrides of the nodes above it.
 void place_nodes(Document& document, Scene& scene) {
     std::vector<int> open = scene_roots(document, scene);
     if (document.failed()) return;
@@ -111,9 +111,9 @@ void place_nodes(Document& document, Scene& scene) {
         if (node.parent) {
             const Node& parent = scene.nodes[static_cast<std::size_t>(*node.parent)];
             node.world = parent.world * node.local;
-            node.wishes.fill_from(parent.wishes);
+            node.overrides.fill_from(parent.overrides);
         } else {
-            node.wishes.fill_from(scene.wishes);
+            node.overrides.fill_from(scene.overrides);
         }
         check_place(document, index, node);
         scene.order.push_back(index);

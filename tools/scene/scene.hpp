@@ -43,7 +43,7 @@ struct Probe {
 
 /// What `extras.gobo` of a scene, node or material asks for; nothing where it says nothing. A material's word
 /// counts before a node's, a node's before that of the nodes above it, and the scene's counts last.
-struct Wishes {
+struct Overrides {
     std::optional<Fog> fog;
     std::optional<int> toon_levels;       ///< 0: no toon shading
     std::optional<std::string> specular;  ///< "phong" or "blinn"; "none": no highlights
@@ -53,7 +53,7 @@ struct Wishes {
     std::map<std::string, std::string> quality;  ///< values of features of quality: "shading", "vertex"
 
     /// Takes over what is not said yet from `outer`.
-    void fill_from(const Wishes& outer);
+    void fill_from(const Overrides& outer);
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -82,7 +82,7 @@ struct Material {
     double alpha = 1;  ///< of the base colour
     std::optional<AlphaMap>
         opacity;  ///< of the base colour's picture where alpha_mode is mask and it has any
-    Wishes wishes;
+    Overrides overrides;
 };
 
 enum class LightKind { directional, point, spot };
@@ -178,7 +178,7 @@ struct Node {
     glm::dmat4 world{1};  ///< to world space, at rest
     bool in_scene = false;
     std::optional<Motion> motion;
-    Wishes wishes;
+    Overrides overrides;
 };
 
 struct Skin {
@@ -199,7 +199,7 @@ struct Scene {
     std::vector<Skin> skins;
     glm::dvec3 ambient{0};                 ///< radiance from everywhere
     std::optional<glm::dvec3> background;  ///< radiance behind everything
-    Wishes wishes;
+    Overrides overrides;
 };
 
 }  // namespace gobo::scene

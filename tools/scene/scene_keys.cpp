@@ -93,10 +93,9 @@ std::string buckets_text(const Buckets& buckets) {
     return buckets.empty() ? "every count" : fmt::format("{}", fmt::join(buckets, ","));
 }
 
-Result<std::vector<std::optional<DrawKey>>> keys_called_for(const Family& family,
-                                                            const std::vector<Draw>& draws,
-                                                            const Buckets& buckets,
-                                                            std::string_view dialect) {
+Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
+                                                           const std::vector<Draw>& draws,
+                                                           const Buckets& buckets, std::string_view dialect) {
     std::vector<std::optional<DrawKey>> keys;
     for (const Draw& draw : draws) {
         if (!draw.excluded.empty()) {

@@ -30,10 +30,10 @@ struct DrawKey {
 
 /// One entry per draw; nothing for an excluded one. Fault::input where a rule of the family forbids what a
 /// draw calls for.
-[[nodiscard]] Result<std::vector<std::optional<DrawKey>>> keys_called_for(const Family& family,
-                                                                          const std::vector<Draw>& draws,
-                                                                          const Buckets& buckets,
-                                                                          std::string_view dialect);
+[[nodiscard]] Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
+                                                                         const std::vector<Draw>& draws,
+                                                                         const Buckets& buckets,
+                                                                         std::string_view dialect);
 
 /// The distinct keys of draws, sorted.
 [[nodiscard]] std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws);

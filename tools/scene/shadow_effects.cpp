@@ -93,7 +93,7 @@ std::string feature_of(const PlacedLight& light) {
 Effect judge_shadow(const Subject& subject, const PlacedLight& light, bool is_light_in,
                     const std::vector<Draw>& draws) {
     Effect effect{"shadow of " + light.label, feature_of(light), "", false, ""};
-    if (!subject.wishes.shadow.value_or(true)) {
+    if (!subject.overrides.shadow.value_or(true)) {
         effect.reason = "it receives none";
     } else if (!is_light_in) {
         effect.reason = "the light is out";

@@ -1,4 +1,4 @@
-// The parts of what_draws_call_for(): a draw being judged, and the judges that have files of their own.
+// The parts of required_effects(): a draw being judged, and the judges that have files of their own.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct Subject {
     const Draw& draw;
     const Primitive& primitive;
     const Material& material;
-    Wishes wishes;
+    Overrides overrides;
     bool is_lit = false;  ///< some light is in
 };
 

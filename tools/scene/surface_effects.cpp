@@ -71,8 +71,8 @@ Effect judge_vertex_color(const Primitive& primitive, const Material& material) 
     return effect;
 }
 
-Effect judge_probe(const Wishes& wishes, const Material& material) {
-    const std::string kind = wishes.probe ? wishes.probe->kind : "none";
+Effect judge_probe(const Overrides& overrides, const Material& material) {
+    const std::string kind = overrides.probe ? overrides.probe->kind : "none";
     Effect effect{"probe", "ambient", kind, false, ""};
     if (kind == "none") {
         effect.reason = "not asked for";
@@ -85,9 +85,9 @@ Effect judge_probe(const Wishes& wishes, const Material& material) {
     return effect;
 }
 
-Effect judge_reflection(const Wishes& wishes, const Material& material) {
+Effect judge_reflection(const Overrides& overrides, const Material& material) {
     Effect effect{"reflection", "reflection", "image", false, ""};
-    const double share = wishes.reflection.value_or(0);
+    const double share = overrides.reflection.value_or(0);
     if (share == 0) {
         effect.reason = "not asked for";
     } else if (material.specular == glm::dvec3(0) || material.strength == 0) {
@@ -113,9 +113,9 @@ std::vector<Effect> judge_surface(const Subject& subject) {
         judge_cutout(subject.primitive, material),
         judge_vertex_color(subject.primitive, material),
         flag("texture", "on", material.is_textured, "its material has textures", "it has none"),
-        judge_probe(subject.wishes, material),
-        judge_reflection(subject.wishes, material)};
-    for (const auto& [feature, value] : subject.wishes.quality)
+        judge_probe(subject.overrides, material),
+        judge_reflection(subject.overrides, material)};
+    for (const auto& [feature, value] : subject.overrides.quality)
         effects.push_back({feature, feature, value, true, "asked for"});
     return effects;
 }

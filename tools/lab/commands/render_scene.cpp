@@ -43,11 +43,11 @@ Result<ScenePicture> render_scene(const SceneRequest& request, const World& worl
     if (!buckets) return tl::unexpected(buckets.error());
     const Result<scene::Scene> scene = scene::read_scene(world.disk, request.path);
     if (!scene) return tl::unexpected(scene.error());
-    auto draws = scene::what_draws_call_for(*scene, scene::eye_of_cameras(*scene), {});
+    auto draws = scene::required_effects(*scene, scene::eye_of_cameras(*scene), {});
     const auto view = view_of(*scene, draws, request.camera, options.view);
     if (!view) return tl::unexpected(view.error());
-    const auto shaders = scene::shaders_called_for(family.family, family.search, std::move(draws), *buckets,
-                                                   request.dialect, request.common.jobs);
+    const auto shaders = scene::shaders_for_draws(family.family, family.search, std::move(draws), *buckets,
+                                                  request.dialect, request.common.jobs);
     if (!shaders) return tl::unexpected(shaders.error());
     DepthPass depth_pass;
     scene::SceneTextures textures;

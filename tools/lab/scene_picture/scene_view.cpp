@@ -73,7 +73,7 @@ SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& directio
 }
 
 std::array<float, 4> background_of(const Scene& scene) {
-    const auto& fog = scene.wishes.fog;
+    const auto& fog = scene.overrides.fog;
     const bool is_clear = !fog || fog->kind == "none";
     const glm::dvec3 usual = is_clear ? glm::dvec3(0.05, 0.06, 0.08) : fog->color;
     const glm::vec3 color(scene.background.value_or(usual));

@@ -1,4 +1,4 @@
-// Whence a scene is seen.
+// From where a scene is seen.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct SceneView {
 [[nodiscard]] SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& direction, int width,
                                     int height);
 
-/// What stands behind a scene: what it states itself, else its fog's colour, or the colour that `gobo render` has
-/// for families.
+/// What stands behind a scene: what it states itself, else its fog's colour, or the colour that `gobo render`
+/// has for families.
 [[nodiscard]] std::array<float, 4> background_of(const Scene& scene);
 
 /// The view's part of what values are made of.

@@ -1,7 +1,10 @@
-#include "lab/scene_picture/software_scene.hpp"
+#include "software_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "lab/verify/rasterise.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -9,6 +12,59 @@ namespace {
 using verify::Fragment;
 using verify::SoftwareObject;
 using verify::SoftwareProgram;
+
+/// The least difference of depths that a map of 32-bit floats tells apart near 1, times the renderer's
+/// `units`.
+constexpr double least_offset = 4.0 / (1 << 24);
+
+/// The largest change of depth from one texel to the next on a triangle.
+double slope_of(const verify::Interpolator& triangle, double x, double y) {
+    const double depth = triangle.at(x, y).depth;
+    return std::max(std::abs(triangle.at(x + 1, y).depth - depth),
+                    std::abs(triangle.at(x, y + 1).depth - depth));
+}
+
+void draw_depths(const ShadowCamera& camera, const Object& object, double slope, int side, double* depths) {
+    const gobo::Mesh& mesh = object.mesh;
+    std::vector<glm::dvec4> positions;
+    for (const glm::vec3& position : mesh.positions)
+        positions.push_back(camera.projection * camera.view * object.model * glm::dvec4(position, 1));
+    for (const Fragment& fragment : verify::rasterise(positions, mesh.indices, side, side)) {
+        if (!fragment.is_covered) continue;
+        if (object.culls_back_faces && fragment.is_front_facing == object.is_mirrored()) continue;
+        const std::size_t first = 3 * std::size_t{fragment.triangle};
+        const verify::Interpolator triangle(
+            {positions[mesh.indices[first]], positions[mesh.indices[first + 1]],
+             positions[mesh.indices[first + 2]]},
+            side, side);
+        const double x = fragment.x + 0.5;
+        const double y = fragment.y + 0.5;
+        const double moved =
+            std::min(fragment.weights.depth + slope * slope_of(triangle, x, y) + least_offset, 1.0);
+        double& nearest = depths[fragment.y * side + fragment.x];
+        nearest = std::min(nearest, moved);
+    }
+}
+
+double texel(const AlphaMap& map, double x, double y) {
+    const auto wrapped = [](double at, int count) {
+        const double inside = at - std::floor(at / count) * count;
+        return static_cast<std::size_t>(std::min(inside, count - 1.0));
+    };
+    return map.texels[wrapped(y, map.height) * static_cast<std::size_t>(map.width) + wrapped(x, map.width)] /
+           255.0;
+}
+
+/// OpenGL 4.5, 8.14.3, GL_LINEAR and GL_REPEAT.
+double filtered(const AlphaMap& map, double s, double t) {
+    const double u = s * map.width - 0.5;
+    const double v = t * map.height - 0.5;
+    const double left = std::floor(u);
+    const double lower = std::floor(v);
+    return std::lerp(std::lerp(texel(map, left, lower), texel(map, left + 1, lower), u - left),
+                     std::lerp(texel(map, left, lower + 1), texel(map, left + 1, lower + 1), u - left),
+                     v - lower);
+}
 
 /// Whether the depth of a fragment is that of its triangle, and the fragment certain to be drawn.
 bool is_plain(const SoftwareProgram& program) {
@@ -98,6 +154,31 @@ void give_images(const SoftwareImages& images, std::size_t object, evaluate::Inv
 
 }  // namespace
 
+SoftwareImages software_images(SceneImages images, const std::vector<Object>& casters, int side,
+                               double slope) {
+    SoftwareImages result{std::move(images), casters, side, nullptr};
+    if (result.images.lights.empty()) return result;
+    const ShadowPlan plan = shadow_plan(result.images.lights, casters, glm::dmat4(1), side);
+    auto maps = std::make_shared<evaluate::DepthTexels>();
+    maps->width = maps->height = side;
+    maps->layers = static_cast<int>(plan.cameras.size());
+    const auto layer = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    maps->depths.assign(plan.cameras.size() * layer, 1.0);
+    for (std::size_t i = 0; i < plan.cameras.size(); ++i)
+        for (const Object& object : casters)
+            draw_depths(plan.cameras[i], object, slope, side, maps->depths.data() + i * layer);
+    result.maps = std::move(maps);
+    return result;
+}
+
+evaluate::Image alpha_image(const AlphaMap& map) {
+    return [map](const evaluate::ImageRequest& request) -> std::array<double, 4> {
+        if (request.what == evaluate::ImageRequest::What::size)
+            return {static_cast<double>(map.width), static_cast<double>(map.height), 1, 1};
+        return {1, 1, 1, filtered(map, request.coordinates[0], request.coordinates[1])};
+    };
+}
+
 Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
     SoftwarePrograms programs;
     for (const Permutation& permutation : shaders.composition.permutations) {
@@ -124,7 +205,7 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         if (!permutation) continue;
         Object with_shadows = objects[i];
         if (images.maps) {
-            const std::vector<RenderValue> shadows = shadow_values(plan, images.images.shadows[i]);
+            const std::vector<RenderValue> shadows = shadow_values(plan.values, images.images.shadows[i]);
             add(images.renamed ? images.renamed(i, shadows) : shadows, with_shadows.values);
         }
         auto object = verify::rasterise_object(

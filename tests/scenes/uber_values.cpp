@@ -1,4 +1,4 @@
-#include "lab/scene_picture/uber_values.hpp"
+#include "uber_values.hpp"
 
 #include <array>
 
