@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/light_reach.hpp"
+#include "scene/effects.hpp"
 
 namespace viewer {
 namespace {
@@ -68,7 +68,7 @@ LightBlocks light_blocks(const Stage& stage, const StageDraw& draw, const glm::d
     std::size_t spot = 0;
     for (const std::size_t number : draw.lights) {
         const PlacedLight& placed = lights[number];
-        const glm::dmat4& world = stage.scene.nodes[static_cast<std::size_t>(placed.node)].world;
+        const glm::dmat4& world = stage.scene.nodes[placed.node].world;
         const SeenLight seen{*placed.light, glm::vec4(view * world[3]),
                              unit_or_zero(glm::dmat3(view) * placed.direction)};
         if (placed.light->kind == LightKind::directional) add(seen, blocks.directional, directional);

@@ -12,11 +12,11 @@ namespace {
 
 void hang(Scene& scene, const Light& light, const glm::dvec3& position, const glm::dvec3& target) {
     Node node;
-    node.light = static_cast<int>(scene.lights.size());
+    node.light = scene.lights.size();
     node.local = node.world = glm::inverse(glm::lookAt(position, target, glm::dvec3(0.1, 1, 0.2)));
     node.in_scene = true;
     scene.lights.push_back(light);
-    scene.order.push_back(static_cast<int>(scene.nodes.size()));
+    scene.order.push_back(scene.nodes.size());
     scene.nodes.push_back(node);
 }
 
@@ -53,9 +53,9 @@ Scene hung_scene(const std::string& file) {
 
 std::vector<Vantage> vantages(const Scene& scene, std::size_t count, int width, int height) {
     std::vector<Vantage> result;
-    for (int camera = 0; camera < static_cast<int>(scene.cameras.size()) && result.size() < count; ++camera) {
+    for (std::size_t camera = 0; camera < scene.cameras.size() && result.size() < count; ++camera) {
         const auto view = view_of_camera(scene, camera, width, height);
-        if (view) result.push_back({eye_of_camera(scene, camera)->low, *view});
+        if (view) result.push_back({eye_of_cameras(scene, camera)->low, *view});
     }
     const auto draws = required_effects(scene, {}, {});
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));

@@ -126,7 +126,7 @@ TEST(Scenes, WithLightsToSpareAreTheSameToTheBit) {
 
 TEST(SceneViews, AreOfTheCamerasThatNodesHold) {
     const Scene scene = shipped_scene("teapot.gltf");
-    EXPECT_EQ(first_camera(scene), 0);
+    EXPECT_EQ(first_camera(scene), 0U);
     EXPECT_TRUE(view_of_camera(scene, 0, 4, 3));
     EXPECT_FALSE(view_of_camera(scene, 1, 4, 3));
 }

@@ -1,4 +1,4 @@
-// Nothing needed is missing: pictures by the permutations that a scene's draws call for are those of the
+// Nothing needed is missing: pictures by the permutations that a scene's draws need are those of the
 // ubershader with everything on.
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ bool is_asked_for(const Scene& scene, const Draw& draw, const Effect& effect) {
     return effect.is_in;
 }
 
-/// What the draw would call for if nothing were out of reach: every light, and whatever the file asks for.
+/// What the draw would need if nothing were out of reach: every light, and whatever the file asks for.
 Draw everything_on(const Scene& scene, Draw draw) {
     const std::size_t lights = place_lights(scene).size();
     for (std::size_t i = 0; i < draw.effects.size(); ++i)

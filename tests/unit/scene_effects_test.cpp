@@ -1,4 +1,4 @@
-// What draws call for: every rule with a row of its own, in and out.
+// Which effects draws need: every rule with a row of its own, in and out.
 #include <algorithm>
 #include <random>
 
@@ -8,7 +8,7 @@
 #include <lodepng.h>
 
 #include "scene/effects.hpp"
-#include "scene/lit_volume.hpp"
+#include "scene/geometry.hpp"
 #include "scene_support.hpp"
 
 namespace gobo::scene {
@@ -202,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
                "in, its vertices are not opaque"},
         Judged{"colored_metal",
                colored("[1, 0.5, 1, 1]", "OPAQUE", R"({"metallicFactor": 1, "roughnessFactor": 0.5})"),
-               "vertex_color", "out, its material scatters no light"},
+               "vertex_color", "out, its material has no diffuse or ambient colour"},
         Judged{"not_colored", "[]", "vertex_color", "out, it has none"},
         Judged{"textured",
                R"([{"op": "add", "path": "/textures", "value": [{}]},

@@ -1,9 +1,10 @@
 // From draws to keys, buckets and the funnel, over a family small enough to count by hand.
+#include "scene/scene_keys.hpp"
+
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "scene/funnel.hpp"
 #include "scene/read_scene.hpp"
 #include "scene_support.hpp"
 
@@ -69,34 +70,29 @@ TEST_P(DrawKeys, FollowFromEffects) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scene, DrawKeys,
-    testing::Values(Keyed{"nothing", {}, {}, "default", {}},
-                    Keyed{"two_points", points(2), {}, "point=2", {}},
-                    Keyed{"out_is_out", {{"point 0", "point", "", false, "dark"}}, {}, "default", {}},
-                    Keyed{"canonical", {in("specular", "blinn")}, {}, "default", {}},
-                    Keyed{"fog_and_highlight",
-                          points(1, {in("specular", "blinn"), in("fog", "linear")}),
-                          {},
-                          "fog=linear point=1 specular=blinn",
-                          {}},
-                    Keyed{"unknown_feature",
-                          {in("sides", "two")},
-                          {},
-                          "default",
-                          {"sides: called for but not yet in the family"}},
-                    Keyed{"unknown_value",
-                          {in("fog", "layered")},
-                          {},
-                          "default",
-                          {"fog: layered is called for but not yet in the family"}},
-                    Keyed{"too_many_points",
-                          points(4),
-                          {},
-                          "point=3",
-                          {"point: called for but beyond the 3 of the family"}},
-                    Keyed{"rounded_up", points(1), {0, 2}, "point=2", {}},
-                    Keyed{"zero_stays", {}, {0, 2}, "default", {}},
-                    Keyed{"above_the_buckets", points(3), {0, 2}, "point=3", {}},
-                    Keyed{"bucket_beyond_the_family", points(1), {0, 8}, "point=3", {}}),
+    testing::Values(
+        Keyed{"nothing", {}, {}, "default", {}}, Keyed{"two_points", points(2), {}, "point=2", {}},
+        Keyed{"out_is_out", {{"point 0", "point", "", false, "dark"}}, {}, "default", {}},
+        Keyed{"canonical", {in("specular", "blinn")}, {}, "default", {}},
+        Keyed{"fog_and_highlight",
+              points(1, {in("specular", "blinn"), in("fog", "linear")}),
+              {},
+              "fog=linear point=1 specular=blinn",
+              {}},
+        Keyed{"unknown_feature",
+              {in("sides", "two")},
+              {},
+              "default",
+              {"sides: needed, but not yet in the family"}},
+        Keyed{"unknown_value",
+              {in("fog", "layered")},
+              {},
+              "default",
+              {"fog: layered is needed, but not yet in the family"}},
+        Keyed{"too_many_points", points(4), {}, "point=3", {"point: needed, but beyond the 3 of the family"}},
+        Keyed{"rounded_up", points(1), {0, 2}, "point=2", {}}, Keyed{"zero_stays", {}, {0, 2}, "default", {}},
+        Keyed{"above_the_buckets", points(3), {0, 2}, "point=3", {}},
+        Keyed{"bucket_beyond_the_family", points(1), {0, 8}, "point=3", {}}),
     [](const auto& row) { return row.param.name; });
 
 TEST(SceneFunnel, CountsFromTheFamilyDownToTheScene) {
@@ -109,7 +105,7 @@ TEST(SceneFunnel, CountsFromTheFamilyDownToTheScene) {
     EXPECT_EQ(funnel->full_product, 24U) << "4 counts, 3 highlights, 2 fogs";
     EXPECT_EQ(funnel->valid, 20U) << "without lights, 2 of 3 highlights times 2 fogs are not canonical";
     EXPECT_EQ(funnel->draws, 4U) << "lines are not drawn";
-    EXPECT_EQ(funnel->called_for, 3U) << "0, 1 and 2 points";
+    EXPECT_EQ(funnel->needed, 3U) << "0, 1 and 2 points";
     EXPECT_EQ(funnel->bucketed, 2U) << "0 and 2 points";
 }
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/effects.hpp"
-#include "scene/motion.hpp"
+#include "scene/geometry.hpp"
 #include "scene/read_scene.hpp"
 #include "scene_support.hpp"
 

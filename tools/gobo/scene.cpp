@@ -1,4 +1,4 @@
-// gobo scene: what each draw of a scene calls for, the keys, and how few they are.
+// gobo scene: which effects each draw of a scene needs, the keys, and how few they are.
 #include <charconv>
 #include <set>
 #include <utility>
@@ -33,10 +33,10 @@ struct SceneOptions {
 Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& camera) {
     if (camera == "all") return scene::eye_of_cameras(scene);
     if (camera == "none") return scene::EyePlace();
-    int number = -1;
+    std::size_t number = 0;
     const auto [end, error] = std::from_chars(camera.data(), camera.data() + camera.size(), number);
     if (error == std::errc() && end == camera.data() + camera.size()) {
-        if (const auto eye = scene::eye_of_camera(scene, number)) return eye;
+        if (const auto eye = scene::eye_of_cameras(scene, number)) return eye;
     }
     return fail(Fault::usage,
                 fmt::format("--camera: no node of '{}' holds a camera '{}'", scene.path, camera),
@@ -124,14 +124,14 @@ Outcome run(const SceneOptions& options, const World& world) {
 
 Command scene_command(CLI::App& gobo) {
     auto options = std::make_shared<SceneOptions>();
-    CLI::App* app = gobo.add_subcommand("scene", "What each draw of a glTF scene calls for, and the keys");
+    CLI::App* app = gobo.add_subcommand("scene", "What each draw of a glTF scene needs, and the keys");
     app->add_option("SCENE", options->scene, "A .gltf or .glb file")->required();
     app->add_option("FAMILY", options->family, "A shipped family or a .toml file; by default lit");
     app->add_option("--bucket-lights", options->bucket_lights, "Round light counts up to one of these")
         ->type_name("0,1,2,...");
     app->add_option(
            "--camera", options->camera,
-           "Whence the scene is seen: a camera's number in the file, all of them (the default), or none: "
+           "From where the scene is seen: a camera's number in the file, all of them (the default), or none: "
            "then from anywhere")
         ->type_name("N|all|none");
     app->add_option("--light-threshold", options->thresholds.light,

@@ -38,7 +38,7 @@ std::string scene_json(const SceneReport& report) {
     json["funnel"] = {{"full_product", report.funnel.full_product},
                       {"valid", report.funnel.valid},
                       {"draws", report.funnel.draws},
-                      {"called_for", report.funnel.called_for},
+                      {"needed", report.funnel.needed},
                       {"after_light_buckets", report.funnel.bucketed},
                       {"distinct_programs", report.distinct_programs},
                       {"compiled_stages", report.compiled_stages}};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "family/family.hpp"
-#include "scene/funnel.hpp"
+#include "scene/scene_keys.hpp"
 
 namespace gobo {
 

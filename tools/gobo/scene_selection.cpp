@@ -23,7 +23,7 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
     if (!named.empty()) return named;
     Diagnostic diagnostic;
     diagnostic.place.file = path;
-    diagnostic.message = "calls for no permutation: it draws no triangles";
+    diagnostic.message = "needs no permutation: it draws no triangles";
     return fail(std::move(diagnostic));
 }
 

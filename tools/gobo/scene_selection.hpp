@@ -9,7 +9,7 @@
 
 namespace gobo {
 
-/// The keys that the draws of a scene call for, seen from any of its cameras, as `gobo scene --keys` lists
+/// The keys that the draws of a scene need, seen from any of its cameras, as `gobo scene --keys` lists
 /// them. The scene and its buffers are added to `family.files`. Fault::input where the scene draws no
 /// triangles: an empty selection would mean the family's default set.
 [[nodiscard]] Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& family,

@@ -23,11 +23,11 @@ std::string funnel_text(const SceneReport& report) {
         "funnel\n"
         "  full product         {:>12}\n"
         "  valid                {:>12}\n"
-        "  called for           {:>12}  by {} draw{}\n"
+        "  needed               {:>12}  by {} draw{}\n"
         "  after light buckets  {:>12}  ({})\n"
         "  distinct programs    {:>12}\n"
         "  compiled stages      {:>12}\n",
-        funnel.full_product, funnel.valid, funnel.called_for, funnel.draws, funnel.draws == 1 ? "" : "s",
+        funnel.full_product, funnel.valid, funnel.needed, funnel.draws, funnel.draws == 1 ? "" : "s",
         funnel.bucketed, scene::buckets_text(report.buckets), report.distinct_programs,
         report.compiled_stages);
 }

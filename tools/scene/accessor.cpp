@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -14,294 +15,339 @@ namespace {
 
 /// More numbers than this are read of no scene: half a gigabyte in double precision. Accessors may overlap,
 /// so that a small file can ask for any amount.
-constexpr std::size_t most_components = std::size_t{1} << 26;
+constexpr std::size_t kMostComponents = std::size_t{1} << 26;
 /// And no more than this of an accessor without a buffer view, which costs a file nothing.
-constexpr std::size_t most_zeros = std::size_t{1} << 22;
+constexpr std::size_t kMostZeros = std::size_t{1} << 22;
 
-std::size_t size_of(Component component) {
-    switch (component) {
-        case Component::signed_byte:
-        case Component::unsigned_byte:
-            return 1;
-        case Component::signed_short:
-        case Component::unsigned_short:
-            return 2;
-        default:
-            return 4;
-    }
+struct ComponentKind {
+    std::int64_t number;  ///< OpenGL's, as glTF has it
+    std::size_t size;
+    double most;  ///< what a normalized 1 is stored as; 0: never normalized
+    const char* name;
+};
+constexpr ComponentKind kComponents[] = {{5120, 1, 127, "byte"},       {5121, 1, 255, "unsigned byte"},
+                                         {5122, 2, 32767, "short"},    {5123, 2, 65535, "unsigned short"},
+                                         {5125, 4, 0, "unsigned int"}, {5126, 4, 0, "float"}};
+
+const std::vector<std::string> kShapes = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+
+const ComponentKind& kind_of(Component component) {
+    return kComponents[static_cast<std::size_t>(component)];
 }
 
-std::string_view name_of(Component component) {
-    switch (component) {
-        case Component::signed_byte:
-            return "byte";
-        case Component::unsigned_byte:
-            return "unsigned byte";
-        case Component::signed_short:
-            return "short";
-        case Component::unsigned_short:
-            return "unsigned short";
-        case Component::unsigned_int:
-            return "unsigned int";
-        case Component::float_number:
-            return "float";
-    }
-    return "float";
+Component read_component(const Value& value) {
+    const std::int64_t number = value["componentType"].required().integer().value_or(0);
+    const auto* const found = std::ranges::find(kComponents, number, &ComponentKind::number);
+    if (found != std::end(kComponents)) return static_cast<Component>(found - kComponents);
+    value["componentType"].fail("is {}, but must be one of 5120, 5121, 5122, 5123, 5125, 5126", number);
+    return Component::float32;
 }
 
-std::size_t width_of(std::string_view shape) {
-    constexpr std::pair<std::string_view, std::size_t> widths[] = {
-        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-    for (const auto& [name, width] : widths)
-        if (name == shape) return width;
-    return 1;
-}
-
-/// A matrix's columns begin at multiples of four bytes (glTF 2.0 specification, 3.6.2.4).
-std::size_t element_size(std::string_view shape, std::size_t width, Component component) {
-    if (!shape.starts_with("MAT")) return width * size_of(component);
-    const auto rows = static_cast<std::size_t>(shape.back() - '0');
-    return rows * ((rows * size_of(component) + 3) / 4 * 4);
-}
-
-std::uint32_t bits_at(std::string_view bytes, std::size_t offset, std::size_t size) {
+/// Little-endian.
+std::uint32_t bits_at(std::string_view bytes, std::size_t offset, std::size_t size = 4) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < size; ++i)
         bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[offset + i])) << (8 * i);
     return bits;
 }
 
-double number_at(std::string_view bytes, std::size_t offset, Component component, bool normalized) {
-    const std::uint32_t bits = bits_at(bytes, offset, size_of(component));
-    switch (component) {
-        case Component::signed_byte: {
-            const double value = static_cast<std::int8_t>(bits);
-            return normalized ? std::max(value / 127, -1.0) : value;
-        }
-        case Component::unsigned_byte:
-            return normalized ? bits / 255.0 : bits;
-        case Component::signed_short: {
-            const double value = static_cast<std::int16_t>(bits);
-            return normalized ? std::max(value / 32767, -1.0) : value;
-        }
-        case Component::unsigned_short:
-            return normalized ? bits / 65535.0 : bits;
-        case Component::unsigned_int:
-            return bits;
-        case Component::float_number:
-            return std::bit_cast<float>(bits);
-    }
-    return 0;
+std::size_t rows_of(std::string_view shape) {
+    return shape == "SCALAR" ? 1 : static_cast<std::size_t>(shape.back() - '0');
 }
 
-std::string kind_of(std::string_view shape, Component component) {
-    return fmt::format("{} of {}", shape, name_of(component));
+std::size_t columns_of(std::string_view shape) {
+    return shape.starts_with("MAT") ? rows_of(shape) : 1;
+}
+
+/// A matrix's columns begin at multiples of four bytes (glTF 2.0 specification, 3.6.2.4).
+std::size_t element_size(std::string_view shape, Component component) {
+    const std::size_t column = rows_of(shape) * kind_of(component).size;
+    return columns_of(shape) == 1 ? column : columns_of(shape) * ((column + 3) / 4 * 4);
+}
+
+/// RFC 4648, also its URL alphabet.
+std::optional<std::string> decode_base64(std::string_view text) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/-_";
+    while (text.ends_with('=')) text.remove_suffix(1);
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t pending = 0;
+    int bits = 0;
+    for (const char digit : text) {
+        const std::size_t value = digits.find(digit);
+        if (value == std::string_view::npos) return std::nullopt;
+        pending = (pending << 6 | static_cast<std::uint32_t>(value < 64 ? value : value - 2)) & 0xFFFFFF;
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes += static_cast<char>(pending >> bits & 0xFF);
+    }
+    return bytes;
+}
+
+/// A URI's path with %20 and the like decoded.
+std::string decode_percent(std::string_view uri) {
+    std::string path;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned character = 0;
+        const char* const digits = uri.data() + i + 1;
+        const bool is_escape = uri[i] == '%' && i + 2 < uri.size() &&
+                               std::from_chars(digits, digits + 2, character, 16).ptr == digits + 2;
+        path += is_escape ? static_cast<char>(character) : uri[i];
+        if (is_escape) i += 2;
+    }
+    return path;
 }
 
 }  // namespace
 
-Accessors::Accessors(Document& document, const Buffers& buffers) : document_(document) {
-    read_views(buffers);
-    for (const Value& value : document_.objects(document_.root(), "accessors")) {
+Result<Container> open_container(std::string_view content, const std::string& path) {
+    constexpr std::size_t header_size = 12;
+    constexpr std::size_t chunk_header_size = 8;
+    constexpr std::uint32_t json_chunk = 0x4E4F534A;
+    constexpr std::uint32_t binary_chunk = 0x004E4942;
+    const auto broken = [&](std::string message) {
+        Diagnostic diagnostic;
+        diagnostic.place.file = path;
+        diagnostic.message = "this container " + std::move(message);
+        return fail(std::move(diagnostic));
+    };
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
+    if (!content.starts_with("glTF")) return Container{content, std::nullopt};
+    if (content.size() < header_size) return broken("is cut short: it has no whole header");
+    if (const std::uint32_t version = bits_at(content, 4); version != 2)
+        return broken(fmt::format("has version {}, but only version 2 is read", version));
+    const std::size_t length = bits_at(content, 8);
+    if (length > content.size() || length < header_size)
+        return broken(
+            fmt::format("is cut short: its header says {} bytes, but there are {}", length, content.size()));
+    Container container;
+    std::string_view rest = content.substr(header_size, length - header_size);
+    do {
+        const std::size_t offset = length - rest.size();
+        if (rest.size() < chunk_header_size)
+            return broken(fmt::format("is cut short: the chunk at byte {} has no header", offset));
+        const std::size_t size = bits_at(rest, 0);
+        const std::size_t left = rest.size() - chunk_header_size;
+        if (size > left)
+            return broken(
+                fmt::format("is cut short: the chunk at byte {} should have {} bytes, but only {} follow",
+                            offset, size, left));
+        const std::uint32_t type = bits_at(rest, 4);
+        const std::string_view chunk = rest.substr(chunk_header_size, size);
+        if (offset == header_size) {
+            if (type != json_chunk) return broken("does not begin with a chunk of JSON");
+            container.json = chunk;
+        } else if (type == binary_chunk && !container.binary) {
+            container.binary = chunk;
+        }
+        rest.remove_prefix(chunk_header_size + size);
+    } while (!rest.empty());
+    return container;
+}
+
+std::string read_uri(const FileSystem& disk, const Value& user, std::string_view uri,
+                     std::vector<std::string>& files) {
+    if (uri.starts_with("data:")) {
+        const std::string_view type = uri.substr(0, uri.find(','));
+        if (type == uri || !type.ends_with(";base64"))
+            user["uri"].fail("is a data URI that is not in base64");
+        const auto bytes = decode_base64(uri.substr(std::min(type.size() + 1, uri.size())));
+        if (!bytes)
+            user["uri"].fail("is a data URI whose base64 holds a character that is none of its digits");
+        return bytes.value_or("");
+    }
+    const auto colon = uri.find(':');
+    const bool has_scheme =
+        colon != std::string_view::npos && uri.find('/') > colon;  // RFC 3986: `https:`, `file:`
+    if (has_scheme || uri.starts_with('/')) {
+        user["uri"].fail_with("buffers and pictures are data URIs or paths relative to the file", "is '{}'",
+                              uri);
+        return {};
+    }
+    const std::string& document = user.document->path();
+    const std::string path = document.substr(0, document.rfind('/') + 1) + decode_percent(uri);
+    Result<std::string> content = disk.read(path);
+    if (!content) {
+        content.error().front().help = fmt::format("{} of {} names it", user["uri"].path, document);
+        user.document->take(std::move(content.error()));
+        return {};
+    }
+    files.push_back(path);
+    return std::move(*content);
+}
+
+std::vector<std::string> read_buffers(const FileSystem& disk, const Value& root,
+                                      std::optional<std::string_view> binary,
+                                      std::vector<std::string>& files) {
+    std::vector<std::string> buffers;
+    for (const Value& value : root["buffers"].objects()) {
+        const std::size_t length = value["byteLength"].count();
+        std::string content;
+        if (std::string uri; value["uri"].read(uri)) {
+            content = read_uri(disk, value, uri, files);
+        } else if (buffers.empty() && binary) {
+            content = *binary;
+        } else {
+            value.fail("has no uri, and the file holds no binary chunk for it");
+        }
+        if (content.size() < length)
+            value.fail("holds {} bytes, but its byteLength is {}", content.size(), length);
+        if (root.document->failed()) return buffers;
+        content.resize(length);
+        buffers.push_back(std::move(content));
+    }
+    return buffers;
+}
+
+double Accessors::Array::at(std::size_t element, std::size_t part) const {
+    const ComponentKind& kind = kind_of(component);
+    const std::uint32_t bits = bits_at(bytes, element * stride + part * kind.size, kind.size);
+    if (component == Component::float32) return std::bit_cast<float>(bits);
+    double value = bits;
+    if (component == Component::int8) value = static_cast<std::int8_t>(bits);
+    if (component == Component::int16) value = static_cast<std::int16_t>(bits);
+    return normalized && kind.most > 0 ? std::max(value / kind.most, -1.0) : value;
+}
+
+Accessors::Accessors(const Value& root, const std::vector<std::string>& buffers) : document_(*root.document) {
+    for (const Value& value : root["bufferViews"].objects()) {
+        const std::size_t buffer = value["buffer"].required().index(buffers.size(), "buffers").value_or(0);
+        const std::int64_t offset = value["byteOffset"].integer().value_or(0);
+        const std::int64_t length = value["byteLength"].required().integer().value_or(0);
+        const auto stride = value["byteStride"].integer();
+        if (document_.failed()) return;
+        const std::string_view content = buffers[buffer];
+        const auto available = static_cast<std::int64_t>(content.size());
+        if (offset < 0 || length < 1 || offset > available || length > available - offset)
+            value.fail("spans {} bytes from byte {}, but buffers[{}] holds {} bytes", length, offset, buffer,
+                       available);
+        if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0))
+            value["byteStride"].fail("is {}, but must be a multiple of 4 from 4 to 252", *stride);
+        if (document_.failed()) return;
+        views_.push_back({content.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)),
+                          static_cast<std::size_t>(stride.value_or(0))});
+    }
+    for (const Value& value : root["accessors"].objects()) {
         accessors_.push_back(read_accessor(value));
         if (document_.failed()) return;
     }
 }
 
-void Accessors::read_views(const Buffers& buffers) {
-    for (const Value& value : document_.objects(document_.root(), "bufferViews")) {
-        const int buffer = document_.required_index(value, "buffer", buffers.contents.size(), "buffers");
-        const std::int64_t offset = document_.integer(value, "byteOffset").value_or(0);
-        const std::int64_t length = document_.required_integer(value, "byteLength");
-        const auto stride = document_.integer(value, "byteStride");
-        if (document_.failed()) return;
-        const std::string_view content = buffers.contents[static_cast<std::size_t>(buffer)];
-        const auto available = static_cast<std::int64_t>(content.size());
-        if (offset < 0 || length < 1 || offset > available || length > available - offset) {
-            document_.error(value.path,
-                            fmt::format("spans {} bytes from byte {}, but buffers[{}] holds {} bytes", length,
-                                        offset, buffer, available));
-        }
-        if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0)) {
-            document_.error(path_to(value, "byteStride"),
-                            fmt::format("is {}, but must be a multiple of 4 from 4 to 252", *stride));
-        }
-        if (document_.failed()) return;
-        views_.push_back({content.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)),
-                          static_cast<std::size_t>(stride.value_or(0))});
-    }
-}
-
-Component Accessors::read_component(const Value& value) {
-    const std::int64_t number = document_.required_integer(value, "componentType");
-    for (const Component component :
-         {Component::signed_byte, Component::unsigned_byte, Component::signed_short,
-          Component::unsigned_short, Component::unsigned_int, Component::float_number})
-        if (static_cast<std::int64_t>(component) == number) return component;
-    document_.error(path_to(value, "componentType"),
-                    fmt::format("is {}, but must be one of 5120, 5121, 5122, 5123, 5125, 5126", number));
-    return Component::float_number;
-}
-
-Accessors::Accessor Accessors::read_accessor(const Value& value) {
+Accessors::Accessor Accessors::read_accessor(const Value& value) const {
     Accessor accessor;
     accessor.path = value.path;
-    accessor.component = read_component(value);
-    const auto shape =
-        document_.choice(value, "type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
-    if (!shape) document_.error(path_to(value, "type"), "is missing");
-    const std::int64_t count = document_.required_integer(value, "count");
-    if (count < 1)
-        document_.error(path_to(value, "count"), fmt::format("is {}, but must be at least 1", count));
-    accessor.normalized = document_.boolean(value, "normalized").value_or(false);
+    accessor.numbers.component = read_component(value);
+    accessor.shape = kShapes[value["type"].choice(kShapes)];
+    accessor.count = value["count"].count();
+    value["normalized"].read(accessor.numbers.normalized);
     if (document_.failed()) return accessor;
-    accessor.shape = *shape;
-    accessor.width = width_of(*shape);
-    accessor.count = static_cast<std::size_t>(count);
-    accessor.view = view_from(value, element_size(*shape, accessor.width, accessor.component),
-                              size_of(accessor.component), accessor.count);
-    accessor.sparse = read_sparse(value, accessor);
+    const Value sparse = value["sparse"].object();
+    accessor.sparse_numbers = accessor.numbers;
+    read_array(value, accessor.shape, accessor.count, accessor.numbers);
+    if (!sparse) return accessor;
+    const Value indices = sparse["indices"].object();
+    const Value values = sparse["values"].object();
+    const std::int64_t sparse_count = sparse["count"].required().integer().value_or(0);
+    if (!indices || !values) sparse.fail("needs both indices and values");
+    if (sparse_count < 1 || static_cast<std::size_t>(sparse_count) > accessor.count)
+        sparse["count"].fail("is {}, but must be from 1 to {}", sparse_count, accessor.count);
+    if (document_.failed()) return accessor;
+    accessor.sparse_count = static_cast<std::size_t>(sparse_count);
+    accessor.sparse_indices.component = read_component(indices);
+    read_array(indices, kShapes[0], accessor.sparse_count, accessor.sparse_indices);
+    read_array(values, accessor.shape, accessor.sparse_count, accessor.sparse_numbers);
+    if (accessor.sparse_indices.stride == 0 || accessor.sparse_numbers.stride == 0)
+        sparse.fail("names no buffer view");
     return accessor;
 }
 
-/// The view of `count` elements that `value` names, checked to lie within its buffer view; nothing where it
-/// names none.
-std::optional<Accessors::View> Accessors::view_from(const Value& value, std::size_t element_size,
-                                                    std::size_t component_size, std::size_t count) {
-    const auto index = document_.index(value, "bufferView", views_.size(), "buffer views");
-    const std::int64_t offset = document_.integer(value, "byteOffset").value_or(0);
-    if (!index) return std::nullopt;
-    const View& view = views_[static_cast<std::size_t>(*index)];
-    const std::size_t stride = view.stride == 0 ? element_size : view.stride;
+/// The bytes of `count` elements in the buffer view that `value` names, if any, checked to lie within it.
+void Accessors::read_array(const Value& value, std::string_view shape, std::size_t count,
+                           Array& array) const {
+    const auto index = value["bufferView"].index(views_.size(), "buffer views");
+    const std::int64_t offset = value["byteOffset"].integer().value_or(0);
+    if (!index) return;
+    const View& view = views_[*index];
+    const std::size_t size = element_size(shape, array.component);
+    const std::size_t alignment = kind_of(array.component).size;
+    const std::size_t stride = view.stride == 0 ? size : view.stride;
     const std::size_t available = view.bytes.size();
-    if (offset < 0 || static_cast<std::size_t>(offset) % component_size != 0) {
-        document_.error(path_to(value, "byteOffset"),
-                        fmt::format("is {}, but must be a multiple of {}", offset, component_size));
-        return std::nullopt;
-    }
-    if (stride < element_size) {
-        document_.error(value.path,
-                        fmt::format("has elements of {} bytes, but bufferViews[{}].byteStride is {}",
-                                    element_size, *index, stride));
-        return std::nullopt;
-    }
     const auto start = static_cast<std::size_t>(offset);
-    const bool has_room = start <= available && element_size <= available - start;
-    const std::size_t room = has_room ? (available - start - element_size) / stride + 1 : 0;
-    if (count > room) {
-        document_.error(value.path, fmt::format("asks for {} elements, but bufferViews[{}] has room for {}",
-                                                count, *index, room));
-        return std::nullopt;
-    }
-    return View{view.bytes.substr(start), stride};
+    if (offset < 0 || start % alignment != 0)
+        value["byteOffset"].fail("is {}, but must be a multiple of {}", offset, alignment);
+    if (stride < size)
+        value.fail("has elements of {} bytes, but bufferViews[{}].byteStride is {}", size, *index, stride);
+    const bool has_room = start <= available && size <= available - start;
+    const std::size_t room = has_room ? (available - start - size) / stride + 1 : 0;
+    if (count > room)
+        value.fail("asks for {} elements, but bufferViews[{}] has room for {}", count, *index, room);
+    if (document_.failed()) return;
+    array.bytes = view.bytes.substr(start);
+    array.stride = stride;
 }
 
-std::optional<Accessors::Sparse> Accessors::read_sparse(const Value& value, const Accessor& accessor) {
-    const auto source = document_.object(value, "sparse");
-    if (!source) return std::nullopt;
-    const auto indices = document_.object(*source, "indices");
-    const auto values = document_.object(*source, "values");
-    const std::int64_t count = document_.required_integer(*source, "count");
-    if (!indices || !values) document_.error(source->path, "needs both indices and values");
-    if (count < 1 || static_cast<std::uint64_t>(count) > accessor.count) {
-        document_.error(path_to(*source, "count"),
-                        fmt::format("is {}, but must be from 1 to {}", count, accessor.count));
-    }
-    if (document_.failed()) return std::nullopt;
-    Sparse sparse;
-    sparse.count = static_cast<std::size_t>(count);
-    sparse.index_component = read_component(*indices);
-    const std::size_t index_size = size_of(sparse.index_component);
-    const auto index_view = view_from(*indices, index_size, index_size, sparse.count);
-    const auto value_view =
-        view_from(*values, element_size(accessor.shape, accessor.width, accessor.component),
-                  size_of(accessor.component), sparse.count);
-    if (!index_view || !value_view) {
-        document_.error(source->path, "names no buffer view");
-        return std::nullopt;
-    }
-    sparse.indices = *index_view;
-    sparse.values = *value_view;
-    return sparse;
-}
-
-void Accessors::apply(const Accessor& accessor, const Sparse& sparse, Values& values) {
-    double before = -1;
-    for (std::size_t i = 0; i < sparse.count; ++i) {
-        const double index =
-            number_at(sparse.indices.bytes, i * sparse.indices.stride, sparse.index_component, false);
-        if (index <= before || index >= static_cast<double>(values.count)) {
-            document_.error(accessor.path,
-                            fmt::format("has sparse indices that do not rise from 0 to {}: {} after {}",
-                                        values.count - 1, index, before));
-            return;
-        }
-        before = index;
-        for (std::size_t k = 0; k < values.width; ++k) {
-            values.numbers[static_cast<std::size_t>(index) * values.width + k] =
-                number_at(sparse.values.bytes, i * sparse.values.stride + k * size_of(accessor.component),
-                          accessor.component, accessor.normalized);
-        }
-    }
-}
-
-bool Accessors::accepts(const Accessor& accessor, const Wanted& wanted, std::string_view user) {
-    const bool shape_fits =
-        std::find(wanted.shapes.begin(), wanted.shapes.end(), accessor.shape) != wanted.shapes.end();
-    const bool component_fits = std::find(wanted.components.begin(), wanted.components.end(),
-                                          accessor.component) != wanted.components.end();
-    if (shape_fits && component_fits) return true;
+bool Accessors::accepts(const Accessor& accessor, const Wanted& wanted, const Value& user) const {
+    const Component component = accessor.numbers.component;
+    if (std::ranges::find(wanted.shapes, accessor.shape) != wanted.shapes.end() &&
+        std::ranges::find(wanted.components, component) != wanted.components.end())
+        return true;
     std::vector<std::string> kinds;
-    for (const Component component : wanted.components) kinds.emplace_back(name_of(component));
-    document_.error(user, fmt::format("names {}, which holds {}, not {} of {}", accessor.path,
-                                      kind_of(accessor.shape, accessor.component),
-                                      fmt::join(wanted.shapes, " or "), join(kinds, " or ")));
+    for (const Component accepted : wanted.components) kinds.emplace_back(kind_of(accepted).name);
+    user.fail("names {}, which holds {} of {}, not {} of {}", accessor.path, accessor.shape,
+              kind_of(component).name, fmt::join(wanted.shapes, " or "), join(kinds, " or "));
     return false;
 }
 
-std::optional<std::string_view> Accessors::view(const Value& parent, std::string_view name) {
-    const auto index = document_.index(parent, name, views_.size(), "buffer views");
-    if (!index || document_.failed()) return std::nullopt;
-    return views_[static_cast<std::size_t>(*index)].bytes;
+std::optional<std::string_view> Accessors::view(const Value& user) const {
+    const auto index = user.index(views_.size(), "buffer views");
+    return index && !document_.failed() ? std::optional(views_[*index].bytes) : std::nullopt;
 }
 
-Values Accessors::read(int index, const Wanted& wanted, std::string_view user) {
-    if (document_.failed()) return {};
-    const Accessor& accessor = accessors_[static_cast<std::size_t>(index)];
+Values Accessors::read(const Value& user, const Wanted& wanted) {
+    const auto index = user.index(accessors_.size(), "accessors");
+    if (!index) return {};
+    const Accessor& accessor = accessors_[*index];
+    const Value named{&document_, nullptr, accessor.path};
+    const std::size_t width = columns_of(accessor.shape) * rows_of(accessor.shape);
+    const bool has_bytes = accessor.numbers.stride > 0;
     if (!accepts(accessor, wanted, user)) return {};
-    if (accessor.count > (most_components - components_read_) / accessor.width) {
-        document_.error(accessor.path,
-                        fmt::format("has {} elements: the scene would hold more than {} numbers",
-                                    accessor.count, most_components));
-        return {};
-    }
-    if (!accessor.view && accessor.count > most_zeros / accessor.width) {
-        document_.error(accessor.path,
-                        fmt::format("has {} elements without a buffer view: more than {} zeros",
-                                    accessor.count, most_zeros));
-        return {};
-    }
-    Values values{accessor.width, accessor.count, std::vector<double>(accessor.count * accessor.width, 0.0)};
-    components_read_ += values.numbers.size();
-    if (accessor.view) {
-        const std::size_t size = size_of(accessor.component);
-        for (std::size_t i = 0; i < values.count; ++i) {
-            for (std::size_t k = 0; k < values.width; ++k) {
-                values.numbers[i * values.width + k] =
-                    number_at(accessor.view->bytes, i * accessor.view->stride + k * size, accessor.component,
-                              accessor.normalized);
-            }
-        }
-    }
-    if (accessor.sparse) apply(accessor, *accessor.sparse, values);
-    const auto bad = std::find_if_not(values.numbers.begin(), values.numbers.end(),
-                                      [](double number) { return std::isfinite(number); });
-    if (bad != values.numbers.end()) {
-        const auto element = static_cast<std::size_t>(bad - values.numbers.begin()) / values.width;
-        document_.error(user, fmt::format("is not finite in element {} of {}", element, accessor.path));
-    }
+    if (accessor.count > (kMostComponents - components_read_) / width)
+        named.fail("has {} elements: the scene would hold more than {} numbers", accessor.count,
+                   kMostComponents);
+    if (!has_bytes && accessor.count > kMostZeros / width)
+        named.fail("has {} elements without a buffer view: more than {} zeros", accessor.count, kMostZeros);
     if (document_.failed()) return {};
-    return values;
+    Values values{width, accessor.count, std::vector<double>(accessor.count * width, 0.0)};
+    components_read_ += values.numbers.size();
+    for (std::size_t i = 0; has_bytes && i < values.count; ++i)
+        for (std::size_t k = 0; k < width; ++k) values.numbers[i * width + k] = accessor.numbers.at(i, k);
+    double before = -1;
+    for (std::size_t i = 0; i < accessor.sparse_count && !document_.failed(); ++i) {
+        const double element = accessor.sparse_indices.at(i, 0);
+        const bool rises = element > before && element < static_cast<double>(values.count);
+        if (!rises)
+            named.fail("has sparse indices that do not rise from 0 to {}: {} after {}", values.count - 1,
+                       element, before);
+        before = element;
+        for (std::size_t k = 0; rises && k < width; ++k)
+            values.numbers[static_cast<std::size_t>(element) * width + k] = accessor.sparse_numbers.at(i, k);
+    }
+    const auto bad =
+        std::ranges::find_if_not(values.numbers, [](double number) { return std::isfinite(number); });
+    if (bad != values.numbers.end())
+        user.fail("is not finite in element {} of {}",
+                  static_cast<std::size_t>(bad - values.numbers.begin()) / width, accessor.path);
+    return document_.failed() ? Values() : values;
+}
+
+Values Attributes::read(std::string_view name, const Wanted& wanted) {
+    Values values = accessors.read(attributes[name], wanted);
+    if (count == 0) count = values.count;
+    if (values.count == 0 || values.count == count) return values;
+    attributes[name].fail("has {} elements, but there are {} {}", values.count, count, elements);
+    return {};
 }
 
 }  // namespace gobo::scene

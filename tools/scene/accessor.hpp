@@ -1,5 +1,7 @@
-// Accessors: typed, strided, possibly sparse arrays within buffers, each checked before anything is read
-// through it.
+// The numbers of a glTF file: its container, its buffers wherever they lie (in the container, in the JSON, in
+// files beside it), and accessors, which are typed, strided, possibly sparse arrays within buffers. Each is
+// checked before anything is read through it. That is why no glTF library reads them: what is wrong must be
+// told with its path in the file, and no index or extent may be trusted.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +10,33 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/buffers.hpp"
+#include "core/file_system.hpp"
 #include "scene/document.hpp"
 
 namespace gobo::scene {
 
-/// Component types, by OpenGL's numbers as glTF has them.
-enum class Component {
-    signed_byte = 5120,
-    unsigned_byte = 5121,
-    signed_short = 5122,
-    unsigned_short = 5123,
-    unsigned_int = 5125,
-    float_number = 5126,
+/// The parts of a glTF file; they refer to its content.
+struct Container {
+    std::string_view json;
+    std::optional<std::string_view> binary;  ///< the buffer that a .glb holds
 };
+
+/// Takes a file apart. What begins with "glTF" is a container of version 2 (glTF 2.0 specification, ch. 4),
+/// anything else is JSON. Fault::input where a container is cut short or its chunks are not as they must be.
+[[nodiscard]] Result<Container> open_container(std::string_view content, const std::string& path);
+
+/// What the member `uri` names: data in base64, or a file beside the document, which is added to `files`.
+/// Anything wrong is an error of the document; Fault::file where a file cannot be read.
+[[nodiscard]] std::string read_uri(const FileSystem& disk, const Value& user, std::string_view uri,
+                                   std::vector<std::string>& files);
+
+/// The contents of every buffer of the document, each of exactly its byteLength.
+[[nodiscard]] std::vector<std::string> read_buffers(const FileSystem& disk, const Value& root,
+                                                    std::optional<std::string_view> binary,
+                                                    std::vector<std::string>& files);
+
+/// Component types, in the order of their table.
+enum class Component { int8, uint8, int16, uint16, uint32, float32 };
 
 /// What a use of an accessor accepts.
 struct Wanted {
@@ -32,11 +47,14 @@ struct Wanted {
 /// The values of an accessor, element after element.
 struct Values {
     std::size_t width = 0;  ///< components of an element
-    std::size_t count = 0;  ///< elements
+    std::size_t count = 0;  ///< elements; 0: there is no such accessor, or it is wrong
     std::vector<double> numbers;
 
-    [[nodiscard]] double at(std::size_t element, std::size_t component) const {
+    [[nodiscard]] double at(std::size_t element, std::size_t component = 0) const {
         return numbers[element * width + component];
+    }
+    [[nodiscard]] glm::dvec3 triple(std::size_t element) const {
+        return {at(element, 0), at(element, 1), at(element, 2)};
     }
 };
 
@@ -45,51 +63,56 @@ class Accessors {
   public:
     /// Reads and checks every buffer view and accessor: whatever lies outside its buffer is an error of the
     /// document.
-    Accessors(Document& document, const Buffers& buffers);
+    Accessors(const Value& root, const std::vector<std::string>& buffers);
 
     [[nodiscard]] std::size_t size() const { return accessors_.size(); }
-    /// The bytes of a buffer view named by a member; nothing where there is no such member, or it is wrong.
-    [[nodiscard]] std::optional<std::string_view> view(const Value& parent, std::string_view name);
-    /// The values of an accessor, normalized ones as numbers from 0 or -1 to 1. `user` names what uses it in
-    /// messages. A kind that is not wanted, and numbers that are not finite, are errors of the document; the
-    /// result is then empty.
-    [[nodiscard]] Values read(int accessor, const Wanted& wanted, std::string_view user);
+    /// The bytes of the buffer view whose number `user` holds; nothing where it is absent or wrong.
+    [[nodiscard]] std::optional<std::string_view> view(const Value& user) const;
+    /// The values of the accessor whose number `user` holds, normalized ones as numbers from 0 or -1 to 1. A
+    /// kind that is not wanted, and numbers that are not finite, are errors of the document.
+    [[nodiscard]] Values read(const Value& user, const Wanted& wanted);
 
   private:
     struct View {
         std::string_view bytes;
         std::size_t stride = 0;  ///< 0: elements lie close together
     };
-    struct Sparse {
-        std::size_t count = 0;
-        View indices;
-        Component index_component = Component::unsigned_int;
-        View values;
+    struct Array {
+        std::string_view bytes;  ///< begin at the first element
+        std::size_t stride = 0;  ///< 0: there are no bytes, all numbers are zero
+        Component component = Component::float32;
+        bool normalized = false;
+        [[nodiscard]] double at(std::size_t element, std::size_t part) const;
     };
     struct Accessor {
         std::string path;
         std::string shape;
-        std::size_t width = 1;
-        Component component = Component::float_number;
-        bool normalized = false;
         std::size_t count = 0;
-        std::optional<View> view;  ///< begins at the first element; none: all zero
-        std::optional<Sparse> sparse;
+        Array numbers;
+        std::size_t sparse_count = 0;  ///< of elements that stand elsewhere
+        Array sparse_indices;
+        Array sparse_numbers;
     };
 
-    void read_views(const Buffers& buffers);
-    [[nodiscard]] Accessor read_accessor(const Value& value);
-    [[nodiscard]] Component read_component(const Value& value);
-    [[nodiscard]] std::optional<View> view_from(const Value& value, std::size_t element_size,
-                                                std::size_t component_size, std::size_t count);
-    [[nodiscard]] std::optional<Sparse> read_sparse(const Value& value, const Accessor& accessor);
-    void apply(const Accessor& accessor, const Sparse& sparse, Values& values);
-    [[nodiscard]] bool accepts(const Accessor& accessor, const Wanted& wanted, std::string_view user);
+    [[nodiscard]] Accessor read_accessor(const Value& value) const;
+    void read_array(const Value& value, std::string_view shape, std::size_t count, Array& array) const;
+    [[nodiscard]] bool accepts(const Accessor& accessor, const Wanted& wanted, const Value& user) const;
 
     Document& document_;
     std::vector<View> views_;
     std::vector<Accessor> accessors_;
     std::size_t components_read_ = 0;
+};
+
+/// The attributes of a primitive, a morph target or of instances: all have as many elements, those of the
+/// first that is read unless `count` says how many.
+struct Attributes {
+    Accessors& accessors;
+    Value attributes;
+    std::string_view elements;  ///< what messages call them: "positions"
+    std::size_t count = 0;
+
+    [[nodiscard]] Values read(std::string_view name, const Wanted& wanted);
 };
 
 }  // namespace gobo::scene

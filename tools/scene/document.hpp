@@ -3,22 +3,29 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostic.hpp"
 
 namespace gobo::scene {
 
-/// A value of a document and the path that leads to it: `nodes[3].mesh`.
-struct Value {
-    const nlohmann::json* json = nullptr;
-    std::string path;
+/// What a number must lie within.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
 };
+inline constexpr Range kNotNegative{0};
+inline constexpr Range kUpToOne{0, 1};
 
 /// A document being read. The first error is kept; reads after it return nothing, so that callers need not
 /// test each.
@@ -30,63 +37,82 @@ class Document {
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
-    [[nodiscard]] Value root() const { return {&root_, {}}; }
+    [[nodiscard]] const nlohmann::json& json() const { return root_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] bool failed() const { return !errors_.empty(); }
     [[nodiscard]] const Diagnostics& errors() const { return errors_; }
-
-    // Each is nothing where the name is absent, and an error where the value has another type.
-    [[nodiscard]] std::optional<Value> object(const Value& parent, std::string_view name);
-    [[nodiscard]] std::optional<double> number(const Value& parent, std::string_view name);
-    [[nodiscard]] std::optional<std::int64_t> integer(const Value& parent, std::string_view name);
-    [[nodiscard]] std::optional<bool> boolean(const Value& parent, std::string_view name);
-    [[nodiscard]] std::optional<std::string> string(const Value& parent, std::string_view name);
-    /// Exactly `size` numbers.
-    [[nodiscard]] std::optional<std::vector<double>> numbers(const Value& parent, std::string_view name,
-                                                             std::size_t size);
-    [[nodiscard]] std::optional<std::vector<double>> numbers_of(const Value& array, std::size_t size);
-    /// The elements of an array of objects; empty where it is absent.
-    [[nodiscard]] std::vector<Value> objects(const Value& parent, std::string_view name);
-    [[nodiscard]] std::vector<Value> elements(const Value& parent, std::string_view name);
-    /// The index of one of `size` things; `things` is what messages call them ("meshes").
-    [[nodiscard]] std::optional<int> index(const Value& parent, std::string_view name, std::size_t size,
-                                           std::string_view things);
-    [[nodiscard]] std::vector<int> indices(const Value& parent, std::string_view name, std::size_t size,
-                                           std::string_view things);
-
-    /// As above, and an error where the name is absent.
-    [[nodiscard]] std::int64_t required_integer(const Value& parent, std::string_view name);
-    [[nodiscard]] double required_number(const Value& parent, std::string_view name);
-    [[nodiscard]] int required_index(const Value& parent, std::string_view name, std::size_t size,
-                                     std::string_view things);
-    /// A number within [low, high].
-    [[nodiscard]] std::optional<double> number_within(const Value& parent, std::string_view name, double low,
-                                                      double high);
-    /// One of the names listed.
-    [[nodiscard]] std::optional<std::string> choice(const Value& parent, std::string_view name,
-                                                    const std::vector<std::string>& known);
-    /// Refuses members that are not in `known`, suggesting the nearest.
-    void only(const Value& object, const std::vector<std::string>& known);
-
-    /// Keeps the error unless there is one already. `place` is the path of what is wrong, and begins the
-    /// message.
-    void error(std::string_view place, std::string_view message, std::string help = {});
+    /// Keeps the errors unless there are some already.
     void take(Diagnostics errors);
 
   private:
-    [[nodiscard]] std::optional<Value> member(const Value& parent, std::string_view name) const;
-    void wrong_type(const Value& value, std::string_view wanted);
-    [[nodiscard]] std::vector<Value> elements_of(const Value& array);
-    [[nodiscard]] std::optional<double> number_of(const Value& value);
-    [[nodiscard]] std::optional<std::int64_t> integer_of(const Value& value);
-    [[nodiscard]] std::optional<int> index_of(const Value& value, std::size_t size, std::string_view things);
-
     std::string path_;
     nlohmann::json root_;
     Diagnostics errors_;
 };
 
-/// `parent.name`, or `name` at the root.
-[[nodiscard]] std::string path_to(const Value& parent, std::string_view name);
+/// A value of a document and the path that leads to it: `nodes[3].mesh`. It may be absent: that is no error
+/// unless it is required, and nothing is read of it. A value of another type, or out of range, is an error of
+/// the document.
+struct Value {
+    Document* document;
+    const nlohmann::json* json = nullptr;  ///< null: absent
+    std::string path;
+
+    explicit operator bool() const { return json != nullptr; }
+    /// A member of an object; absent where the document has an error already.
+    [[nodiscard]] Value operator[](std::string_view name) const;
+    /// The value itself; an error where it is absent.
+    [[nodiscard]] Value required() const;
+    /// Keeps the error, and how to fix it, unless the document has one already. It begins with the path.
+    template <class... Args>
+    void fail(fmt::format_string<Args...> message, Args&&... args) const {
+        fail_with("", message, std::forward<Args>(args)...);
+    }
+    template <class... Args>
+    void fail_with(std::string_view help, fmt::format_string<Args...> message, Args&&... args) const {
+        if (!document->failed()) keep(fmt::format(message, std::forward<Args>(args)...), help);
+    }
+
+    /// The value itself, if it is an object, and its `extras.gobo`. Other programs' extras may be of any
+    /// type.
+    [[nodiscard]] Value object() const;
+    [[nodiscard]] Value gobo_extras() const;
+    /// The elements of an array, and of an array of objects.
+    [[nodiscard]] std::vector<Value> elements() const;
+    [[nodiscard]] std::vector<Value> objects() const;
+
+    // Each leaves `to` as it is where the value is absent. Whether it was read.
+    bool read(bool& to) const;
+    bool read(std::string& to) const;
+    bool read(double& to, const Range& range = {}) const;
+    bool read(glm::dvec3& to) const { return read_numbers(&to.x, 3); }
+    template <class T, class... More>
+    bool read(std::optional<T>& to, const More&... more) const {
+        T value{};
+        const bool is_read = read(value, more...);
+        if (is_read) to = value;
+        return is_read;
+    }
+    /// Exactly `count` numbers.
+    bool read_numbers(double* to, std::size_t count) const;
+    /// A colour whose parts are not negative.
+    bool read_color(glm::dvec3& to) const;
+
+    [[nodiscard]] std::optional<std::int64_t> integer() const;
+    /// A required whole number above 0.
+    [[nodiscard]] std::size_t count() const;
+    /// The place of the value among the names listed; without a default it is required.
+    [[nodiscard]] std::size_t choice(const std::vector<std::string>& known,
+                                     std::optional<std::size_t> otherwise = {}) const;
+    /// The index of one of `size` things; `things` is what messages call them ("meshes").
+    [[nodiscard]] std::optional<std::size_t> index(std::size_t size, std::string_view things) const;
+    [[nodiscard]] std::vector<std::size_t> indices(std::size_t size, std::string_view things) const;
+    /// Refuses an object's members that are not in `known`, suggesting the nearest.
+    void only(const std::vector<std::string>& known) const;
+
+  private:
+    void keep(const std::string& message, std::string_view help) const;
+    [[nodiscard]] bool is(bool (nlohmann::json::*type)() const noexcept, std::string_view wanted) const;
+};
 
 }  // namespace gobo::scene

@@ -1,57 +1,155 @@
 #include "scene/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
-#include "scene/motion.hpp"
-#include "scene/subject.hpp"
+#include "scene/geometry.hpp"
 
 namespace gobo::scene {
 namespace {
 
-std::string draw_name(const Scene& scene, int node, int primitive) {
-    const Node& here = scene.nodes[static_cast<std::size_t>(node)];
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(*here.mesh)];
-    std::string name = here.name.empty() ? fmt::format("node {}", node) : here.name;
-    if (mesh.primitives.size() > 1) name += fmt::format(", primitive {}", primitive);
-    return name;
+/// A draw being judged.
+struct Subject {
+    const Scene& scene;
+    const Draw& draw;
+    const Primitive& primitive;
+    const Material& material;
+    Overrides overrides;
+    std::vector<glm::dvec3>
+        normals;          ///< in world space; empty where they are not known or both sides are lit
+    bool is_lit = false;  ///< some light is in
+};
+
+struct Verdict {
+    bool is_in = false;
+    std::string reason;
+};
+
+/// What single precision may add to a distance: shaders compute in it. A light is dropped only if it misses
+/// by more.
+constexpr double kRelativeMargin = 1e-5;
+
+double brightest(const Light& light) {
+    return std::max({light.color.r, light.color.g, light.color.b});
 }
 
-std::string why_excluded(const Primitive& primitive, const Material& material) {
-    if (primitive.topology == Topology::points) return "its primitives are points";
-    if (primitive.topology == Topology::lines) return "its primitives are lines";
-    if (primitive.indices.empty()) return "it has no triangles";
-    return is_cut_away(primitive, material) ? "all of it is more transparent than its material's alphaCutoff"
-                                            : "";
+/// The radiance that arrives from a local light at a distance, at most.
+double incident(const Light& light, double distance) {
+    const glm::dvec3& k = light.attenuation;
+    return brightest(light) / std::max(k.x + distance * (k.y + distance * k.z), 1e-18);
+}
+
+/// The distance at which the light has fallen to the threshold; infinite where it never does.
+double attenuated_reach(const Light& light, double threshold) {
+    const glm::dvec3& k = light.attenuation;
+    const double excess = k.x - brightest(light) / threshold;  // k_q d^2 + k_l d + excess = 0
+    if (excess >= 0) return 0;
+    if (k.z == 0) return k.y == 0 ? std::numeric_limits<double>::infinity() : -excess / k.y;
+    return (-k.y + std::sqrt(k.y * k.y - 4 * k.z * excess)) / (2 * k.z);
+}
+
+/// Whether dot(normal, toward the light) can be positive nowhere on the surface, for any mean of the normals
+/// at any point of the bounds: the expression is linear in each, so its corners decide.
+bool faces_away(const PlacedLight& light, const Subject& subject) {
+    if (subject.normals.empty() || light.turns) return false;
+    const bool is_directional = light.light->kind == LightKind::directional;
+    if (!is_directional && !subject.draw.bounds) return false;
+    return std::all_of(subject.normals.begin(), subject.normals.end(), [&](const glm::dvec3& normal) {
+        if (is_directional) return glm::dot(normal, -light.direction) <= -kRelativeMargin;
+        const Box to_light = sum(light.positions, {-subject.draw.bounds->high, -subject.draw.bounds->low});
+        const Box terms = product({normal, normal}, to_light);
+        const double margin =
+            kRelativeMargin * glm::length(glm::max(glm::abs(to_light.low), glm::abs(to_light.high)));
+        return terms.high.x + terms.high.y + terms.high.z <= -margin;
+    });
+}
+
+/// How far the cone of a spot light is from the bounds, certainly.
+double cone_gap(const PlacedLight& light, const Box& bounds, double threshold) {
+    if (light.turns || light.positions.low != light.positions.high || light.direction == glm::dvec3(0))
+        return 0;
+    const double radius = std::min(light.light->range, attenuated_reach(*light.light, threshold));
+    const LitVolume volume{light.positions.low, light.direction, light.light->outer_angle, radius};
+    const double gap = proven_gap(volume, bounds);
+    return gap <= kRelativeMargin * greatest_distance(light.positions, bounds) ? 0 : gap;
+}
+
+Verdict judge_local_light(const PlacedLight& placed, const Subject& subject, double threshold) {
+    if (!subject.draw.bounds) return {true, "bounds are not known"};
+    const Light& light = *placed.light;
+    const double distance = least_distance(placed.positions, *subject.draw.bounds);
+    const double beyond = distance - light.range;
+    const double arriving = incident(light, distance);
+    if (beyond > kRelativeMargin * distance)
+        return {false, fmt::format("bounds begin {:.3g} beyond its range of {:.3g}", beyond, light.range)};
+    if (arriving < threshold)
+        return {false, fmt::format("at {:.3g} it has fallen to {:.2g}, below {:.2g}", distance, arriving,
+                                   threshold)};
+    if (light.kind == LightKind::spot) {
+        if (light.outer_angle == 0) return {false, "its cone is empty"};
+        if (const double gap = cone_gap(placed, *subject.draw.bounds, threshold); gap > 0)
+            return {false, fmt::format("cone misses bounds by {:.2g}", gap)};
+    }
+    if (faces_away(placed, subject)) return {false, "every normal faces away from it"};
+    if (distance == 0) return {true, "it may be as near as can be"};
+    return {true, fmt::format("at {:.3g} up to {:.2g} arrives", distance, arriving)};
+}
+
+/// A light is out where it is black, where the bounds begin beyond its range, where its greatest radiance has
+/// fallen so far there that the surface gives back less than `threshold`, where its cone misses them, or
+/// where every normal faces away from it. It is in wherever none of this is certain.
+Verdict judge_light(const PlacedLight& light, const Subject& subject, double threshold) {
+    const double most = brightest(*light.light);
+    if (most == 0) return {false, "its intensity is 0"};
+    if (light.light->kind != LightKind::directional) return judge_local_light(light, subject, threshold);
+    if (most < threshold)
+        return {false, fmt::format("its radiance is {:.2g}, below {:.2g}", most, threshold)};
+    if (faces_away(light, subject)) return {false, "every normal faces away from it"};
+    return {true, "it reaches everything"};
+}
+
+/// A reason to leave an effect out, where it holds.
+struct Objection {
+    bool holds;
+    std::string reason;
+};
+
+/// The effect is in unless an objection holds; the first that does is its reason.
+Effect decide(std::string name, std::string feature, std::string value,
+              const std::vector<Objection>& objections, std::string why_in) {
+    const auto against = std::ranges::find_if(objections, &Objection::holds);
+    const bool is_in = against == objections.end();
+    return {std::move(name), std::move(feature), std::move(value), is_in,
+            is_in ? std::move(why_in) : against->reason};
 }
 
 /// The surface's normals in world space, where they never change and one side only is seen.
-std::vector<glm::dvec3> fixed_normals(const Scene& scene, int node, const Primitive& primitive,
-                                      const Material& material) {
-    const Node& here = scene.nodes[static_cast<std::size_t>(node)];
-    const glm::dmat3 linear(here.world);
+std::vector<glm::dvec3> fixed_normals(const Subject& subject) {
+    const Node& node = subject.scene.nodes[subject.draw.node];
+    const Primitive& primitive = subject.primitive;
+    const glm::dmat3 linear(node.world);
     const auto is_shifted = [](const glm::dmat4& instance) { return glm::dmat3(instance) == glm::dmat3(1); };
-    const bool are_turned = !std::all_of(here.instances.begin(), here.instances.end(), is_shifted);
-    if (material.double_sided || here.skin || !primitive.target_positions.empty() || are_turned ||
-        is_moving(scene, node) || glm::determinant(linear) == 0)
+    if (subject.material.double_sided || node.skin || !primitive.target_positions.empty() ||
+        !std::ranges::all_of(node.instances, is_shifted) || is_moving(subject.scene, subject.draw.node) ||
+        glm::determinant(linear) == 0)
         return {};
     const glm::dmat3 to_world = glm::transpose(glm::inverse(linear));
     std::vector<glm::dvec3> normals;
     normals.reserve(primitive.normals.size());
-    for (const glm::vec3& normal : primitive.normals) {
-        const glm::dvec3 turned = to_world * glm::dvec3(normal);
-        const double length = glm::length(turned);
-        normals.push_back(length > 0 ? turned / length : glm::dvec3(0));
-    }
+    for (const glm::vec3& normal : primitive.normals)
+        normals.push_back(unit_or_zero(to_world * glm::dvec3(normal)));
     return normals;
 }
 
-bool scatters_or_reflects(const Material& material) {
-    return material.diffuse != glm::dvec3(0) || material.specular != glm::dvec3(0);
+bool is_black(const glm::dvec3& color) {
+    return color == glm::dvec3(0);
 }
 
 /// What the surface gives back of a light that arrives with radiance 1, at most (the models of `lit`).
@@ -62,142 +160,254 @@ double response_of(const Material& material, const Overrides& overrides) {
     return std::max({most.r, most.g, most.b});
 }
 
-std::vector<Effect> judge_lights(const Subject& subject, const std::vector<PlacedLight>& lights,
-                                 const Thresholds& thresholds) {
-    std::vector<Effect> effects;
-    const Receiver receiver{
-        subject.draw.bounds,
-        fixed_normals(subject.scene, subject.draw.node, subject.primitive, subject.material),
-        response_of(subject.material, subject.overrides)};
+void judge_lights(const Subject& subject, const std::vector<PlacedLight>& lights, double threshold,
+                  std::vector<Effect>& effects) {
+    const bool gives_back = !is_black(subject.material.diffuse) || !is_black(subject.material.specular);
+    const double least = threshold / response_of(subject.material, subject.overrides);
     for (const PlacedLight& light : lights) {
         Verdict verdict{false, "its material gives back no light"};
-        if (scatters_or_reflects(subject.material)) verdict = light_reach(light, receiver, thresholds.light);
-        const std::string feature = light.label.substr(0, light.label.find(' '));
-        effects.push_back({light.label, feature, "", verdict.is_in, std::move(verdict.reason)});
+        if (gives_back) verdict = judge_light(light, subject, least);
+        effects.push_back({light.label, light.feature, "", verdict.is_in, std::move(verdict.reason)});
     }
-    return effects;
-}
-
-Effect judge_toon(const Subject& subject) {
-    Effect effect{"toon", "diffuse", "toon", false, ""};
-    const int levels = subject.overrides.toon_levels.value_or(0);
-    if (levels == 0) {
-        effect.reason = "not asked for";
-    } else if (!subject.is_lit) {
-        effect.reason = "no light is in";
-    } else {
-        effect.is_in = true;
-        effect.reason = fmt::format("{} levels", levels);
-    }
-    return effect;
-}
-
-Effect judge_specular(const Subject& subject, bool is_toon) {
-    const std::string model = subject.overrides.specular.value_or("blinn");
-    Effect effect{"specular", "specular", model, false, ""};
-    const Material& material = subject.material;
-    if (model == "none") {
-        effect.reason = "not asked for";
-    } else if (material.specular == glm::dvec3(0) || material.strength == 0) {
-        effect.reason = "its material has no highlight";
-    } else if (!subject.is_lit) {
-        effect.reason = "no light is in";
-    } else if (is_toon) {
-        effect.reason = "toon shading has no highlights";
-    } else {
-        effect.is_in = true;
-        effect.reason = fmt::format("{}, shininess {:.3g}", model, material.shininess);
-    }
-    return effect;
-}
-
-/// The share of the surface that fog hides at a distance (the pieces of shader_lib/fog).
-double hidden_share(const Fog& fog, double distance) {
-    const double thickness = fog.density * distance;
-    return 1 - std::exp(fog.kind == "exponential" ? -thickness : -thickness * thickness);
 }
 
 Effect judge_fog(const Subject& subject, const EyePlace& eye, double threshold) {
     const Fog fog = subject.overrides.fog.value_or(Fog{"none", {}, 0, 0, 0});
-    Effect effect{"fog", "fog", fog.kind, true, ""};
-    if (fog.kind == "none") {
-        effect.is_in = false;
-        effect.reason = "none is stated";
-    } else if (!subject.draw.bounds) {
-        effect.reason = "bounds are not known";
-    } else if (!eye) {
-        effect.reason = "no camera tells the distance";
-    } else {
-        const double farthest = greatest_distance(*eye, *subject.draw.bounds);
-        const double share = fog.kind == "linear" ? 0 : hidden_share(fog, farthest);
-        if (fog.kind == "linear") {
-            effect.is_in = farthest > fog.near;
-            effect.reason = fmt::format("bounds end at {:.3g}, it begins at {:.3g}", farthest, fog.near);
-        } else {
-            effect.is_in = share >= threshold;
-            effect.reason = fmt::format("at {:.3g} it hides {:.2g}{}", farthest, share,
-                                        effect.is_in ? "" : fmt::format(", below {:.2g}", threshold));
-        }
+    const auto effect = [&](bool is_in, std::string reason) {
+        return Effect{"fog", "fog", fog.kind, is_in, std::move(reason)};
+    };
+    if (fog.kind == "none") return effect(false, "none is stated");
+    if (!subject.draw.bounds) return effect(true, "bounds are not known");
+    if (!eye) return effect(true, "no camera tells the distance");
+    const double farthest = greatest_distance(*eye, *subject.draw.bounds);
+    if (fog.kind == "linear")
+        return effect(farthest > fog.near,
+                      fmt::format("bounds end at {:.3g}, it begins at {:.3g}", farthest, fog.near));
+    // How much of the surface it hides there (the pieces of shader_lib/fog).
+    const double thickness = fog.density * farthest;
+    const double hidden = 1 - std::exp(fog.kind == "exponential" ? -thickness : -thickness * thickness);
+    const bool is_in = hidden >= threshold;
+    return effect(is_in, fmt::format("at {:.3g} it hides {:.2g}{}", farthest, hidden,
+                                     is_in ? "" : fmt::format(", below {:.2g}", threshold)));
+}
+
+/// The least and the greatest alpha that the surface may have somewhere.
+Interval alpha_range(const Primitive& primitive, const Material& material) {
+    Interval of_map{1, 1};
+    if (material.opacity) of_map = {0, 1};
+    if (material.opacity && !material.opacity->texels.empty()) {
+        const auto [low, high] = std::ranges::minmax(material.opacity->texels);
+        of_map = {low / 255.0, high / 255.0};
     }
-    return effect;
+    Interval of_vertices{1, 1};
+    if (!primitive.colors.empty()) {
+        of_vertices = {1, 0};
+        for (const glm::vec4& color : primitive.colors) of_vertices.add(color.a);
+    }
+    return {material.alpha * of_map.low * of_vertices.low, material.alpha * of_map.high * of_vertices.high};
+}
+
+Effect judge_vertex_color(const Primitive& primitive, const Material& material) {
+    bool is_colored = false;
+    bool is_transparent = false;
+    for (const glm::vec4& color : primitive.colors) {
+        is_colored = is_colored || glm::vec3(color) != glm::vec3(1);
+        is_transparent = is_transparent || (color.a != 1 && material.alpha_mode != AlphaMode::opaque);
+    }
+    const bool is_seen = is_colored && !(is_black(material.diffuse) && is_black(material.ambient));
+    return decide("vertex_color", "vertex_color", "modulate",
+                  {{primitive.colors.empty(), "it has none"},
+                   {!is_seen && !is_transparent,
+                    is_colored ? "its material has no diffuse or ambient colour" : "all are white"}},
+                  is_seen ? "its vertices have colours" : "its vertices are not opaque");
+}
+
+/// What the material and the overrides decide, once the lights are judged.
+void judge_surface(const Subject& subject, const EyePlace& eye, double fog_threshold,
+                   std::vector<Effect>& effects) {
+    const Overrides& overrides = subject.overrides;
+    const Material& material = subject.material;
+    const int levels = overrides.toon_levels.value_or(0);
+    const std::string specular = overrides.specular.value_or("blinn");
+    const std::string probe = overrides.probe ? overrides.probe->kind : "none";
+    const double reflection = overrides.reflection.value_or(0);
+    const double lowest = alpha_range(subject.primitive, material).low;
+    const Objection unlit{!subject.is_lit, "no light is in"};
+    const Objection dull{is_black(material.specular) || material.strength == 0,
+                         "its material has no highlight"};
+    effects.insert(
+        effects.end(),
+        {decide("toon", "diffuse", "toon", {{levels == 0, "not asked for"}, unlit},
+                fmt::format("{} levels", levels)),
+         decide("specular", "specular", specular,
+                {{specular == "none", "not asked for"},
+                 dull,
+                 unlit,
+                 {levels != 0, "toon shading has no highlights"}},
+                fmt::format("{}, shininess {:.3g}", specular, material.shininess)),
+         judge_fog(subject, eye, fog_threshold),
+         decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
+                "its material is marked doubleSided"),
+         decide("cutout", "cutout", "threshold",
+                {{material.alpha_mode != AlphaMode::mask, "alphaMode is not MASK"},
+                 {lowest >= material.alpha_cutoff,
+                  fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
+                fmt::format("its alpha falls to {:.3g}, below {:.3g}", lowest, material.alpha_cutoff)),
+         judge_vertex_color(subject.primitive, material),
+         decide("texture", "texture", "on", {{!material.is_textured, "it has none"}},
+                "its material has textures"),
+         decide("probe", "ambient", probe,
+                {{probe == "none", "not asked for"},
+                 {is_black(material.ambient), "its material gives back no ambient light"}},
+                probe),
+         decide("reflection", "reflection", "image", {{reflection == 0, "not asked for"}, dull},
+                fmt::format("a share of {:.3g}", reflection))});
+    for (const auto& [feature, value] : overrides.quality)
+        effects.push_back({feature, feature, value, true, "asked for"});
+}
+
+/// A surface may shade itself unless it is flat.
+bool may_shade_itself(const Draw& draw) {
+    return !draw.bounds || glm::all(glm::lessThan(draw.bounds->low, draw.bounds->high));
+}
+
+/// Whether no plane along the light's direction parts the two: seen from the light they may lie on each
+/// other. The planes tried are those that contain the direction and an axis of the world, which are all that
+/// can part the shadows of two boxes.
+bool may_overlap_along(const glm::dvec3& direction, const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 unit(0);
+        unit[axis] = 1;
+        const glm::dvec3 across = glm::cross(direction, unit);
+        const Interval of_a = extent_of(a, across);
+        const Interval of_b = extent_of(b, across);
+        if (of_a.high < of_b.low || of_b.high < of_a.low) return false;
+    }
+    return true;
+}
+
+/// Whether a part of the box may lie on a segment between two points of `between`, not just at its ends:
+/// where the box only touches the other from outside, it shades nothing.
+bool may_lie_within(const Box& box, const Box& between) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool is_flat = between.low[axis] == between.high[axis];
+        const bool is_beside = box.high[axis] < between.low[axis] || box.low[axis] > between.high[axis];
+        const bool touches = box.high[axis] <= between.low[axis] || box.low[axis] >= between.high[axis];
+        if (is_beside || (touches && !is_flat)) return false;
+    }
+    return true;
+}
+
+/// Whether a caster may stand between the light and the receiver: it must reach into the box around both or,
+/// for a directional light, not lie wholly behind the receiver nor beside it.
+bool may_stand_between(const PlacedLight& light, const Draw& caster, const Draw& receiver) {
+    if (!caster.bounds || !receiver.bounds) return true;
+    if (light.light->kind != LightKind::directional) {
+        Box between = light.positions;
+        between.add(*receiver.bounds);
+        return may_lie_within(*caster.bounds, between);
+    }
+    if (light.turns) return true;
+    const glm::dvec3 toward = -light.direction;
+    return extent_of(*caster.bounds, toward).high > extent_of(*receiver.bounds, toward).low &&
+           may_overlap_along(toward, *caster.bounds, *receiver.bounds);
+}
+
+/// The shadow of each light that casts any. The subject's lights must have been judged; `draws` are those of
+/// the scene, with their bounds, and `lights` stand in the order of the draw's first effects.
+void judge_shadows(const Subject& subject, const std::vector<PlacedLight>& lights,
+                   const std::vector<Draw>& draws, std::vector<Effect>& effects) {
+    const std::size_t others = effects.size();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const PlacedLight& light = lights[i];
+        if (!light.light->casts_shadow) continue;
+        const bool receives = subject.overrides.shadow.value_or(true);
+        const bool is_light_in = subject.draw.effects[i].is_in;
+        const auto caster = std::ranges::find_if(draws, [&](const Draw& draw) {
+            if (!receives || !is_light_in || !draw.excluded.empty()) return false;
+            return &draw == &subject.draw ? may_shade_itself(draw)
+                                          : may_stand_between(light, draw, subject.draw);
+        });
+        effects.push_back(
+            decide("shadow of " + light.label, light.feature + "_shadows", "",
+                   {{!receives, "it receives none"},
+                    {!is_light_in, "the light is out"},
+                    {caster == draws.end(), "nothing can shade it"}},
+                   caster == draws.end() ? "" : fmt::format("'{}' may shade it", caster->name)));
+    }
+    if (effects.size() == others) effects.push_back({"shadow", "shadow", "", false, "no light casts any"});
+}
+
+std::string why_excluded(const Primitive& primitive, const Material& material) {
+    if (primitive.topology == Topology::points) return "its primitives are points";
+    if (primitive.topology == Topology::lines) return "its primitives are lines";
+    if (primitive.indices.empty()) return "it has no triangles";
+    if (material.alpha_mode == AlphaMode::mask &&
+        alpha_range(primitive, material).high < material.alpha_cutoff)
+        return "all of it is more transparent than its material's alphaCutoff";
+    return "";
 }
 
 std::vector<Draw> draws_of(const Scene& scene) {
     std::vector<Draw> draws;
-    for (const int index : scene.order) {
-        const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+    for (const std::size_t index : scene.order) {
+        const Node& node = scene.nodes[index];
         if (!node.mesh) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(*node.mesh)];
-        for (int i = 0; i < static_cast<int>(mesh.primitives.size()); ++i) {
-            const Primitive& primitive = mesh.primitives[static_cast<std::size_t>(i)];
-            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-            Draw draw{index, i, draw_name(scene, index, i), why_excluded(primitive, material), {}, {}};
-            if (draw.excluded.empty()) draw.bounds = world_bounds(scene, index, primitive);
-            draws.push_back(std::move(draw));
+        const std::vector<Primitive>& primitives = scene.meshes[*node.mesh].primitives;
+        for (std::size_t i = 0; i < primitives.size(); ++i) {
+            Draw& draw = draws.emplace_back(Draw{index, i, node.name, {}, {}, {}});
+            if (node.name.empty()) draw.name = fmt::format("node {}", index);
+            if (primitives.size() > 1) draw.name += fmt::format(", primitive {}", i);
+            draw.excluded = why_excluded(primitives[i], scene.materials[primitives[i].material]);
+            if (draw.excluded.empty()) draw.bounds = world_bounds(scene, index, primitives[i]);
         }
     }
     return draws;
 }
 
-Subject subject_of(const Scene& scene, const Draw& draw) {
-    return {scene, draw, primitive_of(scene, draw), material_of(scene, draw), overrides_of(scene, draw),
-            false};
-}
-
-EyePlace eye_where(const Scene& scene, const std::optional<int>& camera) {
-    Box places;
-    for (const int index : scene.order) {
-        const auto& here = scene.nodes[static_cast<std::size_t>(index)].camera;
-        if (here && (!camera || here == camera))
-            places.add(world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)}));
-    }
-    return places.is_empty() ? EyePlace() : places;
-}
-
 }  // namespace
 
+std::vector<PlacedLight> place_lights(const Scene& scene) {
+    std::vector<PlacedLight> lights;
+    std::array<int, kLightKinds.size()> counts{};
+    for (const std::size_t index : scene.order) {
+        const Node& node = scene.nodes[index];
+        if (!node.light) continue;
+        PlacedLight& placed = lights.emplace_back();
+        placed.light = &scene.lights[*node.light];
+        placed.node = index;
+        const auto kind = static_cast<std::size_t>(placed.light->kind);
+        placed.feature = kLightKinds[kind];
+        placed.label = fmt::format("{} {}", placed.feature, counts[kind]++);
+        placed.positions = world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)});
+        placed.turns = is_moving(scene, index);
+        placed.direction = unit_or_zero(glm::dmat3(node.world) * glm::dvec3(0, 0, -1));
+    }
+    return lights;
+}
+
 const Primitive& primitive_of(const Scene& scene, const Draw& draw) {
-    const Node& node = scene.nodes[static_cast<std::size_t>(draw.node)];
-    return scene.meshes[static_cast<std::size_t>(*node.mesh)]
-        .primitives[static_cast<std::size_t>(draw.primitive)];
+    return scene.meshes[*scene.nodes[draw.node].mesh].primitives[draw.primitive];
 }
 
 const Material& material_of(const Scene& scene, const Draw& draw) {
-    return scene.materials[static_cast<std::size_t>(primitive_of(scene, draw).material)];
+    return scene.materials[primitive_of(scene, draw).material];
 }
 
 Overrides overrides_of(const Scene& scene, const Draw& draw) {
     Overrides overrides = material_of(scene, draw).overrides;
-    overrides.fill_from(scene.nodes[static_cast<std::size_t>(draw.node)].overrides);
+    overrides.fill_from(scene.nodes[draw.node].overrides);
     return overrides;
 }
 
-EyePlace eye_of_cameras(const Scene& scene) {
-    return eye_where(scene, std::nullopt);
-}
-
-EyePlace eye_of_camera(const Scene& scene, int camera) {
-    return eye_where(scene, camera);
+EyePlace eye_of_cameras(const Scene& scene, std::optional<std::size_t> camera) {
+    Box places;
+    for (const std::size_t index : scene.order) {
+        const auto& here = scene.nodes[index].camera;
+        if (here && (!camera || here == camera))
+            places.add(world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)}));
+    }
+    return places.is_empty() ? EyePlace() : places;
 }
 
 std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds) {
@@ -205,18 +415,13 @@ std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, cons
     const std::vector<PlacedLight> lights = place_lights(scene);
     for (Draw& draw : draws) {
         if (!draw.excluded.empty()) continue;
-        Subject subject = subject_of(scene, draw);
-        draw.effects = judge_lights(subject, lights, thresholds);
-        subject.is_lit = std::any_of(draw.effects.begin(), draw.effects.end(),
-                                     [](const Effect& light) { return light.is_in; });
-        const Effect toon = judge_toon(subject);
-        const std::vector<Effect> shadows = judge_shadows(subject, lights, draws);
-        const std::vector<Effect> surface = judge_surface(subject);
-        draw.effects.push_back(toon);
-        draw.effects.push_back(judge_specular(subject, toon.is_in));
-        draw.effects.push_back(judge_fog(subject, eye, thresholds.fog));
-        draw.effects.insert(draw.effects.end(), surface.begin(), surface.end());
-        draw.effects.insert(draw.effects.end(), shadows.begin(), shadows.end());
+        Subject subject{
+            scene, draw, primitive_of(scene, draw), material_of(scene, draw), overrides_of(scene, draw), {}};
+        subject.normals = fixed_normals(subject);
+        judge_lights(subject, lights, thresholds.light, draw.effects);
+        subject.is_lit = std::ranges::any_of(draw.effects, &Effect::is_in);
+        judge_surface(subject, eye, thresholds.fog, draw.effects);
+        judge_shadows(subject, lights, draws, draw.effects);
     }
     return draws;
 }

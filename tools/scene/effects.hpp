@@ -1,14 +1,27 @@
-// What each draw of a scene calls for, and why.
+// Which effects each draw of a scene needs, and why.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/light_reach.hpp"
 #include "scene/scene.hpp"
 
 namespace gobo::scene {
+
+/// A light where a node puts it.
+struct PlacedLight {
+    const Light* light = nullptr;
+    std::size_t node = 0;
+    std::string feature;      ///< "spot": its kind, which is the feature that counts it
+    std::string label;        ///< "spot 2": with its number among the scene's of that kind, from 0
+    Box positions;            ///< a point, or wherever its node moves
+    bool turns = false;       ///< an animation may turn it
+    glm::dvec3 direction{0};  ///< unit vector along which it shines, at rest; zero: none
+};
+
+/// The lights of the scene, in the order of its nodes.
+[[nodiscard]] std::vector<PlacedLight> place_lights(const Scene& scene);
 
 /// Below these an effect is not worth a permutation. Both are half a step of an 8-bit picture by default.
 struct Thresholds {
@@ -27,8 +40,8 @@ struct Effect {
 
 /// A primitive of a node.
 struct Draw {
-    int node = 0;
-    int primitive = 0;
+    std::size_t node = 0;
+    std::size_t primitive = 0;
     std::string name;
     std::string excluded;         ///< why no family draws it ("its primitives are lines"); empty: it is drawn
     std::optional<Box> bounds;    ///< in world space, at any time; nothing: not known
@@ -43,10 +56,9 @@ struct Draw {
 /// Where the eye may be: nothing where any place is possible, as when the application moves its camera.
 using EyePlace = std::optional<Box>;
 
-/// The places of all cameras of the scene; nothing where it has none.
-[[nodiscard]] EyePlace eye_of_cameras(const Scene& scene);
-/// The place of one camera, by its number in the file; nothing where no node of the scene holds it.
-[[nodiscard]] EyePlace eye_of_camera(const Scene& scene, int camera);
+/// The places of all cameras of the scene, or of that one, by its number in the file; nothing where no node
+/// of the scene holds any.
+[[nodiscard]] EyePlace eye_of_cameras(const Scene& scene, std::optional<std::size_t> camera = {});
 
 /// Every draw of the scene, in the order of its nodes. An effect is out only where it is certain that it
 /// cannot be seen, or only below a threshold.

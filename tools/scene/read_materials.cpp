@@ -1,20 +1,96 @@
+// Materials, the alpha of pictures that cut them, and what `extras.gobo` overrides.
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <lodepng.h>
 
 #include "scene/read_parts.hpp"
 
 namespace gobo::scene {
 namespace {
 
+/// As many numbers as all accessors together may hold: a picture of 8192 by 8192.
+constexpr std::size_t kMostTexels = 67'108'864;
+constexpr int kRepeat = 10497;  ///< GL_REPEAT, which is glTF's default
 /// The share of light that a dielectric reflects head-on, at the index of refraction 1.5 (glTF 2.0
 /// specification, B.2).
-constexpr double dielectric_reflectance = 0.04;
+constexpr double kDielectricReflectance = 0.04;
 /// The family's bounds on Material.strength; a highlight's shininess is bounded by it too, as they grow
 /// together.
-constexpr double most_strength = 1e3;
+constexpr double kMostStrength = 1e3;
+
+const std::vector<std::string> kFogKinds = {"none", "linear", "exponential", "exponential_squared"};
+const std::vector<std::string> kProbeKinds = {"none", "hemisphere", "spherical_harmonics", "image"};
+const std::vector<std::string> kHighlights = {"none", "phong", "blinn"};
+
+/// The alpha of a PNG; nothing where all of it is opaque, or where it cannot be decoded, which is an error.
+std::optional<AlphaMap> decode(std::string_view bytes, const Value& image) {
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    unsigned width = 0;
+    unsigned height = 0;
+    lodepng::State state;
+    std::vector<unsigned char> pixels;
+    unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
+    if (error == 0 && std::size_t{width} * height > kMostTexels)
+        image.fail("is of {} x {} pixels, which is more than gobo decodes", width, height);
+    else if (error == 0)
+        error = lodepng::decode(pixels, width, height, data, bytes.size());
+    if (error != 0) image.fail("is no PNG that can be decoded: {}", lodepng_error_text(error));
+    AlphaMap map{static_cast<int>(width), static_cast<int>(height), {}};
+    for (std::size_t i = 3; i < pixels.size(); i += 4) map.texels.push_back(pixels[i]);
+    const auto is_opaque = [](std::uint8_t alpha) { return alpha == 255; };
+    return std::ranges::all_of(map.texels, is_opaque) ? std::nullopt : std::optional(std::move(map));
+}
+
+/// The textures of a document, and what reading their pictures takes.
+struct Textures {
+    Value root;
+    const Accessors& accessors;
+    const FileSystem& disk;
+    std::vector<std::string>& files;
+    std::vector<Value> textures = root["textures"].objects();
+    std::vector<Value> images = root["images"].objects();
+
+    /// Checks that the texture that a material names exists. Whether it names one.
+    [[nodiscard]] bool is_named(const Value& info) const {
+        if (info) static_cast<void>(info["index"].required().index(textures.size(), "textures"));
+        return static_cast<bool>(info);
+    }
+
+    /// Whether it is laid out plainly: by TEXCOORD_0, repeated, without a transform.
+    [[nodiscard]] bool is_plain(const Value& info, const Value& texture) const {
+        if (info["texCoord"].integer().value_or(0) != 0) return false;
+        if (info["extensions"]["KHR_texture_transform"].object()) return false;
+        const std::vector<Value> samplers = root["samplers"].objects();
+        const auto sampler = texture["sampler"].index(samplers.size(), "samplers");
+        return !sampler || (samplers[*sampler]["wrapS"].integer().value_or(kRepeat) == kRepeat &&
+                            samplers[*sampler]["wrapT"].integer().value_or(kRepeat) == kRepeat);
+    }
+
+    [[nodiscard]] std::string bytes_of(const Value& image) const {
+        if (const auto view = accessors.view(image["bufferView"])) return std::string(*view);
+        if (std::string uri; image["uri"].read(uri)) return read_uri(disk, image, uri, files);
+        image.fail("has neither uri nor bufferView");
+        return {};
+    }
+
+    /// The alpha of the picture that a material names; nothing where it names none, or it has none. The map
+    /// is empty where its alpha is not known: it is neither PNG nor JPEG, or is not laid out plainly. A
+    /// picture that cannot be decoded is an error of the document.
+    [[nodiscard]] std::optional<AlphaMap> alpha(const Value& info) const {
+        const auto number = info["index"].index(textures.size(), "textures");
+        if (!number) return std::nullopt;
+        const auto source = textures[*number]["source"].index(images.size(), "images");
+        if (!source || !is_plain(info, textures[*number])) return AlphaMap();
+        const Value& image = images[*source];
+        const std::string bytes = bytes_of(image);
+        if (root.document->failed() || bytes.starts_with("\xff\xd8\xff"))
+            return std::nullopt;  // JPEG has no alpha
+        return bytes.starts_with("\x89PNG\r\n\x1a\n") ? decode(bytes, image) : AlphaMap();
+    }
+};
 
 /// glTF's metallic and roughness.
 struct Surface {
@@ -33,106 +109,155 @@ void apply_surface(const Surface& surface, Material& material) {
         return;
     }
     const glm::dvec3 dielectric =
-        glm::min(dielectric_reflectance * surface.specular_color, glm::dvec3(1)) * surface.specular_factor;
+        glm::min(kDielectricReflectance * surface.specular_color, glm::dvec3(1)) * surface.specular_factor;
     const glm::dvec3 reflectance = glm::mix(dielectric, surface.base, surface.metallic);
     material.diffuse = surface.base * (1 - surface.metallic);
     const double alpha = surface.roughness * surface.roughness;
-    const double shininess = alpha == 0 ? 8 * most_strength : 2 / (alpha * alpha) - 2;
-    const bool has_highlight = shininess >= 1 || surface.has_roughness_texture;
-    if (has_highlight) {
-        material.shininess = std::clamp(shininess, 1.0, 8 * most_strength - 2);
+    const double shininess = alpha == 0 ? 8 * kMostStrength : 2 / (alpha * alpha) - 2;
+    if (shininess >= 1 || surface.has_roughness_texture) {
+        material.shininess = std::clamp(shininess, 1.0, 8 * kMostStrength - 2);
         material.strength = (material.shininess + 2) / 8;
         material.specular = reflectance;
-    } else {  // too rough for a highlight: what it reflects goes everywhere, as scattered light does
+    } else {  // too rough for a highlight: what it reflects goes everywhere, as diffuse light does
         material.diffuse = glm::min(material.diffuse + reflectance, glm::dvec3(1));
     }
     material.ambient = material.diffuse;
 }
 
-Surface read_surface(Document& document, Textures& textures, const Value& value, Material& material) {
+Surface read_surface(const Value& value, const Textures& textures, Material& material) {
     Surface surface;
-    const auto model = document.object(value, "pbrMetallicRoughness");
-    if (!model) return surface;
-    if (const auto factor = document.numbers(*model, "baseColorFactor", 4)) {
-        surface.base = {(*factor)[0], (*factor)[1], (*factor)[2]};
-        material.alpha = (*factor)[3];
-        for (const double part : *factor) {
-            if (part >= 0 && part <= 1) continue;
-            document.error(path_to(*model, "baseColorFactor"), "holds a number that is not between 0 and 1");
-        }
+    const Value model = value["pbrMetallicRoughness"].object();
+    if (glm::dvec4 factor(1); model["baseColorFactor"].read_numbers(&factor.x, 4)) {
+        surface.base = factor;
+        material.alpha = factor.a;
+        for (glm::length_t i = 0; i < 4; ++i)
+            if (!(factor[i] >= 0 && factor[i] <= 1))
+                model["baseColorFactor"].fail("holds a number that is not between 0 and 1");
     }
-    surface.metallic = document.number_within(*model, "metallicFactor", 0, 1).value_or(1);
-    surface.roughness = document.number_within(*model, "roughnessFactor", 0, 1).value_or(1);
-    surface.has_roughness_texture = textures.is_named(*model, "metallicRoughnessTexture");
-    material.is_textured = textures.is_named(*model, "baseColorTexture") || surface.has_roughness_texture;
-    if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(*model, "baseColorTexture");
+    model["metallicFactor"].read(surface.metallic, kUpToOne);
+    model["roughnessFactor"].read(surface.roughness, kUpToOne);
+    surface.has_roughness_texture = textures.is_named(model["metallicRoughnessTexture"]);
+    material.is_textured = textures.is_named(model["baseColorTexture"]) || surface.has_roughness_texture;
+    if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(model["baseColorTexture"]);
+    const Value extensions = value["extensions"].object();
+    material.unlit = static_cast<bool>(extensions["KHR_materials_unlit"].object());
+    double strength = 1;
+    extensions["KHR_materials_emissive_strength"]["emissiveStrength"].read(strength, kNotNegative);
+    material.emission *= strength;
+    const Value specular = extensions["KHR_materials_specular"];
+    specular["specularFactor"].read(surface.specular_factor, kUpToOne);
+    specular["specularColorFactor"].read_color(surface.specular_color);
     return surface;
 }
 
-void read_extensions(Document& document, const Value& value, Surface& surface, Material& material) {
-    const auto extensions = document.object(value, "extensions");
-    if (!extensions) return;
-    material.unlit = document.object(*extensions, "KHR_materials_unlit").has_value();
-    if (const auto strength = document.object(*extensions, "KHR_materials_emissive_strength")) {
-        constexpr double unbounded = std::numeric_limits<double>::infinity();
-        material.emission *= document.number_within(*strength, "emissiveStrength", 0, unbounded).value_or(1);
-    }
-    if (const auto specular = document.object(*extensions, "KHR_materials_specular")) {
-        surface.specular_factor = document.number_within(*specular, "specularFactor", 0, 1).value_or(1);
-        surface.specular_color =
-            read_color(document, *specular, "specularColorFactor").value_or(glm::dvec3(1));
-    }
-}
-
 /// The model stated outright takes the place of what the rule gives.
-void read_material_extras(Document& document, const Value& value, Material& material) {
-    const auto extras = gobo_extras(document, value);
-    if (!extras) return;
-    material.overrides = read_overrides(document, *extras, {"model"});
-    const auto model = document.object(*extras, "model");
+void read_material_extras(const Value& value, Material& material) {
+    const Value extras = value.gobo_extras();
+    material.overrides = read_overrides(extras, {"model"});
+    const Value model = extras["model"].object();
     if (!model) return;
-    document.only(*model, {"ambient", "diffuse", "shininess", "specular", "strength"});
-    material.diffuse = read_color(document, *model, "diffuse").value_or(material.diffuse);
-    material.ambient = read_color(document, *model, "ambient").value_or(material.diffuse);
-    material.specular = read_color(document, *model, "specular").value_or(material.specular);
-    material.shininess = document.number_within(*model, "shininess", 0, 1e6).value_or(material.shininess);
-    material.strength = document.number_within(*model, "strength", 0, most_strength).value_or(1);
+    model.only({"ambient", "diffuse", "shininess", "specular", "strength"});
+    model["diffuse"].read_color(material.diffuse);
+    material.ambient = material.diffuse;
+    material.strength = 1;
+    model["ambient"].read_color(material.ambient);
+    model["specular"].read_color(material.specular);
+    model["shininess"].read(material.shininess, {0, 1e6});
+    model["strength"].read(material.strength, {0, kMostStrength});
 }
 
-AlphaMode read_alpha_mode(Document& document, const Value& value) {
-    const auto mode = document.choice(value, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
-    if (mode == "MASK") return AlphaMode::mask;
-    return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
-}
-
-Material read_material(Document& document, Textures& textures, const Value& value) {
+Material read_material(const Value& value, const Textures& textures) {
     Material material;
-    material.name = document.string(value, "name").value_or("");
-    material.emission = read_color(document, value, "emissiveFactor").value_or(glm::dvec3(0));
-    material.double_sided = document.boolean(value, "doubleSided").value_or(false);
-    material.alpha_mode = read_alpha_mode(document, value);
-    material.alpha_cutoff =
-        document.number_within(value, "alphaCutoff", 0, std::numeric_limits<double>::infinity())
-            .value_or(0.5);
-    Surface surface = read_surface(document, textures, value, material);
-    read_extensions(document, value, surface, material);
-    apply_surface(surface, material);
-    read_material_extras(document, value, material);
+    value["name"].read(material.name);
+    value["emissiveFactor"].read_color(material.emission);
+    value["doubleSided"].read(material.double_sided);
+    material.alpha_mode = static_cast<AlphaMode>(value["alphaMode"].choice({"OPAQUE", "MASK", "BLEND"}, 0));
+    value["alphaCutoff"].read(material.alpha_cutoff, kNotNegative);
+    apply_surface(read_surface(value, textures, material), material);
+    read_material_extras(value, material);
     for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-        material.is_textured = textures.is_named(value, texture) || material.is_textured;
+        material.is_textured = textures.is_named(value[texture]) || material.is_textured;
     return material;
+}
+
+Fog read_fog(const Value& value) {
+    Fog fog;
+    value.only({"color", "density", "far", "kind", "near"});
+    fog.kind = kFogKinds[value["kind"].choice(kFogKinds)];
+    value["color"].read_color(fog.color);
+    value["near"].read(fog.near, kNotNegative);
+    value["far"].read(fog.far, kNotNegative);
+    value["density"].read(fog.density, kNotNegative);
+    if (fog.kind == "linear" && fog.far < fog.near)
+        value["far"].fail("is {:g}, nearer than near, {:g}", fog.far, fog.near);
+    return fog;
+}
+
+Probe read_probe(const Value& value) {
+    Probe probe;
+    value.only({"coefficients", "ground", "kind", "scale", "share", "sky", "up"});
+    probe.kind = kProbeKinds[value["kind"].choice(kProbeKinds)];
+    value["up"].read(probe.up);
+    const double length = glm::length(probe.up);
+    if (!(length > 1e-6 && length < 1e6)) value["up"].fail("is no direction");
+    probe.up /= length;
+    value["sky"].read_color(probe.sky);
+    value["ground"].read_color(probe.ground);
+    probe.scale = 1 / std::numbers::pi;  // then what the polynomial gives is the radiance of a white surface
+    value["scale"].read(probe.scale, {0, 1e3});
+    value["share"].read(probe.share, kUpToOne);
+    if (probe.kind != "spherical_harmonics") return probe;
+    const std::vector<Value> rows = value["coefficients"].elements();
+    if (rows.size() != probe.coefficients.size())
+        value["coefficients"].fail("must hold 9 colours, not {}", rows.size());
+    for (std::size_t i = 0; i < rows.size() && !value.document->failed(); ++i)
+        rows[i].read(probe.coefficients[i]);
+    return probe;
 }
 
 }  // namespace
 
-/// The last one is glTF's default material, for primitives that name none.
-void read_materials(Document& document, Textures& textures, Scene& scene) {
-    for (const Value& value : document.objects(document.root(), "materials"))
-        scene.materials.push_back(read_material(document, textures, value));
-    Material standard;
+void Overrides::fill_from(const Overrides& outer) {
+    if (!fog) fog = outer.fog;
+    if (!toon_levels) toon_levels = outer.toon_levels;
+    if (!specular) specular = outer.specular;
+    if (!probe) probe = outer.probe;
+    if (!reflection) reflection = outer.reflection;
+    if (!shadow) shadow = outer.shadow;
+    quality.insert(outer.quality.begin(), outer.quality.end());
+}
+
+Overrides read_overrides(const Value& extras, std::vector<std::string> others) {
+    for (const char* name : {"fog", "probe", "quality", "reflection", "shadow", "specular", "toon"})
+        others.emplace_back(name);
+    extras.only(others);
+    Overrides overrides;
+    if (const Value fog = extras["fog"].object()) overrides.fog = read_fog(fog);
+    if (const auto levels = extras["toon"].integer()) {
+        overrides.toon_levels = static_cast<int>(*levels);
+        if (*levels < 0 || *levels > 64)
+            extras["toon"].fail("is {}, but must be between 0 and 64 levels", *levels);
+    }
+    if (extras["specular"]) overrides.specular = kHighlights[extras["specular"].choice(kHighlights)];
+    if (const Value probe = extras["probe"].object()) overrides.probe = read_probe(probe);
+    extras["reflection"].read(overrides.reflection, kUpToOne);
+    // Which features there are is the family's to say, and the key's to find out.
+    if (const Value quality = extras["quality"].object())
+        for (const auto& [feature, chosen] : quality.json->items())
+            quality[feature].read(overrides.quality[feature]);
+    extras["shadow"].read(overrides.shadow);
+    return overrides;
+}
+
+void read_materials(const Value& root, const Accessors& accessors, const FileSystem& disk, Scene& scene) {
+    const Textures textures{root, accessors, disk, scene.files};
+    for (const Value& texture : textures.textures)
+        static_cast<void>(texture["source"].index(textures.images.size(), "images"));
+    for (const Value& value : root["materials"].objects())
+        scene.materials.push_back(read_material(value, textures));
+    Material& standard = scene.materials.emplace_back();
     standard.name = "default material";
     apply_surface({}, standard);
-    scene.materials.push_back(std::move(standard));
 }
 
 }  // namespace gobo::scene

@@ -1,6 +1,10 @@
-#include <cmath>
+// Nodes, and what moves them: skins, and animations as bounds, since no time is ever chosen.
+#include <algorithm>
+#include <functional>
+#include <limits>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/read_parts.hpp"
@@ -9,206 +13,262 @@ namespace gobo::scene {
 namespace {
 
 /// Deeper hierarchies are refused: whatever follows a node's ancestors stays quick.
-constexpr int deepest_hierarchy = 1024;
+constexpr int kDeepestHierarchy = 1024;
+/// What all instances together may hold: drawing lays them out one by one.
+constexpr std::size_t kMostInstancedVertices = 16'777'216;
 
-void read_matrix(Document& document, const Value& value, Node& node) {
-    const auto numbers = document.numbers(value, "matrix", 16);
-    if (!numbers) return;
-    node.has_matrix = true;
-    for (std::size_t i = 0; i < 16; ++i) {
-        const auto column = static_cast<glm::length_t>(i / 4);
-        node.local[column][static_cast<glm::length_t>(i % 4)] = (*numbers)[i];
-    }
-    const glm::dmat4& local = node.local;
-    if (local[0][3] != 0 || local[1][3] != 0 || local[2][3] != 0 || local[3][3] != 1) {
-        document.error(path_to(value, "matrix"), "is no affine transform: its last row must be 0 0 0 1");
-    }
-    for (const char* name : {"translation", "rotation", "scale"})
-        if (value.json->contains(name))
-            document.error(value.path, fmt::format("has both matrix and {}", name));
-}
+const std::vector<Component> kSigned = {Component::float32, Component::int8, Component::int16};
 
-void read_transform(Document& document, const Value& value, Node& node) {
-    if (value.json->contains("matrix")) return read_matrix(document, value, node);
-    if (const auto t = document.numbers(value, "translation", 3))
-        node.translation = {(*t)[0], (*t)[1], (*t)[2]};
-    if (const auto s = document.numbers(value, "scale", 3)) node.scale = {(*s)[0], (*s)[1], (*s)[2]};
-    if (const auto r = document.numbers(value, "rotation", 4)) {
-        const glm::dquat rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
+void read_transform(const Value& value, Node& node) {
+    if (const Value matrix = value["matrix"]) {
+        node.has_matrix = matrix.read_numbers(&node.local[0].x, 16);
+        if (glm::row(node.local, 3) != glm::dvec4(0, 0, 0, 1))
+            matrix.fail("is no affine transform: its last row must be 0 0 0 1");
+        for (const char* name : {"translation", "rotation", "scale"})
+            if (value[name]) value.fail("has both matrix and {}", name);
+        return;
+    }
+    value["translation"].read(node.translation);
+    value["scale"].read(node.scale);
+    if (glm::dvec4 r(0); value["rotation"].read_numbers(&r.x, 4)) {
+        const glm::dquat rotation(r.w, r.x, r.y, r.z);
         const double length = glm::length(rotation);
-        if (!(length > 1e-6 && length < 1e6)) {
-            document.error(path_to(value, "rotation"), "is no rotation: its length must be 1");
-            return;
-        }
+        if (!(length > 1e-6 && length < 1e6))
+            return value["rotation"].fail("is no rotation: its length must be 1");
         node.rotation = rotation / length;
     }
     node.local = glm::translate(glm::dmat4(1), node.translation) * glm::mat4_cast(node.rotation) *
                  glm::scale(glm::dmat4(1), node.scale);
 }
 
-void read_light_index(Document& document, const Value& value, const Scene& scene, Node& node) {
-    const auto extensions = document.object(value, "extensions");
-    if (!extensions) return;
-    const auto extension = document.object(*extensions, "KHR_lights_punctual");
-    if (extension) node.light = document.required_index(*extension, "light", scene.lights.size(), "lights");
-}
-
-void read_node_extras(Document& document, const Value& value, Node& node) {
-    const auto extras = gobo_extras(document, value);
-    if (!extras) return;
-    node.overrides = read_overrides(document, *extras, {});
-}
-
 /// EXT_mesh_gpu_instancing: a translation, a rotation and a scale for each instance, each optional.
-class InstanceReader {
-  public:
-    InstanceReader(Document& document, Accessors& accessors, Value attributes)
-        : document_(document), accessors_(accessors), attributes_(std::move(attributes)) {}
-
-    std::vector<glm::dmat4> read() {
-        const Values translation = column("TRANSLATION", "VEC3");
-        const Values rotation = column("ROTATION", "VEC4");
-        const Values scale = column("SCALE", "VEC3");
-        std::vector<glm::dmat4> instances;
-        for (std::size_t i = 0; i < count_ && !document_.failed(); ++i) {
-            glm::dmat4 instance(1);
-            if (translation.count > 0) instance = glm::translate(instance, triple(translation, i));
-            if (rotation.count > 0) instance *= glm::mat4_cast(quaternion(rotation, i));
-            if (scale.count > 0) instance = glm::scale(instance, triple(scale, i));
-            instances.push_back(instance);
+std::vector<glm::dmat4> read_instances(const Value& attributes, Accessors& accessors) {
+    Attributes reader{accessors, attributes, "instances"};
+    const Values translation = reader.read("TRANSLATION", {{"VEC3"}, kSigned});
+    const Values rotation = reader.read("ROTATION", {{"VEC4"}, kSigned});
+    const Values scale = reader.read("SCALE", {{"VEC3"}, kSigned});
+    std::vector<glm::dmat4> instances;
+    for (std::size_t i = 0; i < reader.count && !attributes.document->failed(); ++i) {
+        glm::dmat4& instance = instances.emplace_back(1);
+        if (translation.count > 0) instance = glm::translate(instance, translation.triple(i));
+        if (rotation.count > 0) {
+            const glm::dquat turn(rotation.at(i, 3), rotation.triple(i));
+            const double length = glm::length(turn);
+            if (!(length > 1e-6)) attributes["ROTATION"].fail("is no rotation in element {}", i);
+            instance *= glm::mat4_cast(turn / length);
         }
-        return instances;
+        if (scale.count > 0) instance = glm::scale(instance, scale.triple(i));
     }
-
-  private:
-    Values column(const char* name, std::string_view shape) {
-        const auto index = document_.index(attributes_, name, accessors_.size(), "accessors");
-        if (!index) return {};
-        const std::string user = path_to(attributes_, name);
-        Values values = accessors_.read(
-            *index, {{shape}, {Component::float_number, Component::signed_byte, Component::signed_short}},
-            user);
-        if (count_ == 0) count_ = values.count;
-        if (!document_.failed() && values.count != count_)
-            document_.error(user,
-                            fmt::format("has {} elements, but there are {} instances", values.count, count_));
-        return values;
-    }
-    static glm::dvec3 triple(const Values& values, std::size_t i) {
-        return {values.at(i, 0), values.at(i, 1), values.at(i, 2)};
-    }
-    glm::dquat quaternion(const Values& values, std::size_t i) {
-        const glm::dquat rotation(values.at(i, 3), values.at(i, 0), values.at(i, 1), values.at(i, 2));
-        const double length = glm::length(rotation);
-        if (length > 1e-6) return rotation / length;
-        document_.error(path_to(attributes_, "ROTATION"), fmt::format("is no rotation in element {}", i));
-        return {1, 0, 0, 0};
-    }
-
-    Document& document_;
-    Accessors& accessors_;
-    Value attributes_;
-    std::size_t count_ = 0;
-};
-
-/// What all instances together may hold: drawing lays them out one by one.
-constexpr std::size_t most_instanced_vertices = 16'777'216;
-
-void read_instances(Document& document, Accessors& accessors, const Value& value, const Scene& scene,
-                    Node& node) {
-    const auto extensions = document.object(value, "extensions");
-    if (!extensions || !node.mesh) return;
-    const auto extension = document.object(*extensions, "EXT_mesh_gpu_instancing");
-    if (!extension) return;
-    if (node.skin) {
-        document.error(extension->path, "stands beside a skin: gobo draws no skinned instances",
-                       "export each instance as a node of its own");
-        return;
-    }
-    const auto attributes = document.object(*extension, "attributes");
-    if (!attributes) {
-        document.error(path_to(*extension, "attributes"), "is missing");
-        return;
-    }
-    node.instances = InstanceReader(document, accessors, *attributes).read();
-    std::size_t vertices = 0;
-    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(*node.mesh)].primitives)
-        vertices += primitive.positions.size();
-    if (node.instances.size() * vertices > most_instanced_vertices)
-        document.error(extension->path,
-                       fmt::format("calls for {} instances of {} vertices, more than {} in all",
-                                   node.instances.size(), vertices, most_instanced_vertices));
+    return instances;
 }
 
-Node read_node(Document& document, Accessors& accessors, const Value& value, std::size_t node_count,
-               std::size_t skin_count, const Scene& scene) {
+void read_instancing(const Value& value, Accessors& accessors, const Scene& scene, Node& node) {
+    if (!node.mesh) return;
+    const Value extension = value["extensions"]["EXT_mesh_gpu_instancing"].object();
+    if (!extension) return;
+    if (node.skin)
+        return extension.fail_with("export each instance as a node of its own",
+                                   "stands beside a skin: gobo draws no skinned instances");
+    const Value attributes = extension["attributes"].required().object();
+    if (!attributes) return;
+    node.instances = read_instances(attributes, accessors);
+    std::size_t vertices = 0;
+    for (const Primitive& primitive : scene.meshes[*node.mesh].primitives)
+        vertices += primitive.positions.size();
+    if (node.instances.size() * vertices > kMostInstancedVertices)
+        extension.fail("has {} instances of {} vertices, more than {} in all", node.instances.size(),
+                       vertices, kMostInstancedVertices);
+}
+
+Node read_node(const Value& value, Accessors& accessors, std::size_t node_count, std::size_t skin_count,
+               const Scene& scene) {
     Node node;
-    node.name = document.string(value, "name").value_or("");
-    node.children = document.indices(value, "children", node_count, "nodes");
-    node.mesh = document.index(value, "mesh", scene.meshes.size(), "meshes");
-    node.skin = document.index(value, "skin", skin_count, "skins");
-    node.camera = document.index(value, "camera", scene.cameras.size(), "cameras");
-    read_light_index(document, value, scene, node);
-    read_transform(document, value, node);
-    read_instances(document, accessors, value, scene, node);
-    read_node_extras(document, value, node);
-    if (node.mesh && value.json->contains("weights")) {
-        const std::size_t targets = scene.meshes[static_cast<std::size_t>(*node.mesh)].weights.size();
-        node.weights = document.numbers(value, "weights", targets).value_or(std::vector<double>());
+    value["name"].read(node.name);
+    node.children = value["children"].indices(node_count, "nodes");
+    node.mesh = value["mesh"].index(scene.meshes.size(), "meshes");
+    node.skin = value["skin"].index(skin_count, "skins");
+    node.camera = value["camera"].index(scene.cameras.size(), "cameras");
+    if (const Value extension = value["extensions"]["KHR_lights_punctual"].object())
+        node.light = extension["light"].required().index(scene.lights.size(), "lights");
+    read_transform(value, node);
+    read_instancing(value, accessors, scene, node);
+    node.overrides = read_overrides(value.gobo_extras());
+    if (node.mesh && value["weights"]) {
+        node.weights.resize(scene.meshes[*node.mesh].weights.size());
+        value["weights"].read_numbers(node.weights.data(), node.weights.size());
     }
     return node;
 }
 
-void name_parents(Document& document, std::vector<Node>& nodes) {
+void name_parents(const Value& root, std::vector<Node>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        for (const int child : nodes[i].children) {
-            auto& parent = nodes[static_cast<std::size_t>(child)].parent;
-            if (parent) {
-                document.error(fmt::format("nodes[{}]", child),
-                               fmt::format("is a child of both node {} and node {}", *parent, i),
-                               "a node has at most one parent; let two nodes share a mesh instead");
-                return;
-            }
-            parent = static_cast<int>(i);
+        for (const std::size_t child : nodes[i].children) {
+            auto& parent = nodes[child].parent;
+            if (parent)
+                return root[fmt::format("nodes[{}]", child)].fail_with(
+                    "a node has at most one parent; let two nodes share a mesh instead",
+                    "is a child of both node {} and node {}", *parent, i);
+            parent = i;
         }
     }
 }
 
 /// With one parent each, nodes form a cycle or hang too deep exactly where the way up is too long.
-void check_depth(Document& document, const std::vector<Node>& nodes) {
+void check_depth(const Value& root, const std::vector<Node>& nodes) {
+    std::optional<std::size_t> too_deep;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        std::optional<int> above = nodes[i].parent;
-        for (int depth = 0; above; ++depth) {
-            if (*above == static_cast<int>(i)) {
-                document.error(fmt::format("nodes[{}]", i), "is its own ancestor: the nodes form a cycle");
-                return;
-            }
-            if (depth > deepest_hierarchy) break;
-            above = nodes[static_cast<std::size_t>(*above)].parent;
+        int depth = 0;
+        std::optional<std::size_t> above = nodes[i].parent;
+        for (; above && above != i && depth <= kDeepestHierarchy; above = nodes[*above].parent) ++depth;
+        if (above == i)
+            return root[fmt::format("nodes[{}]", i)].fail("is its own ancestor: the nodes form a cycle");
+        if (depth > kDeepestHierarchy && !too_deep) too_deep = i;
+    }
+    if (too_deep)
+        root[fmt::format("nodes[{}]", *too_deep)].fail("has more than {} nodes above it", kDeepestHierarchy);
+}
+
+/// Every joint that a skinned mesh names must be one of its skin's.
+void check_influences(const Value& root, const Scene& scene) {
+    std::vector<std::size_t> named(scene.meshes.size());  // one more than the greatest joint of each mesh
+    for (std::size_t i = 0; i < named.size(); ++i)
+        for (const Primitive& primitive : scene.meshes[i].primitives)
+            for (const auto& influences : primitive.influences)
+                for (const Influence& influence : influences)
+                    named[i] = std::max(named[i], std::size_t{influence.joint} + 1);
+    for (std::size_t i = 0; i < scene.nodes.size() && !root.document->failed(); ++i) {
+        const Node& node = scene.nodes[i];
+        if (!node.skin || !node.mesh) continue;
+        const std::size_t joints = scene.skins[*node.skin].joints.size();
+        const std::size_t count = named[*node.mesh];
+        if (count > joints)
+            root[fmt::format("meshes[{}]", *node.mesh)].fail(
+                "names joint {}, but skins[{}] of nodes[{}] has {} joints", count - 1, *node.skin, i, joints);
+    }
+}
+
+/// The hull of each of `width` numbers that a sampler gives at a time; empty where something is wrong.
+/// Between two keyframes a curve stays within the hull of its control points: the keyframes and, of a cubic
+/// spline, the inner Bezier points p0 + m0 dt / 3 and p1 - m1 dt / 3 of each segment.
+std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, const Wanted& wanted,
+                                std::size_t width) {
+    for (const char* name : {"input", "output"})
+        static_cast<void>(sampler[name].required().index(accessors.size(), "accessors"));
+    const bool is_cubic = sampler["interpolation"].choice({"LINEAR", "STEP", "CUBICSPLINE"}, 0) == 2;
+    const Values times = accessors.read(sampler["input"], {{"SCALAR"}, {Component::float32}});
+    const Values values = accessors.read(sampler["output"], wanted);
+    if (sampler.document->failed()) return {};
+    const std::size_t expected = times.count * (is_cubic ? 3 : 1) * width / values.width;
+    if (values.count != expected)
+        sampler["output"].fail("has {} elements, but {} keyframes need {}", values.count, times.count,
+                               expected);
+    const auto fall = std::ranges::adjacent_find(times.numbers, std::greater_equal());
+    if (fall != times.numbers.end())
+        sampler["input"].fail("does not rise at keyframe {}", fall - times.numbers.begin() + 1);
+    if (sampler.document->failed()) return {};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<Interval> hull(width, {infinity, -infinity});
+    for (std::size_t i = 0; i < times.count; ++i) {
+        for (std::size_t part = 0; part < width; ++part) {
+            // A cubic keyframe has three kinds of numbers: in-tangents, values, out-tangents.
+            const auto number = [&](std::size_t keyframe, std::size_t kind) {
+                return values.numbers[(is_cubic ? 3 * keyframe + kind : keyframe) * width + part];
+            };
+            hull[part].add(number(i, 1));
+            if (!is_cubic || i + 1 == times.count) continue;
+            const double third = (times.at(i + 1) - times.at(i)) / 3;
+            hull[part].add(number(i, 1) + number(i, 2) * third);
+            hull[part].add(number(i + 1, 1) - number(i + 1, 0) * third);
         }
     }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        std::optional<int> above = nodes[i].parent;
-        for (int depth = 1; above; ++depth, above = nodes[static_cast<std::size_t>(*above)].parent) {
-            if (depth <= deepest_hierarchy) continue;
-            document.error(fmt::format("nodes[{}]", i),
-                           fmt::format("has more than {} nodes above it", deepest_hierarchy));
-            return;
+    return hull;
+}
+
+void read_weights(const Value& target, const Value& sampler, Accessors& accessors, const Scene& scene,
+                  Node& node) {
+    if (!node.mesh || scene.meshes[*node.mesh].weights.empty())
+        return target.fail("animates the weights of a node whose mesh has no morph targets");
+    const std::vector<double>& rest = weights_at_rest(scene, node);
+    const auto hull = read_hull(sampler, accessors, {{"SCALAR"}, kFloatOrSmall}, rest.size());
+    std::vector<Interval>& weights = node.motion->weights;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        if (weights.size() == i) weights.push_back({rest[i], rest[i]});
+        weights[i].add(hull[i].low);
+        weights[i].add(hull[i].high);
+    }
+}
+
+void read_channel(const Value& target, const Value& sampler, Accessors& accessors, Scene& scene) {
+    std::string path;
+    if (!target["path"].read(path)) target["path"].fail("is missing");
+    const auto index = target["node"].index(scene.nodes.size(), "nodes");
+    if (!index) return;  // without a node an extension animates something else
+    Node& node = scene.nodes[*index];
+    if (node.has_matrix && path != "weights")
+        return target.fail("animates nodes[{}], which has a matrix", *index);
+    if (!node.motion)
+        node.motion = Motion{{node.translation, node.translation}, {node.scale, node.scale}, {}, {}, {}};
+    if (path == "translation" || path == "scale") {
+        const auto hull = read_hull(sampler, accessors, {{"VEC3"}, {Component::float32}}, 3);
+        Box& box = path == "scale" ? node.motion->scale : node.motion->translation;
+        if (!hull.empty())
+            box.add(Box{{hull[0].low, hull[1].low, hull[2].low}, {hull[0].high, hull[1].high, hull[2].high}});
+        node.motion->moves = true;
+    } else if (path == "rotation") {
+        static_cast<void>(read_hull(sampler, accessors, {{"VEC4"}, kFloatOrSmall}, 4));  // for its errors
+        node.motion->rotates = node.motion->moves = true;
+    } else if (path == "weights") {
+        read_weights(target, sampler, accessors, scene, node);
+    } else if (path != "pointer") {
+        target["path"].fail_with("known: translation, rotation, scale, weights", "is '{}', which is unknown",
+                                 path);
+    }
+}
+
+void read_skins(const Value& root, Accessors& accessors, Scene& scene) {
+    for (const Value& value : root["skins"].objects()) {
+        Skin& skin = scene.skins.emplace_back();
+        skin.joints = value["joints"].indices(scene.nodes.size(), "nodes");
+        if (skin.joints.empty()) value["joints"].fail("must name at least one node");
+        skin.inverse_bind.assign(skin.joints.size(), glm::dmat4(1));
+        const Values values = accessors.read(value["inverseBindMatrices"], {{"MAT4"}, {Component::float32}});
+        if (values.count > 0 && values.count < skin.joints.size())
+            value["inverseBindMatrices"].fail("has {} matrices for {} joints", values.count,
+                                              skin.joints.size());
+        if (root.document->failed()) return;
+        for (std::size_t i = 0; i < skin.joints.size() && values.count > 0; ++i)
+            for (std::size_t k = 0; k < 16; ++k)
+                skin.inverse_bind[i][static_cast<glm::length_t>(k / 4)][static_cast<glm::length_t>(k % 4)] =
+                    values.at(i, k);
+    }
+    check_influences(root, scene);
+}
+
+void read_animations(const Value& root, Accessors& accessors, Scene& scene) {
+    for (const Value& animation : root["animations"].objects()) {
+        const std::vector<Value> samplers = animation["samplers"].objects();
+        for (const Value& channel : animation["channels"].objects()) {
+            const auto sampler = channel["sampler"].required().index(samplers.size(), "samplers");
+            const Value target = channel["target"].required().object();
+            if (root.document->failed()) return;
+            read_channel(target, samplers[*sampler], accessors, scene);
         }
     }
 }
 
 }  // namespace
 
-void read_nodes(Document& document, Accessors& accessors, Scene& scene) {
-    const std::vector<Value> values = document.objects(document.root(), "nodes");
-    const std::size_t skin_count = document.objects(document.root(), "skins").size();
+void read_nodes(const Value& root, Accessors& accessors, Scene& scene) {
+    const std::vector<Value> values = root["nodes"].objects();
+    const std::size_t skin_count = root["skins"].objects().size();
     for (const Value& value : values) {
-        scene.nodes.push_back(read_node(document, accessors, value, values.size(), skin_count, scene));
-        if (document.failed()) return;
+        scene.nodes.push_back(read_node(value, accessors, values.size(), skin_count, scene));
+        if (root.document->failed()) return;
     }
-    name_parents(document, scene.nodes);
-    check_depth(document, scene.nodes);
+    name_parents(root, scene.nodes);
+    check_depth(root, scene.nodes);
+    read_skins(root, accessors, scene);
+    read_animations(root, accessors, scene);
 }
 
 }  // namespace gobo::scene

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "scene/buffers.hpp"
-#include "scene/container.hpp"
 #include "scene/read_parts.hpp"
 
 namespace gobo::scene {
@@ -15,107 +14,165 @@ namespace {
 
 /// What the file may require. A transform of textures is of no concern: colours are not sampled, and what is
 /// cut by a transformed picture is taken to be cut anywhere.
-const std::vector<std::string> known_extensions = {
+const std::vector<std::string> kKnownExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
-void read_asset(Document& document) {
-    const auto asset = document.object(document.root(), "asset");
-    if (!asset) {
-        document.error("asset", "is missing", "a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}");
-        return;
-    }
-    const auto version = document.string(*asset, "version");
-    if (!version) document.error("asset.version", "is missing");
-    if (version && !version->starts_with("2.")) {
-        document.error("asset.version", fmt::format("is '{}', but only glTF 2 is read", *version));
-    }
-    const auto least = document.string(*asset, "minVersion");
-    if (least && *least != "2.0") {
-        document.error("asset.minVersion", fmt::format("is '{}', but only glTF 2.0 is read", *least));
-    }
+void read_asset(const Value& root) {
+    const Value asset = root["asset"].object();
+    if (!asset)
+        return root["asset"].fail_with("a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}",
+                                       "is missing");
+    std::string version;
+    if (!asset["version"].read(version)) asset["version"].fail("is missing");
+    if (!version.starts_with("2.")) asset["version"].fail("is '{}', but only glTF 2 is read", version);
+    std::string least = "2.0";
+    asset["minVersion"].read(least);
+    if (least != "2.0") asset["minVersion"].fail("is '{}', but only glTF 2.0 is read", least);
 }
 
-void check_extensions(Document& document) {
-    for (const Value& value : document.elements(document.root(), "extensionsRequired")) {
-        if (!value.json->is_string()) {
-            document.error(value.path, "must be a string");
-            return;
-        }
+void check_extensions(const Value& root) {
+    for (const Value& value : root["extensionsRequired"].elements()) {
+        if (!value.json->is_string()) return value.fail("must be a string");
         const auto name = value.json->get<std::string>();
-        if (std::find(known_extensions.begin(), known_extensions.end(), name) != known_extensions.end())
-            continue;
-        document.error(value.path, fmt::format("is {}, which gobo does not read", name),
-                       fmt::format("export without it; read are {}", join(known_extensions, ", ")));
+        if (std::ranges::find(kKnownExtensions, name) == kKnownExtensions.end())
+            value.fail_with(fmt::format("export without it; read are {}", join(kKnownExtensions, ", ")),
+                            "is {}, which gobo does not read", name);
     }
 }
 
-void read_scene_extras(Document& document, const Value& object, Scene& scene) {
-    const auto extras = gobo_extras(document, object);
-    if (!extras) return;
-    scene.overrides = read_overrides(document, *extras, {"ambient", "background"});
-    scene.ambient = read_color(document, *extras, "ambient").value_or(glm::dvec3(0));
-    scene.background = read_color(document, *extras, "background");
+constexpr double kRightAngle = std::numbers::pi / 2;
+/// Angles are written in single precision as a rule: pi / 2 rounded up must pass.
+constexpr double kAngleSlack = 1e-6;
+
+void read_cone(const Value& value, Light& light) {
+    light.outer_angle = std::numbers::pi / 4;
+    const Value cone = value["spot"].object();
+    if (!cone) return;
+    const Range angles{0, kRightAngle + kAngleSlack};
+    cone["innerConeAngle"].read(light.inner_angle, angles);
+    cone["outerConeAngle"].read(light.outer_angle, angles);
+    light.outer_angle = std::min(light.outer_angle, kRightAngle);
+    if (light.inner_angle > light.outer_angle + kAngleSlack)
+        cone["innerConeAngle"].fail("is {:g}, wider than outerConeAngle, {:g}", light.inner_angle,
+                                    light.outer_angle);
+    light.inner_angle = std::min(light.inner_angle, light.outer_angle);
+}
+
+Light read_light(const Value& value) {
+    Light light;
+    value["name"].read(light.name);
+    light.kind = static_cast<LightKind>(value["type"].choice({kLightKinds.begin(), kLightKinds.end()}));
+    value["color"].read_color(light.color);
+    double intensity = 1;
+    value["intensity"].read(intensity, kNotNegative);
+    light.color *= intensity;
+    value["range"].read(light.range);
+    if (light.range <= 0) value["range"].fail("is {:g}, but must be above 0", light.range);
+    if (light.kind == LightKind::spot) read_cone(value, light);
+    if (const Value extras = value.gobo_extras()) {
+        extras.only({"attenuation", "exponent", "shadow"});
+        extras["attenuation"].read_color(light.attenuation);
+        extras["exponent"].read(light.exponent, {0, 1e6});
+        extras["shadow"].read(light.casts_shadow);
+    }
+    return light;
+}
+
+void read_perspective(const Value& view, Camera& camera) {
+    view["yfov"].required().read(camera.vertical_angle);
+    view["znear"].required().read(camera.near_plane);
+    view["zfar"].read(camera.far_plane);
+    view["aspectRatio"].read(camera.aspect);
+    if (camera.vertical_angle <= 0 || camera.vertical_angle >= std::numbers::pi)
+        view["yfov"].fail("is {:g}, but must be an angle between 0 and pi", camera.vertical_angle);
+    if (camera.near_plane <= 0 || camera.far_plane <= camera.near_plane)
+        view.fail("must have 0 < znear < zfar");
+    if (camera.aspect && *camera.aspect <= 0) view["aspectRatio"].fail("must be above 0");
+}
+
+void read_orthographic(const Value& view, Camera& camera) {
+    view["xmag"].required().read(camera.half_extent.x);
+    view["ymag"].required().read(camera.half_extent.y);
+    view["znear"].required().read(camera.near_plane);
+    view["zfar"].required().read(camera.far_plane);
+    if (camera.half_extent.x == 0 || camera.half_extent.y == 0)
+        view.fail("must have xmag and ymag other than 0");
+    if (camera.near_plane < 0 || camera.far_plane <= camera.near_plane)
+        view.fail("must have 0 <= znear < zfar");
+}
+
+void read_lights(const Value& root, Scene& scene) {
+    const Value extension = root["extensions"]["KHR_lights_punctual"].object();
+    if (!extension) return;
+    for (const Value& value : extension["lights"].objects()) scene.lights.push_back(read_light(value));
+}
+
+void read_cameras(const Value& root, Scene& scene) {
+    for (const Value& value : root["cameras"].objects()) {
+        Camera& camera = scene.cameras.emplace_back();
+        value["name"].read(camera.name);
+        camera.is_perspective = value["type"].choice({"perspective", "orthographic"}) == 0;
+        const Value view = value[camera.is_perspective ? "perspective" : "orthographic"].required().object();
+        if (camera.is_perspective)
+            read_perspective(view, camera);
+        else
+            read_orthographic(view, camera);
+    }
 }
 
 /// The roots that are drawn: those of the default scene, else of the first; all roots where there is no
 /// scene.
-std::vector<int> scene_roots(Document& document, Scene& scene) {
-    const std::vector<Value> scenes = document.objects(document.root(), "scenes");
-    const int chosen = document.index(document.root(), "scene", scenes.size(), "scenes").value_or(0);
-    std::vector<int> roots;
+std::vector<std::size_t> scene_roots(const Value& root, Scene& scene) {
+    const std::vector<Value> scenes = root["scenes"].objects();
+    const std::size_t chosen = root["scene"].index(scenes.size(), "scenes").value_or(0);
+    std::vector<std::size_t> roots;
     if (scenes.empty()) {
         for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-            if (!scene.nodes[i].parent) roots.push_back(static_cast<int>(i));
+            if (!scene.nodes[i].parent) roots.push_back(i);
         return roots;
     }
-    const Value& value = scenes[static_cast<std::size_t>(chosen)];
-    roots = document.indices(value, "nodes", scene.nodes.size(), "nodes");
-    read_scene_extras(document, value, scene);
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        const auto& parent = scene.nodes[static_cast<std::size_t>(roots[i])].parent;
-        if (!parent) continue;
-        document.error(fmt::format("{}.nodes[{}]", value.path, i),
-                       fmt::format("is node {}, which is a child of node {}", roots[i], *parent),
-                       "a scene lists root nodes only");
+    const Value& value = scenes[chosen];
+    roots = value["nodes"].indices(scene.nodes.size(), "nodes");
+    if (const Value extras = value.gobo_extras()) {
+        scene.overrides = read_overrides(extras, {"ambient", "background"});
+        extras["ambient"].read_color(scene.ambient);
+        if (glm::dvec3 color(0); extras["background"].read_color(color)) scene.background = color;
     }
+    for (std::size_t i = 0; i < roots.size(); ++i)
+        if (const auto& parent = scene.nodes[roots[i]].parent)
+            value[fmt::format("nodes[{}]", i)].fail_with("a scene lists root nodes only",
+                                                         "is node {}, which is a child of node {}", roots[i],
+                                                         *parent);
     return roots;
 }
 
 /// Far beyond any scene, but no sum or product of such numbers overflows.
-constexpr double farthest = 1e30;
+constexpr double kFarthest = 1e30;
 
-void check_place(Document& document, int index, const Node& node) {
-    for (glm::length_t column = 0; column < 4; ++column) {
-        for (glm::length_t row = 0; row < 3; ++row) {
-            if (std::abs(node.world[column][row]) <= farthest) continue;
-            document.error(fmt::format("nodes[{}]", index),
-                           fmt::format("is transformed beyond {:g} units, or not finitely", farthest));
-        }
-    }
+bool is_placed(const glm::dmat4& world) {
+    const auto is_near = [](double number) { return std::abs(number) <= kFarthest; };
+    return std::all_of(&world[0].x, &world[0].x + 16, is_near);
 }
 
 /// Marks what is in the scene, in order, with its place in the world and the overrides of the nodes above it.
-void place_nodes(Document& document, Scene& scene) {
-    std::vector<int> open = scene_roots(document, scene);
-    if (document.failed()) return;
-    std::reverse(open.begin(), open.end());
+void place_nodes(const Value& root, Scene& scene) {
+    std::vector<std::size_t> open = scene_roots(root, scene);
+    if (root.document->failed()) return;
+    std::ranges::reverse(open);
     while (!open.empty()) {
-        const int index = open.back();
+        const std::size_t index = open.back();
         open.pop_back();
-        Node& node = scene.nodes[static_cast<std::size_t>(index)];
+        Node& node = scene.nodes[index];
         if (node.in_scene) continue;  // listed twice
         node.in_scene = true;
-        node.world = node.local;
-        if (node.parent) {
-            const Node& parent = scene.nodes[static_cast<std::size_t>(*node.parent)];
-            node.world = parent.world * node.local;
-            node.overrides.fill_from(parent.overrides);
-        } else {
-            node.overrides.fill_from(scene.overrides);
-        }
-        check_place(document, index, node);
+        const Node* const parent = node.parent ? &scene.nodes[*node.parent] : nullptr;
+        node.world = parent != nullptr ? parent->world * node.local : node.local;
+        node.overrides.fill_from(parent != nullptr ? parent->overrides : scene.overrides);
+        if (!is_placed(node.world))
+            root[fmt::format("nodes[{}]", index)].fail("is transformed beyond {:g} units, or not finitely",
+                                                       kFarthest);
         scene.order.push_back(index);
         open.insert(open.end(), node.children.rbegin(), node.children.rend());
     }
@@ -124,29 +181,23 @@ void place_nodes(Document& document, Scene& scene) {
 }  // namespace
 
 Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
-    const Result<std::string> content = files.read(path);
-    if (!content) return tl::unexpected(content.error());
-    const Result<Container> container = open_container(*content, path);
-    if (!container) return tl::unexpected(container.error());
-    Document document(container->json, path);
-    read_asset(document);
-    check_extensions(document);
-    const Buffers buffers = read_buffers(files, document, container->binary);
-    Accessors accessors(document, buffers);
+    GOBO_TRY(const std::string content, files.read(path));
+    GOBO_TRY(const Container container, open_container(content, path));
+    Document document(container.json, path);
+    const Value root{&document, &document.json(), ""};
     Scene scene;
     scene.path = path;
     scene.files = {path};
-    scene.files.insert(scene.files.end(), buffers.files.begin(), buffers.files.end());
-    Textures textures(document, accessors, files);
-    read_lights(document, scene);
-    read_cameras(document, scene);
-    read_materials(document, textures, scene);
-    scene.files.insert(scene.files.end(), textures.files().begin(), textures.files().end());
-    read_meshes(document, accessors, scene);
-    read_nodes(document, accessors, scene);
-    read_skins(document, accessors, scene);
-    read_animations(document, accessors, scene);
-    place_nodes(document, scene);
+    read_asset(root);
+    check_extensions(root);
+    const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene.files);
+    Accessors accessors(root, buffers);
+    read_lights(root, scene);
+    read_cameras(root, scene);
+    read_materials(root, accessors, files, scene);
+    read_meshes(root, accessors, scene);
+    read_nodes(root, accessors, scene);
+    place_nodes(root, scene);
     if (document.failed()) return tl::unexpected(document.errors());
     return scene;
 }

@@ -2,6 +2,7 @@
 // up, lengths in the scene's unit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -16,9 +17,19 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "scene/box.hpp"
-
 namespace gobo::scene {
+
+/// All points between two corners, both included, in double precision. Empty until a point is added.
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    [[nodiscard]] bool is_empty() const { return !(low.x <= high.x); }
+    void add(const glm::dvec3& point) { add(Box{point, point}); }
+    void add(const Box& other);
+    /// Corner 0 to 7.
+    [[nodiscard]] glm::dvec3 corner(int index) const;
+};
 
 /// Fog as `extras.gobo.fog` states it. Distances in the scene's unit, the colour is a radiance.
 struct Fog {
@@ -41,8 +52,8 @@ struct Probe {
     double share = 1;                          ///< of an image, against the scene's ambient light
 };
 
-/// What `extras.gobo` of a scene, node or material asks for; nothing where it says nothing. A material's word
-/// counts before a node's, a node's before that of the nodes above it, and the scene's counts last.
+/// What `extras.gobo` of a scene, node or material asks for; nothing where it says nothing. A material
+/// overrides its node, a node those above it, and these the scene.
 struct Overrides {
     std::optional<Fog> fog;
     std::optional<int> toon_levels;       ///< 0: no toon shading
@@ -86,6 +97,8 @@ struct Material {
 };
 
 enum class LightKind { directional, point, spot };
+/// In its order: as glTF names them, and the features that count them.
+inline constexpr std::array kLightKinds = {"directional", "point", "spot"};
 
 /// A light of KHR_lights_punctual. It shines along -z of its node.
 struct Light {
@@ -131,7 +144,7 @@ struct Primitive {
     std::vector<std::vector<glm::vec3>> target_positions;  ///< per morph target, one per position
     std::vector<std::vector<glm::vec3>> target_normals;    ///< per morph target, one per position, or none
     std::vector<std::vector<Influence>> influences;        ///< one list per position, or none
-    int material = 0;               ///< the last of the scene is glTF's default material
+    std::size_t material = 0;       ///< the last of the scene is glTF's default material
     bool has_flat_normals = false;  ///< they were computed
 };
 
@@ -147,7 +160,10 @@ struct Mesh {
 struct Interval {
     double low = 0;
     double high = 0;
-    void add(double value);
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
 };
 
 /// Everything that animations do to a node: it stays within these, between keyframes too.
@@ -161,12 +177,12 @@ struct Motion {
 
 struct Node {
     std::string name;
-    std::optional<int> parent;
-    std::vector<int> children;
-    std::optional<int> mesh;
-    std::optional<int> skin;
-    std::optional<int> camera;
-    std::optional<int> light;
+    std::optional<std::size_t> parent;
+    std::vector<std::size_t> children;
+    std::optional<std::size_t> mesh;
+    std::optional<std::size_t> skin;
+    std::optional<std::size_t> camera;
+    std::optional<std::size_t> light;
     std::vector<double> weights;  ///< of its mesh's morph targets; empty: the mesh's
     /// Where EXT_mesh_gpu_instancing puts its mesh, each in the node's space; empty: once, where the node is.
     std::vector<glm::dmat4> instances;
@@ -182,16 +198,16 @@ struct Node {
 };
 
 struct Skin {
-    std::vector<int> joints;               ///< nodes
+    std::vector<std::size_t> joints;       ///< nodes
     std::vector<glm::dmat4> inverse_bind;  ///< one per joint
 };
 
-/// A scene with everything that decides what its draws call for, and what a renderer needs to draw it.
+/// A scene with everything that decides which effects its draws need, and what a renderer needs to draw it.
 struct Scene {
     std::string path;
     std::vector<std::string> files;  ///< every file read, the scene first
     std::vector<Node> nodes;
-    std::vector<int> order;  ///< the nodes of the scene, parents before children
+    std::vector<std::size_t> order;  ///< the nodes of the scene, parents before children
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<Light> lights;
@@ -201,5 +217,10 @@ struct Scene {
     std::optional<glm::dvec3> background;  ///< radiance behind everything
     Overrides overrides;
 };
+
+/// Of the morph targets of the node's mesh: the node's own, else the mesh's.
+[[nodiscard]] inline const std::vector<double>& weights_at_rest(const Scene& scene, const Node& node) {
+    return node.weights.empty() ? scene.meshes[*node.mesh].weights : node.weights;
+}
 
 }  // namespace gobo::scene

@@ -2,55 +2,49 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "family/key_space.hpp"
 
 namespace gobo::scene {
 namespace {
 
-constexpr int largest_bucket = 1'000'000;
-
-/// The least bucket that is enough, but never more than the family has; the count itself where none is.
-int bucketed(int count, int most, const Buckets& buckets) {
-    const auto bucket = std::lower_bound(buckets.begin(), buckets.end(), count);
-    return bucket == buckets.end() ? count : std::min(*bucket, most);
-}
+constexpr int kLargestBucket = 1'000'000;
 
 /// Puts one effect that is in into the key; says why where the family cannot.
 std::string add_effect(const Family& family, const Effect& effect, Key& key) {
     const auto index = family.index_of(effect.feature);
-    if (!index) return "called for but not yet in the family";
+    if (!index) return "needed, but not yet in the family";
     const Feature& feature = family.features[static_cast<std::size_t>(*index)];
     int& value = key[static_cast<std::size_t>(*index)];
     if (feature.kind == FeatureKind::count) {
         const auto most = static_cast<int>(feature.values.size()) - 1;
-        if (value == most) return fmt::format("called for but beyond the {} of the family", most);
+        if (value == most) return fmt::format("needed, but beyond the {} of the family", most);
         ++value;
         return {};
     }
     const auto wanted = feature.index_of(effect.value);
-    if (!wanted) return fmt::format("{} is called for but not yet in the family", effect.value);
+    if (!wanted) return fmt::format("{} is needed, but not yet in the family", effect.value);
     value = *wanted;
     return {};
 }
 
-bool is_light(const Effect& effect) {
-    return effect.feature == "directional" || effect.feature == "point" || effect.feature == "spot";
-}
-
-/// Rounds light counts up. Returns how many lights the permutation shades.
+/// Rounds light counts up: to the least bucket that is enough, but never beyond the family's largest; a count
+/// above all buckets stays. Returns how many lights the permutation shades.
 int apply_buckets(const Family& family, const Buckets& buckets, Key& key) {
     int shaded = 0;
-    for (const char* name : {"directional", "point", "spot"}) {
+    for (const char* name : kLightKinds) {
         const auto index = family.index_of(name);
         if (!index) continue;
         const Feature& feature = family.features[static_cast<std::size_t>(*index)];
         if (feature.kind != FeatureKind::count) continue;
         int& value = key[static_cast<std::size_t>(*index)];
-        value = bucketed(value, static_cast<int>(feature.values.size()) - 1, buckets);
+        const auto bucket = std::ranges::lower_bound(buckets, value);
+        if (bucket != buckets.end()) value = std::min(*bucket, static_cast<int>(feature.values.size()) - 1);
         shaded += value;
     }
     return shaded;
@@ -63,7 +57,8 @@ DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, s
         if (!effect.is_in) continue;
         const std::string why = add_effect(family, effect, result.key);
         if (!why.empty()) result.missing.push_back(fmt::format("{}: {}", effect.name, why));
-        result.lights += is_light(effect) && why.empty() ? 1 : 0;
+        const bool is_light = std::ranges::find(kLightKinds, effect.feature) != kLightKinds.end();
+        result.lights += is_light && why.empty() ? 1 : 0;
     }
     result.shaded_lights = apply_buckets(family, buckets, result.key);
     result.key = canonical(family, std::move(result.key), dialect);
@@ -76,14 +71,13 @@ Result<Buckets> parse_buckets(std::string_view text) {
     Buckets buckets;
     for (const std::string& part : split(text, ',')) {
         int count = -1;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), count);
-        const bool is_number = error == std::errc() && end == part.data() + part.size();
+        const char* const end = part.data() + part.size();
+        const auto read = std::from_chars(part.data(), end, count);
         const bool rises = buckets.empty() || count > buckets.back();
-        if (!is_number || count < 0 || count > largest_bucket || !rises) {
+        if (read.ec != std::errc() || read.ptr != end || count < 0 || count > kLargestBucket || !rises)
             return fail(Fault::usage,
                         fmt::format("--bucket-lights: '{}' is no rising list of light counts", text),
                         "write it like 0,1,2,4,8");
-        }
         buckets.push_back(count);
     }
     return buckets;
@@ -98,17 +92,12 @@ Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
                                                            const Buckets& buckets, std::string_view dialect) {
     std::vector<std::optional<DrawKey>> keys;
     for (const Draw& draw : draws) {
-        if (!draw.excluded.empty()) {
-            keys.emplace_back();
-            continue;
-        }
-        DrawKey key = key_of(family, draw, buckets, dialect);
-        if (const Rule* rule = forbidding_rule(family, key.key, dialect)) {
-            return fail(Fault::input,
-                        fmt::format("'{}' calls for '{}', which family '{}' forbids: {}", draw.name,
-                                    key_text(family, key.key), family.name, rule->reason));
-        }
-        keys.emplace_back(std::move(key));
+        auto& key = keys.emplace_back();
+        if (!draw.excluded.empty()) continue;
+        key = key_of(family, draw, buckets, dialect);
+        if (const Rule* rule = forbidding_rule(family, key->key, dialect))
+            return fail(Fault::input, fmt::format("'{}' needs '{}', which family '{}' forbids: {}", draw.name,
+                                                  key_text(family, key->key), family.name, rule->reason));
     }
     return keys;
 }
@@ -117,9 +106,44 @@ std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws)
     std::vector<Key> keys;
     for (const auto& draw : draws)
         if (draw) keys.push_back(draw->key);
-    std::sort(keys.begin(), keys.end());
+    std::ranges::sort(keys);
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     return keys;
+}
+
+Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws, const Buckets& buckets,
+                              std::string_view dialect) {
+    GOBO_TRY(const auto exact, keys_for_draws(family, draws, {}, dialect));
+    GOBO_TRY(const auto rounded, keys_for_draws(family, draws, buckets, dialect));
+    Funnel funnel;
+    funnel.full_product = 1;
+    for (const Feature& feature : family.features) {
+        const std::uint64_t count = feature.values.size();
+        const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+        funnel.full_product = funnel.full_product > most / count ? most : funnel.full_product * count;
+    }
+    funnel.valid = KeySpace(family, dialect, {{}, {}, true}).count();
+    funnel.draws = static_cast<std::size_t>(
+        std::ranges::count_if(exact, [](const auto& draw) { return draw.has_value(); }));
+    funnel.needed = distinct_keys(exact).size();
+    funnel.bucketed = distinct_keys(rounded).size();
+    return funnel;
+}
+
+Result<std::vector<BucketingRow>> compare_bucketings(const Family& family, const std::vector<Draw>& draws,
+                                                     const Buckets& chosen, std::string_view dialect) {
+    std::vector<Buckets> bucketings = {{}, {0, 1, 2, 4, 8}, {0, 2, 8}, {0, 8}, {8}};
+    if (std::ranges::find(bucketings, chosen) == bucketings.end()) bucketings.push_back(chosen);
+    std::vector<BucketingRow> rows;
+    for (const Buckets& buckets : bucketings) {
+        GOBO_TRY(const auto keys, keys_for_draws(family, draws, buckets, dialect));
+        BucketingRow& row = rows.emplace_back(BucketingRow{buckets, distinct_keys(keys).size(), 0, 0});
+        for (const auto& key : keys) {
+            row.lights += key ? key->lights : 0;
+            row.shaded_lights += key ? key->shaded_lights : 0;
+        }
+    }
+    return rows;
 }
 
 }  // namespace gobo::scene

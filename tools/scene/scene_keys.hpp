@@ -1,6 +1,8 @@
-// From what draws call for to the keys of a family.
+// From the effects that draws need to the keys of a family, how few they are of how many, and what
+// light-count buckets cost.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,13 +25,13 @@ using Buckets = std::vector<int>;
 /// The permutation that a draw needs.
 struct DrawKey {
     Key key;                           ///< canonical
-    int lights = 0;                    ///< that the draw calls for
+    int lights = 0;                    ///< that the draw needs
     int shaded_lights = 0;             ///< that the permutation shades; the others are given no colour
     std::vector<std::string> missing;  ///< effects that are in, but that the family does not shade, with why
 };
 
 /// One entry per draw; nothing for an excluded one. Fault::input where a rule of the family forbids what a
-/// draw calls for.
+/// draw needs.
 [[nodiscard]] Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
                                                                          const std::vector<Draw>& draws,
                                                                          const Buckets& buckets,
@@ -37,5 +39,31 @@ struct DrawKey {
 
 /// The distinct keys of draws, sorted.
 [[nodiscard]] std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws);
+
+/// The numbers from the family down to the scene. What only composing tells is not among them.
+struct Funnel {
+    std::uint64_t full_product = 0;  ///< of the numbers of values of all features
+    std::uint64_t valid = 0;         ///< keys that the family's rules allow
+    std::size_t draws = 0;
+    std::size_t needed = 0;    ///< keys of the draws, as they are
+    std::size_t bucketed = 0;  ///< after light counts are rounded up
+};
+
+[[nodiscard]] Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws,
+                                            const Buckets& buckets, std::string_view dialect);
+
+/// One way of rounding light counts up, and its price.
+struct BucketingRow {
+    Buckets buckets;
+    std::size_t permutations = 0;
+    int lights = 0;         ///< that the draws need, summed
+    int shaded_lights = 0;  ///< that their permutations shade, summed
+};
+
+/// The usual bucketings and, where it is none of them, `chosen`.
+[[nodiscard]] Result<std::vector<BucketingRow>> compare_bucketings(const Family& family,
+                                                                   const std::vector<Draw>& draws,
+                                                                   const Buckets& chosen,
+                                                                   std::string_view dialect);
 
 }  // namespace gobo::scene

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the small scenes of made/: each calls for something of its own. Their shapes are in made/shapes.bin, those with
+"""Writes the small scenes of made/: each needs something of its own. Their shapes are in made/shapes.bin, those with
 colours, texture coordinates or morph targets in made/colored_shapes.bin."""
 import base64
 import json
@@ -316,7 +316,7 @@ UPRIGHT = [0.7071068, 0, 0, 0.7071068]
 
 
 def write_surfaces(shapes):
-    """What a surface itself calls for: colours, holes, morphed normals, instances."""
+    """What a surface itself needs: colours, holes, morphed normals, instances."""
     scene = room(shapes)
     scene.put("banner", "striped", scene.material(), at=(0, 1.2, -2), scale=(2, 1, 1), rotation=UPRIGHT)
     scene.put("board", "chalk", scene.material((0.3, 0.5, 0.3)), at=(-3, 1, -1), scale=(0.8, 1, 0.8), rotation=UPRIGHT)
@@ -362,7 +362,7 @@ def write_surfaces(shapes):
 
 
 def write_surroundings(shapes):
-    """What the light around calls for: probes, reflections, shadows."""
+    """What the light around needs: probes, reflections, shadows."""
     black = {"model": {"diffuse": [0, 0, 0], "specular": [0.5, 0.5, 0.5], "shininess": 20}}
     scene = room(shapes, probe={"kind": "hemisphere", "sky": [0.4, 0.5, 0.7], "ground": [0.25, 0.2, 0.15]})
     scene.put("coal", "sphere", scene.material(gobo=black), at=(0, 0.4, 2), scale=(0.4, 0.4, 0.4))  # gives no ambient light back

@@ -23,7 +23,7 @@ std::string stem_of(const std::string& path) {
 Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<scene::Draw>& draws, int camera,
                                  const View& size) {
     const auto first = scene::first_camera(scene);
-    const auto chosen = camera >= 0 ? std::optional(camera) : first;
+    const auto chosen = camera >= 0 ? std::optional(static_cast<std::size_t>(camera)) : first;
     if (!chosen) {
         scene::SceneView view = scene::view_of_all(draws, usual_direction, size.width, size.height);
         view.background = scene::background_of(scene);

@@ -20,7 +20,7 @@ void add(float weight, const std::vector<glm::vec3>& target, std::vector<glm::ve
 
 void morph(const Scene& scene, const Node& node, const Primitive& primitive, gobo::Mesh& mesh) {
     const std::vector<double>& weights =
-        node.weights.empty() ? scene.meshes[static_cast<std::size_t>(*node.mesh)].weights : node.weights;
+        node.weights.empty() ? scene.meshes[*node.mesh].weights : node.weights;
     for (std::size_t target = 0; target < primitive.target_positions.size(); ++target) {
         const auto weight = static_cast<float>(weights[target]);
         if (weight == 0) continue;
@@ -37,7 +37,7 @@ void morph(const Scene& scene, const Node& node, const Primitive& primitive, gob
 void bend(const Scene& scene, const Skin& skin, const Primitive& primitive, gobo::Mesh& mesh) {
     std::vector<glm::dmat4> joints;
     for (std::size_t i = 0; i < skin.joints.size(); ++i)
-        joints.push_back(scene.nodes[static_cast<std::size_t>(skin.joints[i])].world * skin.inverse_bind[i]);
+        joints.push_back(scene.nodes[skin.joints[i]].world * skin.inverse_bind[i]);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         glm::dmat4 sum(0);
         double weights = 0;
@@ -84,20 +84,19 @@ std::vector<glm::vec4> seen_colors(const Primitive& primitive, AlphaMode mode) {
 
 }  // namespace
 
-PosedMesh posed_mesh(const Scene& scene, int node, const Primitive& primitive) {
-    const Node& here = scene.nodes[static_cast<std::size_t>(node)];
+PosedMesh posed_mesh(const Scene& scene, std::size_t node, const Primitive& primitive) {
+    const Node& here = scene.nodes[node];
     PosedMesh posed;
     posed.mesh.positions = primitive.positions;
     posed.mesh.normals = primitive.normals;
     posed.mesh.texcoords = primitive.texcoords;
     posed.mesh.texcoords.resize(primitive.positions.size());
-    posed.mesh.colors =
-        seen_colors(primitive, scene.materials[static_cast<std::size_t>(primitive.material)].alpha_mode);
+    posed.mesh.colors = seen_colors(primitive, scene.materials[primitive.material].alpha_mode);
     posed.mesh.indices = primitive.indices;
     morph(scene, here, primitive, posed.mesh);
     if (!here.instances.empty()) posed.mesh = laid_out(posed.mesh, here.instances);
     if (here.skin && !primitive.influences.empty()) {
-        bend(scene, scene.skins[static_cast<std::size_t>(*here.skin)], primitive, posed.mesh);
+        bend(scene, scene.skins[*here.skin], primitive, posed.mesh);
     } else {
         posed.model = here.world;
     }

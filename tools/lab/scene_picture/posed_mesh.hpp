@@ -17,6 +17,6 @@ struct PosedMesh {
 /// The primitive of the node's mesh, at rest. Its morph targets move positions and normals by the node's
 /// weights, or else the mesh's; its skin then takes every vertex to world space (glTF 2.0 specification,
 /// 3.7.3.1). A vertex without joints stays where it is. Instances become one mesh.
-[[nodiscard]] PosedMesh posed_mesh(const Scene& scene, int node, const Primitive& primitive);
+[[nodiscard]] PosedMesh posed_mesh(const Scene& scene, std::size_t node, const Primitive& primitive);
 
 }  // namespace gobo::scene

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "lab/scene_picture/posed_mesh.hpp"
-#include "scene/light_reach.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -46,7 +45,7 @@ double one_minus_cosine(double angle) {
 }
 
 glm::dvec3 position_of(const Scene& scene, const PlacedLight& placed) {
-    return glm::dvec3(scene.nodes[static_cast<std::size_t>(placed.node)].world[3]);
+    return glm::dvec3(scene.nodes[placed.node].world[3]);
 }
 
 void add_light(const PlacedLight& placed, const glm::dvec3& position, const std::string& name,

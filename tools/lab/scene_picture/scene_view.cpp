@@ -36,21 +36,20 @@ glm::dmat4 view_of(const glm::dmat4& world) {
 
 }  // namespace
 
-std::optional<SceneView> view_of_camera(const Scene& scene, int camera, int width, int height) {
-    for (const int index : scene.order) {
-        const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+std::optional<SceneView> view_of_camera(const Scene& scene, std::size_t camera, int width, int height) {
+    for (const std::size_t index : scene.order) {
+        const Node& node = scene.nodes[index];
         if (node.camera != camera) continue;
         const double aspect = static_cast<double>(width) / height;
-        return SceneView{view_of(node.world),
-                         projection_of(scene.cameras[static_cast<std::size_t>(camera)], aspect), width,
-                         height, background_of(scene)};
+        return SceneView{view_of(node.world), projection_of(scene.cameras[camera], aspect), width, height,
+                         background_of(scene)};
     }
     return std::nullopt;
 }
 
-std::optional<int> first_camera(const Scene& scene) {
-    for (const int index : scene.order)
-        if (const auto& camera = scene.nodes[static_cast<std::size_t>(index)].camera) return camera;
+std::optional<std::size_t> first_camera(const Scene& scene) {
+    for (const std::size_t index : scene.order)
+        if (const auto& camera = scene.nodes[index].camera) return camera;
     return std::nullopt;
 }
 

@@ -21,10 +21,11 @@ struct SceneView {
 
 /// The view of a camera, by its number in the file; nothing where no node of the scene holds it. Its node's
 /// scale does not count (glTF 2.0 specification, 3.10.1); the picture's shape replaces the camera's own.
-[[nodiscard]] std::optional<SceneView> view_of_camera(const Scene& scene, int camera, int width, int height);
+[[nodiscard]] std::optional<SceneView> view_of_camera(const Scene& scene, std::size_t camera, int width,
+                                                      int height);
 
 /// The number of the first camera that a node of the scene holds.
-[[nodiscard]] std::optional<int> first_camera(const Scene& scene);
+[[nodiscard]] std::optional<std::size_t> first_camera(const Scene& scene);
 
 /// A view from `direction` (away from what is seen; not zero) that has all draws in it. What has no bounds
 /// does not count.
