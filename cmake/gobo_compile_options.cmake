@@ -62,12 +62,14 @@ function(gobo_precompile target headers)
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
-# gobo_program(NAME FOLDER): the executable of a folder that holds main.cpp.
+# gobo_program(NAME FOLDER): the executable of a folder that holds main.cpp, and its manual page, which it writes itself.
 function(gobo_program name folder)
   gobo_library_name(library ${folder})
   add_executable(${name} ${folder}/main.cpp)
   target_link_libraries(${name} PRIVATE ${library})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share/man/man1")
+  add_custom_command(TARGET ${name} POST_BUILD COMMAND ${name} manual > "${PROJECT_BINARY_DIR}/share/man/man1/${name}.1")
 endfunction()
 
 function(gobo_library_name variable folder)

@@ -151,5 +151,44 @@ TEST(Outputs, CountTheSelectionOfTheEvaluatedMatrix) {
         "1668\n");
 }
 
+TEST(Shells, AreToldWhatMayComeNext) {
+    EXPECT_EQ(output_of("gobo complete bu | cut -f 1"), "build\n");
+    EXPECT_EQ(output_of("gobo complete build --na | cut -f 1"), "--namespace\n");
+    EXPECT_EQ(output_of("gobo complete build lit --color ''"), "auto\t\nalways\t\nnever\t\n");
+    EXPECT_EQ(output_of("gobo complete build lit -o ''"), "") << "the shell offers files";
+    EXPECT_EQ(output_of("gobo complete show l"), "lit\t\n");
+    EXPECT_EQ(output_of("gobo complete test --sh | cut -f 1"), "--shard\n") << "the lab's options";
+}
+
+TEST(Shells, BashCompletesCommandsAndOptions) {
+    const std::string script = "share/bash-completion/completions/gobo";
+    EXPECT_EQ(output_of("bash -n " + script), "");
+    const auto completed = [&](const std::string& words, int current) {
+        return output_of(
+            fmt::format("bash -c 'source {}; COMP_WORDS=({}); COMP_CWORD={}; _gobo gobo; "
+                        "echo \"${{COMPREPLY[*]}}\"'",
+                        script, words, current));
+    };
+    EXPECT_EQ(completed("gobo bu", 1), "build\n");
+    EXPECT_EQ(completed("gobo build --na", 2), "--namespace\n");
+    EXPECT_EQ(completed("gobo build lit --dialect \"\"", 4), "450 330 es300\n");
+    EXPECT_EQ(completed("gobo sanitize lit --ro", 3), "--rounding\n");
+}
+
+/// Each option of each command, once, in pages that groff formats without a warning.
+TEST(Manual, ListsWhatTheHelpLists) {
+    for (const std::string program : {"gobo", "gobo-lab"}) {
+        const std::string page = output_of(program + " manual");
+        EXPECT_THAT(page, StartsWith(".TH "));
+        EXPECT_THAT(page, HasSubstr(".SH EXIT STATUS"));
+        const std::string formatted =
+            " manual | if command -v groff > /dev/null; then groff -man -ww -Tutf8 > /dev/null; fi";
+        EXPECT_EQ(output_of(program + formatted), "") << program;
+    }
+    EXPECT_THAT(output_of("gobo manual"), HasSubstr("\\-\\-namespace"));
+    EXPECT_THAT(output_of("gobo manual"), HasSubstr(".SS gobo sanitize\n"));
+    EXPECT_THAT(output_of("gobo-lab manual"), HasSubstr("\\-\\-shard"));
+}
+
 }  // namespace
 }  // namespace gobo

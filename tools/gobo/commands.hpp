@@ -1,16 +1,26 @@
-// Every subcommand: its options are added to the application, and a function that runs it comes back.
+// The commands of gobo, and the titles of those that gobo-lab holds.
 #pragma once
 
-#include "gobo/command.hpp"
+#include "gobo/input.hpp"
 
 namespace gobo {
 
-[[nodiscard]] Command list_command(CLI::App& gobo);
-[[nodiscard]] Command show_command(CLI::App& gobo);
-[[nodiscard]] Command check_command(CLI::App& gobo);
-[[nodiscard]] Command reflect_command(CLI::App& gobo);
-[[nodiscard]] Command build_command(CLI::App& gobo);
-[[nodiscard]] Command scene_command(CLI::App& gobo);
-[[nodiscard]] Command library_command(CLI::App& gobo);
+[[nodiscard]] Command list_command();
+[[nodiscard]] Command show_command();
+[[nodiscard]] Command check_command();
+[[nodiscard]] Command build_command();
+[[nodiscard]] Command reflect_command();
+[[nodiscard]] Command scene_command();
+[[nodiscard]] Command library_command();
+
+namespace titles {
+inline const Title kEval = {"eval", "Evaluate one invocation of a stage, in fp32 and fp64"};
+inline const Title kTest = {"test", "Evaluate every permutation and compare it with the oracle"};
+inline const Title kSanitize = {"sanitize",
+                                "Watch every operation on hard inputs for what GLSL leaves undefined"};
+inline const Title kProbe = {"probe", "Light-probe maps and harmonics from an HDR map of an environment"};
+inline const Title kRender = {"render", "A picture of every key of a selection, or of scenes"};
+inline const Title kStudy = {"study", "Error against cost of every quality: tables and a report"};
+}  // namespace titles
 
 }  // namespace gobo

@@ -4,35 +4,27 @@
 namespace gobo {
 namespace {
 
-struct LibraryOptions {
-    CommonOptions common;
-    std::string folder;
-};
-
-Outcome run(const LibraryOptions& options, const World& world) {
+Result<Outcome> run(const std::string& folder, const World& world) {
     Outcome outcome;
     for (const std::string& path : world.shipped.files_below("")) {
         outcome.output += path + "\n";
-        if (options.folder.empty()) continue;
-        const Result<std::string> text = world.shipped.read(path);
-        const Result<bool> written = world.disk.write(options.folder + "/" + path, text.value_or(""));
-        if (!written) return failed(written.error());
+        if (folder.empty()) continue;
+        GOBO_TRY(const std::string text, world.shipped.read(path));
+        GOBO_TRY_DO(world.disk.write(folder + "/" + path, text));
     }
     return outcome;
 }
 
 }  // namespace
 
-Command library_command(CLI::App& gobo) {
-    auto options = std::make_shared<LibraryOptions>();
-    CLI::App* app = gobo.add_subcommand("library", "List the shipped pieces and families, or write them out");
-    app->add_option("-o,--output", options->folder, "Write the files below this folder")->type_name("DIR");
-    add_common_options(*app, options->common);
-    app->footer(
-        "Examples:\n"
-        "  gobo library\n"
-        "  gobo library -o gobo_library && gobo check lit --library gobo_library");
-    return {app, [options](const World& world) { return run(*options, world); }};
+Command library_command() {
+    const auto folder = std::make_shared<std::string>();
+    return {{"library", "List the shipped pieces and families, or write them out"},
+            {{"-o,--output", "DIR", "Write the files below this folder", folder.get()}},
+            {},
+            "  gobo library\n"
+            "  gobo library -o gobo_library && gobo check lit --library gobo_library",
+            [folder](const World& world) { return run(*folder, world); }};
 }
 
 }  // namespace gobo

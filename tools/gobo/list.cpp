@@ -8,11 +8,7 @@
 namespace gobo {
 namespace {
 
-struct ListOptions {
-    CommonOptions common;
-    SelectionOptions selection;
-    std::string family;
-    std::string dialect;
+struct ListOptions : SelectionOptions {
     bool count = false;
     bool json = false;
 };
@@ -35,45 +31,37 @@ std::string keys_as_json(const Family& family, const std::vector<Key>& keys) {
     return nlohmann::ordered_json{{"family", family.name}, {"keys", std::move(rows)}}.dump(2) + "\n";
 }
 
-Outcome run(const ListOptions& options, const World& world) {
-    const Result<Dialect> dialect = read_dialect(options.dialect);
-    if (!dialect) return failed(dialect.error());
-    Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const bool names_files = !options.selection.key_files.empty() || !options.selection.scenes.empty();
-    if (options.count && !names_files) {  // by arithmetic, where no key need be made
-        const Result<std::uint64_t> count =
-            count_selected(family->family, to_selection(options.selection), name_of(*dialect));
-        if (!count) return failed(count.error());
-        return {std::to_string(*count) + "\n", {}, {}};
+Result<Outcome> run(const ListOptions& options, const World& world) {
+    GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
+    if (options.count && options.key_files.empty() && options.scenes.empty()) {
+        // By arithmetic, where no key need be made.
+        GOBO_TRY(const std::uint64_t count,
+                 count_selected(family.family, to_selection(options), name_of(family.dialect)));
+        return Outcome{fmt::format("{}\n", count)};
     }
-    const Result<std::vector<Key>> keys = load_keys(world, *family, options.selection, *dialect);
-    if (!keys) return failed(keys.error());
-    if (options.count) return {std::to_string(keys->size()) + "\n", {}, {}};
-    if (options.json) return {keys_as_json(family->family, *keys), {}, {}};
+    GOBO_TRY(const auto keys, load_keys(world, family, options));
+    if (options.count) return Outcome{fmt::format("{}\n", keys.size())};
+    if (options.json) return Outcome{keys_as_json(family.family, keys)};
     Outcome outcome;
-    for (const Key& key : *keys) outcome.output += key_text(family->family, key) + "\n";
+    for (const Key& key : keys) outcome.output += key_text(family.family, key) + "\n";
     return outcome;
 }
 
 }  // namespace
 
-Command list_command(CLI::App& gobo) {
-    auto options = std::make_shared<ListOptions>();
-    CLI::App* app = gobo.add_subcommand("list", "The keys of a selection, one a line");
-    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
-    add_selection_options(*app, options->selection);
-    add_dialect_option(*app, options->dialect);
-    app->add_flag("--count", options->count, "Print only how many there are");
-    app->add_flag("--json", options->json, "Print JSON with every feature's value");
-    add_common_options(*app, options->common);
-    app->footer(
-        "Examples:\n"
-        "  gobo list lit                                  the family's default set\n"
-        "  gobo list lit --all --where 'point <= 2' --count\n"
-        "  gobo list lit --cover 3 --over fog,fog_distance,shading\n"
-        "  gobo list lit --key 'point=3 fog=linear'       the canonical form of a key");
-    return {app, [options](const World& world) { return run(*options, world); }};
+Command list_command() {
+    const auto options = std::make_shared<ListOptions>();
+    return {{"list", "The keys of a selection, one a line"},
+            {family_argument(options->family),
+             {"--count", "", "Print only how many there are", &options->count},
+             {"--json", "", "Print JSON with every feature's value", &options->json},
+             dialect_option(options->dialect)},
+            {selection_options(*options)},
+            "  gobo list lit                                  the family's default set\n"
+            "  gobo list lit --all --where 'point <= 2' --count\n"
+            "  gobo list lit --cover 3 --over fog,fog_distance,shading\n"
+            "  gobo list lit --key 'point=3 fog=linear'       the canonical form of a key",
+            [options](const World& world) { return run(*options, world); }};
 }
 
 }  // namespace gobo

@@ -1,24 +1,20 @@
-// gobo scene: which effects each draw of a scene needs, the keys, and how few they are.
+// gobo scene: what each draw of a scene needs, the keys, and how few they are.
 #include <charconv>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
-#include "gobo/budget.hpp"
 #include "gobo/commands.hpp"
-#include "gobo/scene_report.hpp"
 #include "scene/read_scene.hpp"
-#include "validate/validate.hpp"
+#include "scene/scene_keys.hpp"
 
 namespace gobo {
 namespace {
 
 struct SceneOptions {
-    CommonOptions common;
     std::string scene;
     std::string family = "lit";
     std::string dialect;
@@ -29,6 +25,111 @@ struct SceneOptions {
     bool keys = false;
     bool json = false;
 };
+
+/// What the command tells.
+struct SceneReport {
+    const Family& family;
+    const std::vector<scene::Draw>& draws;
+    std::vector<std::optional<scene::DrawKey>> keys;  ///< per draw
+    std::vector<scene::BucketingRow> bucketings;
+    scene::Buckets buckets;  ///< those that `keys` follow
+    scene::Funnel funnel;
+    std::size_t distinct_programs = 0;  ///< pairs of stages
+    std::size_t compiled_stages = 0;
+};
+
+std::string draw_text(const SceneReport& report, std::size_t index) {
+    const scene::Draw& draw = report.draws[index];
+    if (!report.keys[index]) return fmt::format("{}: out, {}\n", draw.name, draw.excluded);
+    const scene::DrawKey& key = *report.keys[index];
+    std::string text = fmt::format("{}: {}\n", draw.name, key_text(report.family, key.key));
+    for (const scene::Effect& effect : draw.effects)
+        text += fmt::format("  {}: {}, {}\n", effect.name, effect.is_in ? "in" : "out", effect.reason);
+    for (const std::string& missing : key.missing) text += fmt::format("  ! {}\n", missing);
+    return text;
+}
+
+std::string funnel_text(const SceneReport& report) {
+    const scene::Funnel& funnel = report.funnel;
+    return fmt::format(
+        "funnel\n"
+        "  full product         {:>12}\n"
+        "  valid                {:>12}\n"
+        "  needed               {:>12}  by {} draw{}\n"
+        "  after light buckets  {:>12}  ({})\n"
+        "  distinct programs    {:>12}\n"
+        "  compiled stages      {:>12}\n",
+        funnel.full_product, funnel.valid, funnel.needed, funnel.draws, funnel.draws == 1 ? "" : "s",
+        funnel.bucketed, scene::buckets_text(report.buckets), report.distinct_programs,
+        report.compiled_stages);
+}
+
+/// Unused lights are what a bucketing costs: each is evaluated at every fragment, for nothing.
+std::string bucketings_text(const SceneReport& report) {
+    std::string text = fmt::format("{:<14}  {:>12}  {:>13}  {:>13}\n", "light buckets", "permutations",
+                                   "lights shaded", "of them unused");
+    for (const scene::BucketingRow& row : report.bucketings) {
+        text += fmt::format("  {:<12}  {:>12}  {:>13}  {:>14}\n", scene::buckets_text(row.buckets),
+                            row.permutations, row.shaded_lights, row.shaded_lights - row.lights);
+    }
+    return text;
+}
+
+using nlohmann::ordered_json;
+
+ordered_json triple(const glm::dvec3& value) {
+    return {value.x, value.y, value.z};
+}
+
+ordered_json draw_json(const SceneReport& report, std::size_t index) {
+    const scene::Draw& draw = report.draws[index];
+    const auto& key = report.keys[index];
+    ordered_json json = {{"name", draw.name}, {"node", draw.node}, {"primitive", draw.primitive}};
+    json["key"] = key ? ordered_json(key_text(report.family, key->key)) : ordered_json();
+    if (!draw.excluded.empty()) json["excluded"] = draw.excluded;
+    if (draw.bounds)
+        json["bounds"] = {{"low", triple(draw.bounds->low)}, {"high", triple(draw.bounds->high)}};
+    json["effects"] = ordered_json::array();
+    for (const scene::Effect& effect : draw.effects)
+        json["effects"].push_back({{"name", effect.name}, {"in", effect.is_in}, {"reason", effect.reason}});
+    json["missing"] = key ? key->missing : std::vector<std::string>();
+    return json;
+}
+
+/// Per draw its key and each effect with its reason; then the keys, the funnel and the table of bucketings.
+std::string scene_text(const SceneReport& report) {
+    std::string text;
+    for (std::size_t i = 0; i < report.draws.size(); ++i) text += draw_text(report, i) + "\n";
+    text += "keys\n";
+    for (const Key& key : scene::distinct_keys(report.keys))
+        text += fmt::format("  {}\n", key_text(report.family, key));
+    return text + "\n" + funnel_text(report) + "\n" + bucketings_text(report);
+}
+
+/// {"family", "draws": [{"name", "node", "primitive", "key", "excluded", "bounds", "effects": [{"name", "in",
+/// "reason"}], "missing"}], "keys", "funnel", "bucketings"}; `key` is null for what is not drawn.
+std::string scene_json(const SceneReport& report) {
+    ordered_json json = {{"family", report.family.name}, {"draws", ordered_json::array()}};
+    for (std::size_t i = 0; i < report.draws.size(); ++i) json["draws"].push_back(draw_json(report, i));
+    json["keys"] = ordered_json::array();
+    for (const Key& key : scene::distinct_keys(report.keys))
+        json["keys"].push_back(key_text(report.family, key));
+    json["funnel"] = {{"full_product", report.funnel.full_product},
+                      {"valid", report.funnel.valid},
+                      {"draws", report.funnel.draws},
+                      {"needed", report.funnel.needed},
+                      {"after_light_buckets", report.funnel.bucketed},
+                      {"distinct_programs", report.distinct_programs},
+                      {"compiled_stages", report.compiled_stages}};
+    json["bucketings"] = ordered_json::array();
+    for (const scene::BucketingRow& row : report.bucketings) {
+        json["bucketings"].push_back({{"buckets", scene::buckets_text(row.buckets)},
+                                      {"permutations", row.permutations},
+                                      {"lights_shaded", row.shaded_lights},
+                                      {"lights_unused", row.shaded_lights - row.lights}});
+    }
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
 
 Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& camera) {
     if (camera == "all") return scene::eye_of_cameras(scene);
@@ -44,117 +145,74 @@ Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& 
                             scene.cameras.size()));
 }
 
-/// Composes and compiles the keys: only that tells which of them are the same program.
-Result<Diagnostics> compile(const CommonOptions& options, const LoadedFamily& family, Dialect dialect,
-                            SceneReport& report) {
-    const Result<Composition> composition =
-        compose(family.family, scene::distinct_keys(report.keys), family.search, dialect);
-    if (!composition) return tl::unexpected(composition.error());
-    ValidateOptions validate_options;
-    validate_options.jobs = options.jobs;
-    Diagnostics diagnostics = validate(family.family, *composition, validate_options).diagnostics;
-    std::set<std::pair<int, int>> programs;
-    for (const Permutation& permutation : composition->permutations)
-        programs.emplace(permutation.vertex, permutation.fragment);
-    report.distinct_programs = programs.size();
-    report.compiled_stages = composition->stages.size();
-    return diagnostics;
-}
-
-Result<SceneReport> make_report(const Family& family, const std::vector<scene::Draw>& draws,
-                                const scene::Buckets& buckets, std::string_view dialect) {
-    SceneReport report{family, draws, {}, {}, buckets, {}, 0, 0};
-    auto keys = scene::keys_for_draws(family, draws, buckets, dialect);
-    if (!keys) return tl::unexpected(keys.error());
-    auto rows = scene::compare_bucketings(family, draws, buckets, dialect);
-    if (!rows) return tl::unexpected(rows.error());
-    const auto funnel = scene::measure_funnel(family, draws, buckets, dialect);
-    if (!funnel) return tl::unexpected(funnel.error());
-    report.keys = std::move(*keys);
-    report.bucketings = std::move(*rows);
-    report.funnel = *funnel;
-    return report;
-}
-
-/// The draws' keys become those that the budget chooses for their effects.
-Result<void> apply_budget(const SceneOptions& options, const World& world, LoadedFamily& family,
-                          std::string_view dialect, SceneReport& report) {
-    std::vector<Key> keys;
-    for (const auto& draw : report.keys)
-        if (draw) keys.push_back(draw->key);
-    const auto choices = choose_qualities(world, family, options.budget, keys, dialect, options.common.jobs);
-    if (!choices) return tl::unexpected(choices.error());
-    std::size_t next = 0;
-    for (auto& draw : report.keys)
-        if (draw) draw->key = (*choices)[next++].key;
-    return {};
-}
-
-Outcome run(const SceneOptions& options, const World& world) {
-    const Result<Dialect> dialect = read_dialect(options.dialect);
-    if (!dialect) return failed(dialect.error());
-    Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const Result<scene::Buckets> buckets = scene::parse_buckets(options.bucket_lights);
-    if (!buckets) return failed(buckets.error());
-    const Result<scene::Scene> scene = scene::read_scene(world.disk, options.scene);
-    if (!scene) return failed(scene.error());
-    const Result<scene::EyePlace> eye = place_eye(*scene, options.camera);
-    if (!eye) return failed(eye.error());
-    const auto draws = scene::required_effects(*scene, *eye, options.thresholds);
-    Result<SceneReport> report = make_report(family->family, draws, *buckets, name_of(*dialect));
-    if (!report) return failed(report.error());
-    if (options.budget.is_set())
-        if (auto applied = apply_budget(options, world, *family, name_of(*dialect), *report); !applied)
-            return failed(applied.error());
+Result<Outcome> run(const SceneOptions& options, const World& world) {
+    GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
+    const Family& family = loaded.family;
+    const std::string_view dialect = name_of(loaded.dialect);
+    GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
+    GOBO_TRY(const scene::Scene scene, scene::read_scene(world.disk, options.scene));
+    GOBO_TRY(const scene::EyePlace eye, place_eye(scene, options.camera));
+    const auto draws = scene::required_effects(scene, eye, options.thresholds);
+    SceneReport report{family, draws, {}, {}, buckets, {}};
+    GOBO_TRY(report.keys, scene::keys_for_draws(family, draws, buckets, dialect));
+    GOBO_TRY(report.bucketings, scene::compare_bucketings(family, draws, buckets, dialect));
+    GOBO_TRY(report.funnel, scene::measure_funnel(family, draws, buckets, dialect));
+    if (options.budget.is_set()) {  // each draw's key becomes the one that the budget chooses for its effects
+        std::vector<Key> keys;
+        for (const auto& draw : report.keys)
+            if (draw) keys.push_back(draw->key);
+        GOBO_TRY(const auto choices, choose_qualities(world, loaded, options.budget, keys));
+        auto choice = choices.begin();
+        for (auto& draw : report.keys)
+            if (draw) draw->key = (choice++)->key;
+    }
+    const std::vector<Key> keys = scene::distinct_keys(report.keys);
     Outcome outcome;
     if (options.keys) {
-        for (const Key& key : scene::distinct_keys(report->keys))
-            outcome.output += key_text(family->family, key) + "\n";
+        for (const Key& key : keys) outcome.output += key_text(family, key) + "\n";
         return outcome;
     }
-    Result<Diagnostics> diagnostics = compile(options.common, *family, *dialect, *report);
-    if (!diagnostics) return failed(diagnostics.error());
-    outcome.diagnostics = std::move(*diagnostics);
-    outcome.output = options.json ? scene_json(*report) : scene_text(*report);
+    // Only composing tells which keys are the same program.
+    GOBO_TRY(const Composition composition, compose_keys(loaded, keys));
+    std::set<std::pair<int, int>> programs;
+    for (const Permutation& permutation : composition.permutations)
+        programs.emplace(permutation.vertex, permutation.fragment);
+    report.distinct_programs = programs.size();
+    report.compiled_stages = composition.stages.size();
+    ValidateOptions validate_options;
+    validate_options.jobs = world.jobs();
+    outcome.diagnostics = validate(family, composition, validate_options).diagnostics;
+    outcome.output = options.json ? scene_json(report) : scene_text(report);
     return outcome;
 }
 
 }  // namespace
 
-Command scene_command(CLI::App& gobo) {
-    auto options = std::make_shared<SceneOptions>();
-    CLI::App* app = gobo.add_subcommand("scene", "What each draw of a glTF scene needs, and the keys");
-    app->add_option("SCENE", options->scene, "A .gltf or .glb file")->required();
-    app->add_option("FAMILY", options->family, "A shipped family or a .toml file; by default lit");
-    app->add_option("--bucket-lights", options->bucket_lights, "Round light counts up to one of these")
-        ->type_name("0,1,2,...");
-    app->add_option(
-           "--camera", options->camera,
-           "From where the scene is seen: a camera's number in the file, all of them (the default), or none: "
-           "then from anywhere")
-        ->type_name("N|all|none");
-    app->add_option("--light-threshold", options->thresholds.light,
-                    "The greatest radiance that a light left out may send; by default 1/512")
-        ->type_name("X")
-        ->check(CLI::NonNegativeNumber);
-    app->add_option("--fog-threshold", options->thresholds.fog,
-                    "The greatest share that fog left out may hide; by default 1/512")
-        ->type_name("X")
-        ->check(CLI::NonNegativeNumber);
-    add_budget_options(*app, options->budget);
-    app->add_flag("--keys", options->keys, "Print the keys only, one a line, as --keys-from reads them");
-    app->add_flag("--json", options->json, "Print JSON");
-    add_dialect_option(*app, options->dialect);
-    add_common_options(*app, options->common);
-    app->footer(
-        "Examples:\n"
+Command scene_command() {
+    const auto options = std::make_shared<SceneOptions>();
+    return {
+        {"scene", "What each draw of a glTF scene needs, and the keys"},
+        {{"SCENE", "", "A .gltf or .glb file", &options->scene, kRequired},
+         family_argument(options->family),
+         {"--bucket-lights", "0,1,2,...", "Round light counts up to one of these", &options->bucket_lights},
+         {"--camera", "N|all|none",
+          "From where the scene is seen: a camera's number in the file, all cameras (the default), or none: "
+          "from anywhere",
+          &options->camera},
+         {"--light-threshold", "X", "The greatest radiance that a light left out may send",
+          &options->thresholds.light, kNotNegative},
+         {"--fog-threshold", "X", "The greatest part of the light that fog left out may hide",
+          &options->thresholds.fog, kNotNegative},
+         {"--keys", "", "Print the keys only, one a line, as --keys-from reads them", &options->keys},
+         {"--json", "", "Print JSON", &options->json},
+         dialect_option(options->dialect)},
+        {budget_options(options->budget)},
         "  gobo scene room.gltf\n"
         "  gobo scene room.glb lit --bucket-lights 0,1,2,4,8\n"
         "  gobo scene room.gltf --max-error 0.01 --keys\n"
         "  gobo scene room.gltf game.toml --keys | gobo build game.toml --keys-from - -o generated\n"
-        "  gobo build lit --scene room.gltf -o generated");
-    return {app, [options](const World& world) { return run(*options, world); }};
+        "  gobo build lit --scene room.gltf -o generated",
+        [options](const World& world) { return run(*options, world); }};
 }
 
 }  // namespace gobo

@@ -1,15 +1,17 @@
 // gobo study: error against cost of every quality, as tables and as a report.
-#include <array>
-#include <cstdio>
+#include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "budget/qualities.hpp"
 #include "core/append_file.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/commands.hpp"
-#include "lab/commands/study_files.hpp"
+#include "lab/commands/lab_input.hpp"
+#include "lab/study/choices.hpp"
 #include "lab/study/front.hpp"
 #include "lab/study/report.hpp"
 
@@ -17,7 +19,6 @@ namespace gobo {
 namespace {
 
 struct StudyCommandOptions {
-    CommonOptions common;
     std::string family;
     std::string folder;
     std::vector<std::string> effects;
@@ -36,16 +37,6 @@ struct StudyCommandOptions {
     std::string draw_size;  ///< "160x120"
 };
 
-/// One line that is written over, on a terminal only.
-study::Progress progress_on_terminal(bool is_quiet) {
-    if (is_quiet || isatty(STDERR_FILENO) == 0) return [](std::string_view, std::size_t, std::size_t) {};
-    return [](std::string_view what, std::size_t done, std::size_t total) {
-        fmt::print(stderr, "\r\x1b[K");
-        if (done < total) fmt::print(stderr, "{}/{} {}", done + 1, total, what);
-        std::fflush(stderr);
-    };
-}
-
 /// What made the report, for who reads it.
 std::string command_line(const StudyCommandOptions& options) {
     std::string line = fmt::format("gobo study {} -o {}", options.family, options.folder);
@@ -58,43 +49,38 @@ std::string command_line(const StudyCommandOptions& options) {
     return line;
 }
 
-Outcome show_front(const StudyCommandOptions& options, const World& world) {
-    const Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const auto plan = load_plan(world, family->family, options.plan);
-    if (!plan) return failed(plan.error());
-    const Result<Key> key = parse_key(family->family, options.front);
-    if (!key) return failed(key.error());
-    const Key effects = effects_of(family->family, *key);
-    const std::string shipped = fmt::format("data/study/{}.csv", family->family.name);
-    const bool is_shipped = options.study.empty();
-    const Result<std::string> csv =
-        is_shipped ? world.shipped.read(shipped) : read_input(world, options.study);
-    if (!csv) return failed(csv.error());
-    const auto rows = study::read_rows(*csv, is_shipped ? shipped : options.study, family->family, effects);
-    if (!rows) return failed(rows.error());
-    if (options.svg.empty()) return {study::front_table(*rows), {}, {}};
-    std::vector<const study::StudyRow*> all;
-    for (const study::StudyRow& row : *rows) all.push_back(&row);
-    const study::Chart chart =
-        study::front_chart(family->family, plan->rate, all, key_text(family->family, effects));
-    if (auto written = world.disk.write(options.svg, chart.svg()); !written) return failed(written.error());
-    return {study::front_table(*rows), {}, options.svg};
-}
-
-Result<void> write_all(FileSystem& disk, const std::string& folder,
-                       const std::map<std::string, std::string>& files) {
-    for (const auto& [name, text] : files)
-        if (const auto written = disk.write(folder + "/" + name, text); !written)
-            return tl::unexpected(written.error());
-    return {};
+/// The processor's name; empty where the system does not tell.
+std::string machine_name(const FileSystem& disk) {
+    const Result<std::string> text = disk.read("/proc/cpuinfo");
+    if (!text) return "";
+    const std::size_t at = text->find("model name");
+    if (at == std::string::npos) return "";
+    const std::size_t colon = text->find(':', at);
+    return std::string(trim(text->substr(colon + 1, text->find('\n', at) - colon - 1)));
 }
 
 Result<Context> open_timing_context(const StudyCommandOptions& options) {
-    const Result<Backend> backend = backend_of(options.backend);
-    if (!backend) return tl::unexpected(backend.error());
+    GOBO_TRY(const Backend backend, backend_of(options.backend));
     study::make_timings_repeatable();
-    return open_context(*backend);
+    return open_context(backend);
+}
+
+Result<Outcome> show_front(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
+    GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
+    GOBO_TRY(const Key key, parse_key(family.family, options.front));
+    const Key effects = effects_of(family.family, key);
+    GOBO_TRY(const auto file,
+             read_or_shipped(world, options.study, fmt::format("data/study/{}.csv", family.family.name)));
+    GOBO_TRY(const auto rows, study::read_rows(file.text, file.path, family.family, effects));
+    if (!options.svg.empty()) {
+        std::vector<const study::StudyRow*> all;
+        for (const study::StudyRow& row : rows) all.push_back(&row);
+        const study::Chart chart =
+            study::front_chart(family.family, plan.rate, all, key_text(family.family, effects));
+        GOBO_TRY_DO(world.disk.write(options.svg, chart.svg()));
+    }
+    return Outcome{study::front_table(rows), {}, options.svg};
 }
 
 std::string control_text(double control) {
@@ -102,51 +88,31 @@ std::string control_text(double control) {
                        control <= study::kLargestControl ? "" : ", more than 2 %: rank nothing by it");
 }
 
-Outcome weigh(const StudyCommandOptions& options, const World& world) {
-    const Result<Context> context = open_timing_context(options);
-    if (!context) return failed(context.error());
-    const auto result = study::weigh_operations(world.shipped, *context, options.rounds, options.common.jobs);
-    if (!result) return failed(result.error());
+Result<Outcome> weigh(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(const Context context, open_timing_context(options));
+    GOBO_TRY(const auto result,
+             study::weigh_operations(world.shipped, context, options.rounds, world.jobs()));
     std::string text = fmt::format("{}, {} rounds; A/A control: elapsed {}, processor {}\n",
-                                   context->renderer(), options.rounds, control_text(result->control.elapsed),
-                                   control_text(result->control.processor));
-    for (const study::Weighing& row : result->operations)
+                                   context.renderer(), options.rounds, control_text(result.control.elapsed),
+                                   control_text(result.control.processor));
+    for (const study::Weighing& row : result.operations)
         text += fmt::format("{:14}{:8.3f} ns ({:.3f} to {:.3f}) for {} repetitions\n", row.operation,
                             row.nanoseconds.median, row.nanoseconds.low, row.nanoseconds.high, 16);
-    if (auto written =
-            write_all(world.disk, options.folder, {{"weights.csv", study::weights_csv({result->weights})}});
-        !written)
-        return failed(written.error());
-    return {text, {}, options.folder + "/weights.csv"};
-}
-
-study::Subject subject_of(const StudyCommandOptions& options, const World& world,
-                          const LoadedFamily& family) {
-    return {world.shipped, family.family, family.search, options.common.jobs};
-}
-
-study::TimeOptions time_options_of(const StudyCommandOptions& options, const World& world) {
-    return {options.rounds, machine_name(world.disk), progress_on_terminal(options.common.quiet)};
-}
-
-Result<void> add_times(const StudyCommandOptions& options, const World& world, const LoadedFamily& family,
-                       const study::Weights& weights, study::Journal& journal, study::Study& study) {
-    GOBO_TRY(const Context context, open_timing_context(options));
-    return study::add_times(subject_of(options, world, family), context, weights,
-                            time_options_of(options, world), journal, study);
+    const std::string path = options.folder + "/weights.csv";
+    GOBO_TRY_DO(world.disk.write(path, study::weights_csv({result.weights})));
+    return Outcome{text, {}, path};
 }
 
 /// This program again, drawing a key once.
-study::DrawCommand draw_command(const StudyCommandOptions& options) {
-    std::array<char, 4096> self{};
-    const ssize_t length = ::readlink("/proc/self/exe", self.data(), self.size() - 1);
-    const std::string program(self.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+study::DrawCommand draw_command(const StudyCommandOptions& options, const World& world) {
+    std::error_code error;
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).string();
     std::vector<std::string> command = {program,        "study",     options.family, "-o",
                                         options.folder, "--backend", options.backend};
-    for (const std::string& folder : options.common.include_folders)
+    for (const std::string& folder : world.options.include_folders)
         command.insert(command.end(), {"-I", folder});
     if (!options.plan.empty()) command.insert(command.end(), {"--plan", options.plan});
-    if (!options.common.library.empty()) command.insert(command.end(), {"--library", options.common.library});
+    if (!world.options.library.empty()) command.insert(command.end(), {"--library", world.options.library});
     return [command](const std::string& key, int width, int height) {
         std::vector<std::string> whole = command;
         whole.insert(whole.end(), {"--draw", key, "--draw-size", fmt::format("{}x{}", width, height)});
@@ -154,142 +120,158 @@ study::DrawCommand draw_command(const StudyCommandOptions& options) {
     };
 }
 
-Outcome draw(const StudyCommandOptions& options, const World& world) {
-    const Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const auto plan = load_plan(world, family->family, options.plan);
-    if (!plan) return failed(plan.error());
-    const Result<Key> key = parse_key(family->family, options.draw);
-    if (!key) return failed(key.error());
-    const Result<Context> context = open_timing_context(options);
-    if (!context) return failed(context.error());
-    int width = 160;
-    int height = 120;
-    std::sscanf(options.draw_size.c_str(), "%dx%d", &width, &height);
-    const Result<double> fragments =
-        study::draw_once(subject_of(options, world, *family), plan->scenes.front(), *context,
-                         canonical(family->family, *key, "450"), width, height);
-    if (!fragments) return failed(fragments.error());
-    return {fmt::format("fragments {}\n", *fragments), {}, {}};
+Result<Outcome> draw(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
+    GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
+    GOBO_TRY(const Key key, parse_key(family.family, options.draw));
+    GOBO_TRY(const auto size, read_size(options.draw_size));
+    GOBO_TRY(const Context context, open_timing_context(options));
+    GOBO_TRY(
+        const double fragments,
+        study::draw_once({world.shipped, family.family, family.search, world.jobs()}, plan.scenes.front(),
+                         context, canonical(family.family, key, "450"), size.first, size.second));
+    return Outcome{fmt::format("fragments {}\n", fragments)};
 }
 
-Result<std::map<std::string, std::string>> make_files(const StudyCommandOptions& options, const World& world,
-                                                      const LoadedFamily& family,
-                                                      const study::Weights& weights,
-                                                      const study::Study& study) {
-    const auto rows = study::rows_of(family.family, study, weights);
-    auto maps = study::draw_heat_maps(subject_of(options, world, family), study.plan);
-    if (!maps) return tl::unexpected(maps.error());
+std::string front_text(const Family& family, const study::EffectsResult& effects,
+                       const study::Weights& weights) {
+    const std::vector<StudiedKey> keys = study::studied_keys(effects, weights);
+    std::size_t front = 0;
+    const StudiedKey* cheapest = nullptr;
+    const StudiedKey* best = nullptr;
+    for (const StudiedKey& key : keys) {
+        if (!key.on_front) continue;
+        ++front;
+        if (cheapest == nullptr || key.cost < cheapest->cost) cheapest = &key;
+        if (best == nullptr || key.error < best->error) best = &key;
+    }
+    return fmt::format("{}: {} of {} measured, {} on the front, cost {} at error {} to cost {} at error {}\n",
+                       key_text(family, effects.effects), keys.size(), effects.considered, front,
+                       short_number(best->cost), short_number(best->error), short_number(cheapest->cost),
+                       short_number(cheapest->error));
+}
+
+std::string time_text(const study::Study& study, const study::Weights& weights) {
+    double elapsed = 0;
+    double processor = 0;
+    bool is_timed = false;
+    for (const study::EffectsResult& effects : study.effects) {
+        if (!effects.control) continue;
+        is_timed = true;
+        elapsed = std::max(elapsed, effects.control->elapsed);
+        processor = std::max(processor, effects.control->processor);
+    }
+    if (!is_timed) return "";
+    const auto fragments = study::cost_against_time(study, weights, false);
+    const auto vertices = study::cost_against_time(study, weights, true);
+    return fmt::format(
+        "A/A control, worst: elapsed {:.1f} %, processor {:.1f} %\n"
+        "rank correlation of cost and time: fragments {:.2f}, vertices {:.2f}, over {} permutations\n",
+        100 * elapsed, 100 * processor, fragments.correlation, vertices.correlation, fragments.cost.size());
+}
+
+/// For each combination of effects its front's size and ends, the controls of timing, how cost goes with
+/// time, and which choices are dominated everywhere.
+std::string study_summary(const Family& family, const study::Study& study, const study::Weights& weights) {
+    std::string text;
+    for (const study::EffectsResult& effects : study.effects) text += front_text(family, effects, weights);
+    text += time_text(study, weights);
+    for (const study::ChoiceSummary& choice : study::summarise_choices(family, study, weights))
+        if (!choice.dominated_by.empty())
+            text += fmt::format("{}={} is dominated everywhere by {}\n", choice.feature, choice.value,
+                                choice.dominated_by);
+    return text;
+}
+
+Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
+    if (!options.front.empty()) return show_front(options, world);
+    if (options.folder.empty())
+        return fail(Fault::usage, "--output is required",
+                    "name the folder for index.html, the charts and the tables: -o study");
+    if (options.weigh) return weigh(options, world);
+    if (!options.draw.empty()) return draw(options, world);
+    GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
+    const Family& family = loaded.family;
+    study::StudyOptions study_options;
+    GOBO_TRY(study_options.weights, load_weights(world, options.weights_from));
+    GOBO_TRY(study_options.plan, load_plan(world, family, options.plan));
+    const study::Weights& weights = study_options.weights;
+    study_options.effects = options.effects;
+    study_options.quick = options.quick;
+    study_options.progress = progress_on_terminal(world);
+    study::Journal journal(world.disk, options.folder + "/measurements.jsonl", append_to_disk);
+    const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
+    GOBO_TRY(study::Study study, study::run_study(subject, study_options, journal));
+    const study::TimeOptions time_options{options.rounds, machine_name(world.disk), study_options.progress};
+    if (!options.quick && !options.no_time) {
+        GOBO_TRY(const Context context, open_timing_context(options));
+        GOBO_TRY_DO(study::add_times(subject, context, weights, time_options, journal, study));
+    }
+    if (options.callgrind)
+        GOBO_TRY_DO(
+            study::add_instructions(subject, draw_command(options, world), time_options, journal, study));
+    const auto rows = study::rows_of(family, study, weights);
+    GOBO_TRY(auto maps, study::draw_heat_maps(subject, study.plan));
     const bool is_timed = !study.effects.empty() && study.effects.front().control.has_value();
     const std::string guards = "docs/data/guard_prices.csv";
-    const study::ReportInput input{family.family,
+    const study::ReportInput input{family,
                                    study,
                                    rows,
                                    weights,
-                                   std::move(*maps),
+                                   std::move(maps),
                                    command_line(options),
-                                   is_timed ? machine_name(world.disk) : "",
+                                   is_timed ? time_options.computer : "",
                                    world.shipped.is_file(guards) ? world.shipped.read(guards).value() : ""};
-    auto files = study::make_report(world.shipped, input);
-    if (!files) return files;
-    (*files)["study.csv"] = study::study_csv(rows);
-    (*files)["summary.csv"] = study::study_csv(study::summary_of(family.family, rows));
-    (*files)["curves.csv"] = study::curves_csv(study.curves);
-    (*files)["weights.csv"] = study::weights_csv({weights});
-    return files;
-}
-
-Outcome run(const StudyCommandOptions& options, const World& world) {
-    if (!options.front.empty()) return show_front(options, world);
-    if (options.folder.empty())
-        return failed(fail(Fault::usage, "--output is required",
-                           "name the folder for index.html, the charts and the tables: -o study")
-                          .value());
-    if (options.weigh) return weigh(options, world);
-    if (!options.draw.empty()) return draw(options, world);
-    const Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const auto weights = load_weights(world, options.weights_from);
-    if (!weights) return failed(weights.error());
-    const auto plan = load_plan(world, family->family, options.plan);
-    if (!plan) return failed(plan.error());
-    study::StudyOptions study_options;
-    study_options.plan = *plan;
-    study_options.effects = options.effects;
-    study_options.quick = options.quick;
-    study_options.weights = *weights;
-    study_options.progress = progress_on_terminal(options.common.quiet);
-    study::Journal journal(world.disk, options.folder + "/measurements.jsonl", append_to_disk);
-    const study::Subject subject = subject_of(options, world, *family);
-    auto study = study::run_study(subject, study_options, journal);
-    if (!study) return failed(study.error());
-    if (!options.quick && !options.no_time)
-        if (auto timed = add_times(options, world, *family, *weights, journal, *study); !timed)
-            return failed(timed.error());
-    if (options.callgrind)
-        if (auto counted = study::add_instructions(subject, draw_command(options),
-                                                   time_options_of(options, world), journal, *study);
-            !counted)
-            return failed(counted.error());
-    const auto files = make_files(options, world, *family, *weights, *study);
-    if (!files) return failed(files.error());
-    if (auto written = write_all(world.disk, options.folder, *files); !written)
-        return failed(written.error());
-    return {study_summary(family->family, *study, *weights), {}, options.folder + "/index.html"};
+    GOBO_TRY(auto files, study::make_report(world.shipped, input));
+    files["study.csv"] = study::study_csv(rows);
+    files["summary.csv"] = study::study_csv(study::summary_of(family, rows));
+    files["curves.csv"] = study::curves_csv(study.curves);
+    files["weights.csv"] = study::weights_csv({weights});
+    for (const auto& [name, text] : files) GOBO_TRY_DO(world.disk.write(options.folder + "/" + name, text));
+    return Outcome{study_summary(family, study, weights), {}, options.folder + "/index.html"};
 }
 
 }  // namespace
 
-Command study_command(CLI::App& gobo) {
-    auto options = std::make_shared<StudyCommandOptions>();
-    CLI::App* app = gobo.add_subcommand("study", "Error against cost of every quality: tables and a report");
-    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
-    app->add_option("-o,--output", options->folder, "Folder for index.html, the charts and the tables")
-        ->type_name("DIR");
-    app->add_option("--front", options->front,
-                    "Print the front of these effects from a finished study, in six lines, and stop")
-        ->type_name("KEY");
-    app->add_option("--svg", options->svg, "With --front: its chart")->type_name("FILE");
-    app->add_option("--study", options->study,
-                    "With --front: a study.csv or summary.csv; by default the one that came with the family")
-        ->type_name("FILE");
-    app->add_option("--effects", options->effects,
-                    "A combination of effects (repeatable); by default those of the plan")
-        ->type_name("KEY")
-        ->allow_extra_args(false);
-    app->add_flag("--quick", options->quick, "Few effects, no times: a usable front in under a minute");
-    app->add_flag("--no-time", options->no_time, "Errors and costs only: no renderer is needed");
-    app->add_option("--rounds", options->rounds, "Interleaved rounds of timing")
-        ->type_name("N")
-        ->check(CLI::Range(study::kLeastRounds, 1000))
-        ->capture_default_str();
-    app->add_option("--backend", options->backend, "What is timed")
-        ->type_name("osmesa|egl")
-        ->capture_default_str();
-    app->add_flag(
-        "--callgrind", options->callgrind,
-        "Count the instructions of a fragment too, for the last effects; needs valgrind and patience");
-    app->add_option("--draw", options->draw)->group("");  // for what --callgrind runs
-    app->add_option("--draw-size", options->draw_size)->group("");
-    app->add_flag(
-        "--weights", options->weigh,
-        "Measure what an operation of each kind costs on this renderer, write weights.csv, and stop");
-    app->add_option("--plan", options->plan,
-                    "A TOML file that says what to measure; by default the one that came with the family")
-        ->type_name("FILE");
-    app->add_option("--weights-from", options->weights_from, "A weights.csv; by default the shipped one")
-        ->type_name("FILE");
-    add_common_options(*app, options->common);
-    app->footer(
-        "What is measured is kept in DIR/measurements.jsonl: a study that was interrupted goes on from "
-        "there.\n\n"
-        "Examples:\n"
+Command study_command() {
+    const auto options = std::make_shared<StudyCommandOptions>();
+    return {
+        titles::kStudy,
+        {family_argument(options->family),
+         {"-o,--output", "DIR", "Folder for index.html, the charts and the tables", &options->folder},
+         {"--front", "KEY", "Print the front of these effects from a finished study, in six lines, and stop",
+          &options->front},
+         {"--svg", "FILE", "With --front: its chart", &options->svg},
+         {"--study", "FILE",
+          "With --front: a study.csv or summary.csv; by default the one that came with the family",
+          &options->study},
+         {"--effects", "KEY", "A combination of effects; by default those of the plan", &options->effects},
+         {"--quick", "", "Few effects, no times: a usable front in under a minute", &options->quick},
+         {"--no-time", "", "Errors and costs only: no renderer is needed", &options->no_time},
+         {"--rounds", "N", "Interleaved rounds of timing", &options->rounds,
+          between(study::kLeastRounds, 1000)},
+         {"--backend", "osmesa|egl", "What is timed", &options->backend},
+         {"--callgrind", "",
+          "Count the instructions of a fragment too, for the last effects; needs valgrind and patience",
+          &options->callgrind},
+         {"--draw", "KEY", "", &options->draw, kHidden},  // for what --callgrind runs
+         {"--draw-size", "WxH", "", &options->draw_size, kHidden},
+         {"--weights", "",
+          "Measure what an operation of each kind costs on this renderer, write weights.csv, and stop",
+          &options->weigh},
+         {"--plan", "FILE",
+          "A TOML file that says what to measure; by default the one that came with the family",
+          &options->plan},
+         {"--weights-from", "FILE", "A weights.csv; by default the shipped one", &options->weights_from}},
+        {},
         "  gobo study lit -o study\n"
         "  gobo study lit -o study --quick\n"
         "  gobo study lit -o study --no-time --effects 'point=2 specular=blinn' --effects 'fog=linear'\n"
         "  gobo study lit -o study --weights\n"
-        "  gobo study lit --front 'directional=1 specular=blinn'");
-    return {app, [options](const World& world) { return run(*options, world); }};
+        "  gobo study lit --front 'directional=1 specular=blinn'",
+        [options](const World& world) { return run(*options, world); },
+        "What is measured is kept in DIR/measurements.jsonl: a study that was interrupted goes on from "
+        "there."};
 }
 
 }  // namespace gobo

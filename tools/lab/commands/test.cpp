@@ -1,33 +1,33 @@
-// gobo test: evaluates every permutation of a selection and holds it against the oracle.
+// gobo test: evaluates every permutation of a selection and compares it with the oracle.
 #include <cctype>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "lab/commands/commands.hpp"
-#include "lab/commands/shard.hpp"
-#include "lab/commands/witness.hpp"
+#include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
 #include "lab/verify/figures_json.hpp"
 #include "lab/verify/test_meshes.hpp"
 #include "lab/verify/verify.hpp"
-#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {
 
-struct TestOptions {
-    CommonOptions common;
-    SelectionOptions selection;
-    std::string family;
-    std::string folder = "failed_points";
-    std::string shard;
-    std::string figures_file;
-    WitnessOptions witness;
-};
+/// The I-th of every N keys, for "I/N". The parts of all I together hold each key once.
+Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
+    if (text.empty()) return keys;
+    const std::string help = "write its number and how many there are, such as 2/4";
+    GOBO_TRY(const auto shard, read_pair(text, '/', "shard", help));
+    const auto [number, count] = shard;
+    if (number > count) return fail(Fault::usage, fmt::format("'{}' is not a valid shard", text), help);
+    std::vector<Key> part;
+    for (auto i = static_cast<std::size_t>(number) - 1; i < keys.size(); i += static_cast<std::size_t>(count))
+        part.push_back(keys[i]);
+    return part;
+}
 
 /// A file name of letters, digits and '_' for a key.
 std::string file_name(const std::string& key, StageKind stage, const std::string& point) {
@@ -39,44 +39,40 @@ std::string file_name(const std::string& key, StageKind stage, const std::string
     return fmt::format("{}.{}.{}.toml", name, name_of(stage), point);
 }
 
-/// One error for the key, and a note for each of its worst points, which is written as a file.
-Diagnostics report_failure(const World& world, const TestOptions& options, const std::string& key,
-                           const verify::PermutationReport& report) {
-    Diagnostic error;
-    error.subject = key;
-    error.message =
-        fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points);
-    error.help =
-        fmt::format("follow one of these through the shader: gobo eval {} '{}' --inputs FILE --trace",
-                    options.family, key);
-    Diagnostics diagnostics = {std::move(error)};
-    for (std::size_t i = 0; i < report.worst.size(); ++i) {
-        const verify::Failure& failure = report.worst[i];
-        Diagnostic note;
-        note.severity = Severity::note;
-        note.place.file =
-            fmt::format("{}/{}", options.folder, file_name(key, failure.stage, std::to_string(i + 1)));
-        note.message = fmt::format("{} stage: {}", name_of(failure.stage), to_text(failure));
-        const Result<bool> written = world.disk.write(note.place.file, verify::eval_input(failure, key));
-        if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
-        diagnostics.push_back(std::move(note));
+/// A note for a point that failed, at the file that keeps it.
+Diagnostics keep_point(const World& world, const TestOptions& options, const std::string& file,
+                       const std::string& input, const std::string& message) {
+    Diagnostics diagnostics;
+    Diagnostic note;
+    note.severity = Severity::note;
+    note.message = message;
+    if (!options.folder.empty()) {
+        note.place.file = fmt::format("{}/{}", options.folder, file);
+        if (const auto written = world.disk.write(note.place.file, input); !written)
+            append(diagnostics, written.error());
     }
+    diagnostics.push_back(std::move(note));
     return diagnostics;
 }
 
-/// Writes one side's worst point as an input of `gobo eval`, and says how to follow it.
-Diagnostics report_side(const World& world, const TestOptions& options, const std::string& key,
-                        const verify::BrokenPoint& broken, const evaluate::EvalPoint& point,
-                        const std::string& file) {
-    Diagnostic note;
-    note.severity = Severity::note;
-    note.place.file = fmt::format("{}/{}", options.folder, file);
-    note.message = fmt::format("gobo eval {} '{}' --inputs this file", options.family, key);
-    Diagnostics diagnostics = {note};
-    const Result<bool> written = world.disk.write(
-        note.place.file,
-        evaluate::eval_file(name_of(broken.stage), point, "# " + key + "\n", evaluate::Digits::all));
-    if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
+/// One error for the key, and a note for each of its worst points.
+Diagnostics report_failure(const World& world, const TestOptions& options, const std::string& key,
+                           const verify::PermutationReport& report) {
+    Diagnostics diagnostics =
+        fail(Fault::input,
+             fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points),
+             fmt::format("{}follow one of {} through the shader: gobo eval {} '{}' --inputs FILE --trace",
+                         options.folder.empty() ? "keep the worst points with -o DIR, and " : "",
+                         options.folder.empty() ? "them" : "these", options.family, key))
+            .value();
+    diagnostics.front().subject = key;
+    for (std::size_t i = 0; i < report.worst.size(); ++i) {
+        const verify::Failure& failure = report.worst[i];
+        append(diagnostics,
+               keep_point(world, options, file_name(key, failure.stage, std::to_string(i + 1)),
+                          verify::eval_input(failure, key),
+                          fmt::format("{} stage: {}", name_of(failure.stage), to_text(failure))));
+    }
     return diagnostics;
 }
 
@@ -86,58 +82,50 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
     const Relation& relation = family.relations[report.relation];
     const std::string one = key_text(family, key);
     const auto partner = verify::partner_of(family, relation, key, name_of(Dialect::own));
-    const std::string other = partner ? key_text(family, *partner) : one;
     Diagnostic error;
     error.subject = one;
     error.place = relation.place;
     error.message =
         fmt::format("the relation {} does not hold at {} of {} points: {}",
                     to_text(relation, family.features), report.failed, report.points, report.found);
-    error.help = "fix the shaders, or state `when` it holds";
+    error.help = fmt::format("fix the shaders, or state `when` it holds{}",
+                             options.folder.empty() ? "; keep the worst point with -o DIR" : "");
     Diagnostics diagnostics = {std::move(error)};
-    if (!report.worst) return diagnostics;
-    const auto add = [&](const std::string& side_key, const evaluate::EvalPoint& point, const char* side) {
-        const std::string file =
-            file_name(one, report.worst->stage, fmt::format("relation_{}.{}", report.relation + 1, side));
-        const Diagnostics more = report_side(world, options, side_key, *report.worst, point, file);
-        diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+    const auto keep = [&](const std::string& side_key, const evaluate::EvalPoint& point, const char* side) {
+        append(diagnostics,
+               keep_point(world, options,
+                          file_name(one, report.worst->stage,
+                                    fmt::format("relation_{}.{}", report.relation + 1, side)),
+                          evaluate::eval_file(name_of(report.worst->stage), point, "# " + side_key + "\n",
+                                              evaluate::Digits::all),
+                          fmt::format("gobo eval {} '{}' --inputs this file", options.family, side_key)));
     };
-    add(one, report.worst->one, "one");
-    add(other, report.worst->other, "other");
+    if (!report.worst || options.folder.empty()) return diagnostics;
+    keep(one, report.worst->one, "one");
+    keep(partner ? key_text(family, *partner) : one, report.worst->other, "other");
     return diagnostics;
 }
 
 Diagnostics report_failures(const World& world, const TestOptions& options, const Family& family,
                             const verify::VerifyReport& report) {
     Diagnostics diagnostics;
-    const auto add = [&](const Diagnostics& more) {
-        diagnostics.insert(diagnostics.end(), more.begin(), more.end());
-    };
     for (const verify::PermutationReport& permutation : report.permutations) {
-        add(permutation.diagnostics);
+        append(diagnostics, permutation.diagnostics);
         if (permutation.failed_points > 0)
-            add(report_failure(world, options, key_text(family, permutation.key), permutation));
+            append(diagnostics,
+                   report_failure(world, options, key_text(family, permutation.key), permutation));
         for (const verify::RelationReport& relation : permutation.relations)
             if (relation.failed > 0)
-                add(report_broken_relation(world, options, family, permutation.key, relation));
+                append(diagnostics,
+                       report_broken_relation(world, options, family, permutation.key, relation));
     }
     const verify::Figures& figures = report.figures;
-    if (static_cast<double>(figures.edges) >
-        verify::kLargestEdgeShare * static_cast<double>(figures.points)) {
-        add(fail(Fault::input, fmt::format("{} of {} points lie at a discontinuity: more than 1 %",
-                                           figures.edges, figures.points))
-                .value());
-    }
+    if (static_cast<double>(figures.edges) > verify::kLargestEdgeShare * static_cast<double>(figures.points))
+        append(diagnostics,
+               fail(Fault::input, fmt::format("{} of {} points lie at a discontinuity: more than 1 %",
+                                              figures.edges, figures.points))
+                   .value());
     return diagnostics;
-}
-
-/// "12 permutations of 8640 valid ones".
-Result<std::string> size_text(const Family& family, std::size_t tested, Dialect dialect) {
-    Selection everything;
-    everything.all = true;
-    const Result<std::uint64_t> valid = count_selected(family, everything, name_of(dialect));
-    if (!valid) return tl::unexpected(valid.error());
-    return fmt::format("{} permutations of {} valid ones", tested, *valid);
 }
 
 /// "3 relations tried at 1920 points"; nothing where none was.
@@ -174,89 +162,65 @@ std::string figures_text(const verify::VerifyReport& report) {
     return text;
 }
 
-/// The permutations to test, and behind them those that relations compare them with.
-struct Subjects {
-    Composition composition;
-    std::size_t partners = 0;
-};
-
-Result<Subjects> compose_shard(const World& world, LoadedFamily& family, const TestOptions& options) {
-    Result<std::vector<Key>> keys = load_keys(world, family, options.selection, Dialect::own);
-    if (!keys) return tl::unexpected(keys.error());
-    keys = shard_of(std::move(*keys), options.shard);
-    if (!keys) return tl::unexpected(keys.error());
-    const std::vector<Key> more = options.witness.render
-                                      ? std::vector<Key>{}
-                                      : verify::partners(family.family, *keys, name_of(Dialect::own));
-    keys->insert(keys->end(), more.begin(), more.end());
-    Result<Composition> composition = compose(family.family, *keys, family.search, Dialect::own);
-    if (!composition) return tl::unexpected(composition.error());
-    return Subjects{std::move(*composition), more.size()};
-}
-
-Outcome run(const TestOptions& options, const World& world) {
-    Result<LoadedFamily> family = load_family(world, options.family, options.common);
-    if (!family) return failed(family.error());
-    const Result<Subjects> subjects = compose_shard(world, *family, options);
-    if (!subjects) return failed(subjects.error());
-    const Composition* composition = &subjects->composition;
-    if (options.witness.render)
-        return run_witness(world, options.witness, family->family, *composition, options.folder,
-                           options.common);
-    ValidateOptions validate_options;
-    validate_options.jobs = options.common.jobs;
-    validate_options.keep_spirv = true;
-    Validated validated = validate(family->family, *composition, validate_options);
-    if (exit_status(validated.diagnostics) != 0) return failed(std::move(validated.diagnostics));
+Result<Outcome> run(const TestOptions& options, const World& world) {
+    GOBO_TRY(LoadedFamily family, load_family(world, options.family));
+    GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
+    GOBO_TRY(keys, shard_of(std::move(keys), options.shard));
     verify::VerifyOptions verify_options;
-    verify_options.jobs = options.common.jobs;
-    verify_options.partners = subjects->partners;
-    Result<Mesh> teapot = read_obj(world.shipped, "data/meshes/teapot.obj");
-    if (!teapot) return failed(teapot.error());
-    verify_options.meshes = verify::test_meshes(std::move(*teapot));
-    const verify::VerifyReport report =
-        verify::verify(family->family, *composition, validated, verify_options);
-    const Result<std::string> size = size_text(family->family, report.permutations.size(), Dialect::own);
-    if (!size) return failed(size.error());
-    Diagnostics diagnostics = report_failures(world, options, family->family, report);
-    if (!options.figures_file.empty()) {
-        const Result<bool> written =
-            world.disk.write(options.figures_file, verify::figures_json(family->family, report));
-        if (!written) diagnostics.insert(diagnostics.end(), written.error().begin(), written.error().end());
+    if (!options.render) {  // behind the keys stand those that relations compare them with
+        const auto partners = verify::partners(family.family, keys, name_of(family.dialect));
+        keys.insert(keys.end(), partners.begin(), partners.end());
+        verify_options.partners = partners.size();
     }
-    return {*size + "\n" + figures_text(report), std::move(diagnostics), {}};
+    GOBO_TRY(const Composition composition, compose_keys(family, keys));
+    GOBO_TRY(const Validated validated, compile(world, family.family, composition, {.keep_spirv = true}));
+    if (options.render) return compare_pictures(world, options, family.family, composition, validated);
+    verify_options.jobs = world.jobs();
+    GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
+    verify_options.meshes = verify::test_meshes(std::move(teapot));
+    const auto report = verify::verify(family.family, composition, validated, verify_options);
+    Selection everything;
+    everything.all = true;
+    GOBO_TRY(const std::uint64_t valid, count_selected(family.family, everything, name_of(family.dialect)));
+    Diagnostics diagnostics = report_failures(world, options, family.family, report);
+    if (!options.figures_file.empty()) {
+        const auto written =
+            world.disk.write(options.figures_file, verify::figures_json(family.family, report));
+        if (!written) append(diagnostics, written.error());
+    }
+    return Outcome{fmt::format("{} permutations of {} valid ones\n", report.permutations.size(), valid) +
+                       figures_text(report),
+                   std::move(diagnostics)};
 }
 
 }  // namespace
 
-Command test_command(CLI::App& gobo) {
-    auto options = std::make_shared<TestOptions>();
-    CLI::App* app = gobo.add_subcommand("test", "Evaluate every permutation and hold it against the oracle");
-    app->add_option("FAMILY", options->family, "A shipped family or a .toml file")->required();
-    add_selection_options(*app, options->selection);
-    app->add_option(
-           "-o,--output", options->folder,
-           "Folder for the worst points of failing keys, as input files of gobo eval, or their pictures")
-        ->type_name("FOLDER")
-        ->capture_default_str();
-    app->add_option("--shard", options->shard, "Only every N-th key, from the I-th on")->type_name("I/N");
-    app->add_option("--figures", options->figures_file,
-                    "Write each key's points and largest errors to this file, as JSON")
-        ->type_name("FILE")
-        ->excludes(add_witness_options(*app, options->witness));
-    add_common_options(*app, options->common);
-    app->footer(
-        "The stages are evaluated in fp32 and fp64 over points made to exercise each model. Families of your "
-        "own\n"
-        "have no oracle: there fp32 is held against fp64.\n\n"
-        "Examples:\n"
-        "  gobo test lit                               the family's default set\n"
-        "  gobo test lit --cover 3\n"
-        "  gobo test lit --cover 2 --render            every key drawn, too\n"
-        "  gobo test lit --figures figures.json\n"
-        "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
-        "  gobo test game.toml -o build/failed_points");
-    return {app, [options](const World& world) { return run(*options, world); }};
+Command test_command() {
+    const auto options = std::make_shared<TestOptions>();
+    return {titles::kTest,
+            {family_argument(options->family),
+             keep_option(options->folder,
+                         "the worst points of keys that fail, as inputs of gobo eval, or their pictures,"),
+             {"--shard", "I/N", "Only every N-th key, from the I-th on", &options->shard},
+             {"--render", "", "Draw every key instead, 64 x 64, and compare each pixel with the evaluation",
+              &options->render},
+             {"--figures",
+              "FILE",
+              "Write each key's points and largest errors to this file, as JSON",
+              &options->figures_file,
+              {.excludes = "--render"}},
+             {"--backend", "osmesa|egl", "What draws", &options->backend, {.needs = "--render"}}},
+            {selection_options(*options)},
+            "  gobo test lit                               the family's default set\n"
+            "  gobo test lit --cover 3\n"
+            "  gobo test lit --cover 2 --render            every key drawn, too\n"
+            "  gobo test lit --figures figures.json\n"
+            "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
+            "  gobo test game.toml -o build/failed_points",
+            [options](const World& world) { return run(*options, world); },
+            "The stages are evaluated in fp32 and fp64 at points made to exercise each model. Families of "
+            "your own "
+            "have no oracle, a second program of the models: there fp32 is compared with fp64."};
 }
 
 }  // namespace gobo

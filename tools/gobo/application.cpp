@@ -1,0 +1,108 @@
+#include "gobo/application.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/shipped_files.hpp"
+
+namespace gobo {
+namespace {
+
+/// Asked before the options are read, so that what is wrong with them has colours too.
+bool wants_color(const std::vector<std::string>& arguments) {
+    bool color = isatty(STDERR_FILENO) != 0;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        std::string value;
+        if (arguments[i] == "--color" && i + 1 < arguments.size()) value = arguments[i + 1];
+        if (arguments[i].starts_with("--color=")) value = arguments[i].substr(8);
+        if (value == "always" || value == "never") color = value == "always";
+    }
+    return color;
+}
+
+int report(const Diagnostics& diagnostics, bool color) {
+    for (const Diagnostic& diagnostic : diagnostics) std::fputs(to_text(diagnostic, color).c_str(), stderr);
+    return exit_status(diagnostics);
+}
+
+/// A full disk shows when the stream is flushed.
+Result<void> write_output(const std::string& text) {
+    const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (is_written && std::fflush(stdout) == 0) return {};
+    return fail(Fault::file, fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+}
+
+/// Replaces this process by gobo-lab with the same arguments, as git and cargo do: the one beside this
+/// program, else the first in PATH. Returns only where there is none or it cannot be run.
+void become_lab(const std::vector<std::string>& arguments) {
+    std::vector<char*> passed = {const_cast<char*>("gobo-lab")};
+    for (const std::string& argument : arguments) passed.push_back(const_cast<char*>(argument.c_str()));
+    passed.push_back(nullptr);
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error) execv((program.parent_path() / "gobo-lab").c_str(), passed.data());
+    execvp("gobo-lab", passed.data());
+}
+
+Result<Outcome> answer(const Application& application, const World& world,
+                       const std::vector<std::string>& arguments) {
+    const bool completes = arguments.size() > 1 && arguments.front() == "complete";
+    const std::string name = arguments.empty() ? "" : arguments[completes ? 1 : 0];
+    for (const Command& command : application.commands)
+        if (command.title.name == name && !command.run)
+            return fail(Fault::needs_lab, fmt::format("'gobo {}' needs gobo-lab", name));
+    if (completes)
+        return Outcome{
+            completions(application, {arguments.begin() + 1, arguments.end()}, shipped_families(world))};
+    if (name == "manual") return Outcome{manual_page(application)};
+    GOBO_TRY(const CommandLine line, read_command_line(application, arguments));
+    if (line.command == nullptr) return Outcome{line.text};
+    return line.command->run(world);
+}
+
+int run(Application application, const std::vector<std::string>& arguments) {
+    const bool color = wants_color(arguments);
+    CommonOptions options;
+    for (Command& command : application.commands)
+        if (command.run) command.groups.push_back(common_options(options));
+    DiskFileSystem disk;
+    MemoryFileSystem shipped(shipped_files());
+    auto outcome = answer(application, {disk, shipped, options, application.measure}, arguments);
+    if (!outcome) {
+        for (Diagnostic& error : outcome.error()) {
+            if (error.fault != Fault::needs_lab) continue;
+            become_lab(arguments);
+            error.message += ", which is neither beside gobo nor in PATH";
+            error.help =
+                "install the package gobo-lab, or build it: cmake --build --preset release --target "
+                "gobo-lab" +
+                error.help;
+        }
+        return report(outcome.error(), color);
+    }
+    if (const auto written = write_output(outcome->output); !written)
+        append(outcome->diagnostics, written.error());
+    const int status = report(outcome->diagnostics, color);
+    if (!outcome->summary.empty() && !options.quiet) fmt::print(stderr, "{}\n", outcome->summary);
+    return status;
+}
+
+}  // namespace
+
+int run_application(const Application& application, int count, char** arguments) {
+    try {
+        return run(application, {arguments + 1, arguments + count});
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "gobo: error: internal fault: {}\n", error.what());
+        return 4;
+    }
+}
+
+}  // namespace gobo

@@ -1,0 +1,277 @@
+#include "gobo/input.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "compose/compose.hpp"
+#include "compose/dialect.hpp"
+#include "core/text.hpp"
+#include "family/key.hpp"
+#include "family/read_family.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/scene_keys.hpp"
+
+namespace gobo {
+namespace {
+
+std::string folder_of(const std::string& path) {
+    const auto slash = path.rfind('/');
+    return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+tl::unexpected<Diagnostics> fail_at(const std::string& file, std::string message, std::string help = {}) {
+    auto failure = fail(Fault::input, std::move(message), std::move(help));
+    failure.value().front().place.file = file;
+    return failure;
+}
+
+/// Has the lab find what this program has read of standard input.
+void keep_standard_input(const std::string& text) {
+    const int file = memfd_create("standard input", 0);
+    if (file < 0) return;
+    const bool is_written = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    if (is_written && lseek(file, 0, SEEK_SET) == 0) dup2(file, STDIN_FILENO);
+    close(file);
+}
+
+/// A family file's text and where its templates lie.
+struct FamilySource {
+    std::string text;
+    std::string path;
+    bool is_shipped = false;
+};
+
+Result<FamilySource> find_family(const World& world, const std::string& name) {
+    if (name == "-" || name.ends_with(".toml")) {
+        GOBO_TRY(std::string text, read_input(world, name));
+        return FamilySource{std::move(text), name == "-" ? "stdin" : name};
+    }
+    const std::string path = world.in_library(fmt::format("templates/{}.toml", name));
+    if (!world.library().is_file(path))
+        return fail(
+            Fault::usage, fmt::format("there is no shipped family '{}'", name),
+            suggestion(name, shipped_families(world)) + " (a family of your own is named by its .toml file)");
+    GOBO_TRY(std::string text, world.library().read(path));
+    return FamilySource{std::move(text), path, world.options.library.empty()};
+}
+
+Result<Dialect> read_dialect(const std::string& name) {
+    if (name.empty()) return Dialect::own;
+    if (const auto dialect = dialect_of(name)) return *dialect;
+    return fail(Fault::usage, fmt::format("unknown dialect '{}'", name),
+                suggestion(name, {"450", "330", "es300"}));
+}
+
+void add_include_folders(const World& world, SearchPath& search) {
+    for (std::string folder : world.options.include_folders) {
+        while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+        search.add(world.disk, folder, "", true);
+    }
+}
+
+/// The keys that the draws of a scene need, seen from any of its cameras, as `gobo scene --keys` lists them.
+Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& family, const std::string& path,
+                                            const std::string& bucket_lights) {
+    GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(bucket_lights));
+    GOBO_TRY(const scene::Scene scene, scene::read_scene(world.disk, path));
+    family.files.insert(family.files.end(), scene.files.begin(), scene.files.end());
+    const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
+    GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
+    std::vector<NamedKey> named;
+    for (const Key& key : scene::distinct_keys(keys))
+        named.push_back({key_text(family.family, key), {path, 0, 0}});
+    // An empty selection would mean the family's default set.
+    if (named.empty()) return fail_at(path, "needs no permutation: it draws no triangles");
+    return named;
+}
+
+Result<std::vector<NamedKey>> keys_of_file(const World& world, const std::string& path) {
+    GOBO_TRY(const std::string text, read_input(world, path));
+    std::vector<NamedKey> keys = keys_of_text(text, path == "-" ? "stdin" : path);
+    if (keys.empty())
+        return fail_at(path, "holds no keys",
+                       "write one key a line; 'default' is the key with every feature at its default");
+    return keys;
+}
+
+}  // namespace
+
+OptionGroup common_options(CommonOptions& options) {
+    return {
+        "Common options",
+        {{"-I", "FOLDER", "A folder searched for pieces before the family's own", &options.include_folders},
+         {"-j,--jobs", "N", "Threads; by default as many as the computer has", &options.jobs,
+          between(1, 1024)},
+         {"--library", "FOLDER", "A folder that holds shader_lib and templates, instead of those built in",
+          &options.library},
+         {"--color", "auto|always|never", "Colour in messages; auto is on a terminal only", &options.color,
+          kOneOf},
+         {"-q,--quiet", "", "Print no summary", &options.quiet}}};
+}
+
+Option family_argument(std::string& name) {
+    return {"FAMILY", "", "A shipped family, such as lit, or a .toml file", &name,
+            name.empty() ? kRequired : OptionRule()};
+}
+
+Option subject_argument(std::vector<std::string>& names) {
+    return {"NAMES", "FAMILY KEY|FILES...",
+            "A family and a key, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)", &names, kRequired};
+}
+
+Option comments_option(bool& comments) {
+    return {"--comments", "", "Keep the comments of the shaders; without it, blanks replace them", &comments};
+}
+
+Option dialect_option(std::string& name) {
+    return {"--dialect", "450|330|es300",
+            "GLSL dialect; by default the #version that the family's templates state, or 450", &name};
+}
+
+std::vector<std::string> shipped_families(const World& world) {
+    std::vector<std::string> names;
+    for (const std::string& file : world.library().files_below(world.in_library("templates")))
+        if (file.ends_with(".toml") && file.find('/') == std::string::npos) names.push_back(stem_of(file));
+    return names;
+}
+
+Result<LoadedFamily> load_family(const World& world, const std::string& name, const std::string& dialect) {
+    LoadedFamily loaded;
+    loaded.name = name;
+    GOBO_TRY(loaded.dialect, read_dialect(dialect));
+    GOBO_TRY(FamilySource source, find_family(world, name));
+    const std::string folder = folder_of(source.path);
+    std::string base_folder = folder;
+    const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
+        const bool is_file = base_name.ends_with(".toml");
+        const bool is_beside = is_file && !base_name.starts_with('/') && !folder.empty();
+        GOBO_TRY(FamilySource base, find_family(world, is_beside ? folder + "/" + base_name : base_name));
+        if (!base.is_shipped) loaded.files.push_back(base.path);
+        if (is_file) base_folder = folder_of(base.path);
+        return FamilyText{std::move(base.text), std::move(base.path)};
+    };
+    GOBO_TRY(loaded.family, read_family(source.text, source.path, find_base));
+    add_include_folders(world, loaded.search);
+    if (!source.is_shipped) loaded.search.add(world.disk, folder, "", true);
+    if (base_folder != folder) loaded.search.add(world.disk, base_folder, "", true);
+    for (const std::string part : {"shader_lib", "templates"})
+        loaded.search.add(world.library(), world.in_library(part), part + "/",
+                          !world.options.library.empty());
+    if (!source.is_shipped && name != "-") loaded.files.push_back(source.path);
+    return loaded;
+}
+
+OptionGroup selection_options(SelectionOptions& options) {
+    return {"Which keys",
+            {{"--key", "KEY", "A key, such as 'fog=linear point=3'", &options.keys},
+             {"--keys-from", "FILE", "A file of keys, one a line; - is standard input", &options.key_files},
+             {"--scene", "FILE", "A glTF scene: the keys that its draws need", &options.scenes},
+             {"--bucket-lights", "0,1,2,...", "Round the light counts of --scene up to one of these",
+              &options.bucket_lights},
+             {"--all", "", "Every valid key", &options.more.all},
+             {"--cover", "T", "Few keys that contain every combination of T feature values",
+              &options.more.cover, between(1, 8)},
+             {"--over", "A,B,...", "Features that --all and --cover vary; the others stand at their defaults",
+              &options.more.over},
+             {"--where", "EXPR", "Condition on the keys, such as 'point <= 2 && fog != none'",
+              &options.more.where},
+             {"--retired", "", "Let --all and --cover take retired values too", &options.more.retired}}};
+}
+
+Selection to_selection(const SelectionOptions& options) {
+    Selection selection = options.more;
+    selection.over = split(join(options.more.over, ","), ',');
+    for (const std::string& text : options.keys) selection.keys.push_back({text, {}});
+    return selection;
+}
+
+Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
+                                   const SelectionOptions& options) {
+    Selection selection = to_selection(options);
+    for (const std::string& path : options.key_files) {
+        GOBO_TRY(const auto keys, keys_of_file(world, path));
+        selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
+        if (path != "-") family.files.push_back(path);
+    }
+    for (const std::string& path : options.scenes) {
+        GOBO_TRY(const auto keys, keys_of_scene(world, family, path, options.bucket_lights));
+        selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
+    }
+    return select(family.family, selection, name_of(family.dialect));
+}
+
+Result<Composition> compose_keys(const LoadedFamily& family, const std::vector<Key>& keys) {
+    return compose(family.family, keys, family.search, family.dialect, family.comments);
+}
+
+Result<Composition> compose_selection(const World& world, LoadedFamily& family,
+                                      const SelectionOptions& options) {
+    GOBO_TRY(const auto keys, load_keys(world, family, options));
+    return compose_keys(family, keys);
+}
+
+Result<Validated> compile(const World& world, const Family& family, const Composition& composition,
+                          ValidateOptions options) {
+    options.jobs = world.jobs();
+    Validated validated = validate(family, composition, options);
+    if (exit_status(validated.diagnostics) != 0) return tl::unexpected(std::move(validated.diagnostics));
+    return validated;
+}
+
+Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
+                             const std::string& dialect, const SelectionOptions* selection) {
+    Subject subject;
+    if (std::any_of(names.begin(), names.end(), is_shader_file)) {
+        subject.are_files = true;
+        GOBO_TRY(subject.family.dialect, read_dialect(dialect));
+        add_include_folders(world, subject.family.search);
+        GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search));
+        GOBO_TRY(subject.composition, compose_keys(subject.family, {Key{}}));
+        return subject;
+    }
+    const std::size_t most = selection != nullptr ? 1 : 2;
+    if (names.size() > most)
+        return fail(Fault::usage, fmt::format("unexpected argument '{}'", names[most]),
+                    selection != nullptr
+                        ? "name one family, or shader files; keys are named with --key"
+                        : "name a family and a key, or shader files; quote a key that has blanks");
+    GOBO_TRY(subject.family, load_family(world, names[0], dialect));
+    const SelectionOptions one_key{.keys = {names.size() > 1 ? names[1] : "default"}};
+    GOBO_TRY(subject.composition,
+             compose_selection(world, subject.family, selection != nullptr ? *selection : one_key));
+    return subject;
+}
+
+Result<Validated> compile(const World& world, const Subject& subject, const ValidateOptions& options) {
+    auto validated = compile(world, subject.family.family, subject.composition, options);
+    if (subject.are_files)
+        for (Diagnostic& diagnostic : validated ? validated->diagnostics : validated.error())
+            diagnostic.subject.clear();
+    return validated;
+}
+
+Result<std::string> read_input(const World& world, const std::string& path) {
+    if (path != "-") return world.disk.read(path);
+    GOBO_TRY(std::string text, world.disk.read("/dev/stdin"));
+    keep_standard_input(text);
+    return text;
+}
+
+Result<InputFile> read_or_shipped(const World& world, const std::string& path, const std::string& shipped) {
+    GOBO_TRY(std::string text, path.empty() ? world.shipped.read(shipped) : read_input(world, path));
+    return InputFile{path.empty() ? shipped : path, std::move(text)};
+}
+
+void append(Diagnostics& diagnostics, const Diagnostics& more) {
+    diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+}
+
+std::string stem_of(const std::string& path) {
+    const std::string name = path.substr(path.rfind('/') + 1);
+    return name.substr(0, name.rfind('.'));
+}
+
+}  // namespace gobo

@@ -1,0 +1,146 @@
+// What commands work on: families, keys and shader files, from the options that name them.
+#pragma once
+
+#include <algorithm>
+#include <thread>
+
+#include "budget/budget.hpp"
+#include "compose/search_path.hpp"
+#include "core/file_system.hpp"
+#include "emit/emit.hpp"
+#include "family/selection.hpp"
+#include "gobo/command.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+
+/// Options of every command.
+struct CommonOptions {
+    std::vector<std::string> include_folders;  ///< -I
+    int jobs = 0;                              ///< threads; 0: as many as the computer has
+    std::string library;  ///< a folder to read shader_lib and templates from instead of the embedded ones
+    std::string color = "auto";
+    bool quiet = false;
+};
+[[nodiscard]] OptionGroup common_options(CommonOptions& options);
+
+struct LoadedFamily;
+
+/// Measures error and cost of a combination of effects that the study does not hold.
+using MeasureQualities = std::function<Result<std::vector<StudiedKey>>(
+    const World&, const LoadedFamily&, const StudiedEffects&, const Key& effects)>;
+
+/// The world that a command runs in.
+struct World {
+    FileSystem& disk;
+    FileSystem& shipped;  ///< paths as in the source tree: "shader_lib/fog/linear.glsl"
+    const CommonOptions& options;
+    MeasureQualities measure;
+
+    [[nodiscard]] int jobs() const {
+        return options.jobs > 0 ? options.jobs
+                                : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    }
+    /// The files that hold shader_lib and templates, and a path in them.
+    [[nodiscard]] FileSystem& library() const { return options.library.empty() ? shipped : disk; }
+    [[nodiscard]] std::string in_library(const std::string& path) const {
+        return options.library.empty() ? path : options.library + "/" + path;
+    }
+};
+
+/// A family with where its pieces are found, the files read so far and the dialect to compose for.
+struct LoadedFamily {
+    std::string name;  ///< as the command line has it
+    Family family;
+    SearchPath search;
+    std::vector<std::string> files;  ///< on disk, for the depfile
+    Dialect dialect = Dialect::own;
+    Comments comments = Comments::remove;
+};
+
+[[nodiscard]] Option family_argument(std::string& name);
+[[nodiscard]] Option dialect_option(std::string& name);
+[[nodiscard]] Option comments_option(bool& comments);
+
+[[nodiscard]] std::vector<std::string> shipped_families(const World& world);
+/// A shipped family's name, a .toml file, or `-` for standard input. An empty dialect is Dialect::own.
+[[nodiscard]] Result<LoadedFamily> load_family(const World& world, const std::string& name,
+                                               const std::string& dialect = {});
+
+/// How a family and its keys are chosen on the command line.
+struct SelectionOptions {
+    std::string family = {};
+    std::string dialect = {};
+    std::vector<std::string> keys = {};
+    std::vector<std::string> key_files = {};
+    std::vector<std::string> scenes = {};
+    std::string bucket_lights = {};
+    Selection more = {};  ///< what needs no reading
+};
+[[nodiscard]] OptionGroup selection_options(SelectionOptions& options);
+
+/// What the options say without their files.
+[[nodiscard]] Selection to_selection(const SelectionOptions& options);
+/// The selected keys. Key files, scenes and their buffers that were read are added to `family.files`.
+[[nodiscard]] Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
+                                                 const SelectionOptions& options);
+
+/// What a budget chooses qualities by.
+struct BudgetOptions {
+    double max_error = 0;  ///< 0: no limit
+    double max_cost = 0;   ///< 0: no limit
+    std::string study;     ///< a study.csv or summary.csv; empty: the shipped one of the family
+
+    [[nodiscard]] bool is_set() const { return max_error > 0 || max_cost > 0; }
+};
+[[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
+
+/// For each key the one that the budget chooses for its effects, in the same order, with what it was chosen
+/// by. Effects that the study has not measured are measured now, on the study's scenes, at the qualities that
+/// lie on a front of the study. Keys that the dialect forbids are not chosen. Errors: no quality within the
+/// budget, for each combination; effects that cannot be measured here (Fault::needs_lab); a study that cannot
+/// be read (its file is added to `family.files`).
+[[nodiscard]] Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFamily& family,
+                                                                  const BudgetOptions& options,
+                                                                  const std::vector<Key>& keys);
+
+[[nodiscard]] Result<Composition> compose_keys(const LoadedFamily& family, const std::vector<Key>& keys);
+/// The selected keys, composed.
+[[nodiscard]] Result<Composition> compose_selection(const World& world, LoadedFamily& family,
+                                                    const SelectionOptions& options);
+
+/// Validates on all threads. What has errors is no value.
+[[nodiscard]] Result<Validated> compile(const World& world, const Family& family,
+                                        const Composition& composition, ValidateOptions options = {});
+
+/// What FAMILY and keys name, or loose shader files.
+struct Subject {
+    LoadedFamily family;
+    Composition composition;
+    bool are_files = false;  ///< there is no key to speak of
+};
+/// `names` are files, told by their ends; or FAMILY [KEY], or FAMILY alone where there is a selection.
+[[nodiscard]] Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
+                                           const std::string& dialect,
+                                           const SelectionOptions* selection = nullptr);
+[[nodiscard]] Result<Validated> compile(const World& world, const Subject& subject,
+                                        const ValidateOptions& options = {});
+[[nodiscard]] Option subject_argument(std::vector<std::string>& names);
+
+/// A file, or standard input where the path is `-`.
+[[nodiscard]] Result<std::string> read_input(const World& world, const std::string& path);
+
+struct InputFile {
+    std::string path;
+    std::string text;
+};
+/// A file that the user names; the shipped one where the path is empty.
+[[nodiscard]] Result<InputFile> read_or_shipped(const World& world, const std::string& path,
+                                                const std::string& shipped);
+
+void append(Diagnostics& diagnostics, const Diagnostics& more);
+
+/// "studio" of "maps/studio.exr".
+[[nodiscard]] std::string stem_of(const std::string& path);
+
+}  // namespace gobo

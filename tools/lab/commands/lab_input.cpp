@@ -1,0 +1,153 @@
+#include "lab/commands/lab_input.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "budget/qualities.hpp"
+#include "core/text.hpp"
+#include "family/key.hpp"
+#include "lab/probe/convolution.hpp"
+#include "lab/render/image_file.hpp"
+#include "lab/render/shadow_maps.hpp"
+
+namespace gobo {
+namespace {
+
+Result<CubeImages> shipped_environment(const World& world) {
+    const std::string path = "data/environments/studio.exr";
+    GOBO_TRY(const Image image, read_image(world.shipped, path));
+    GOBO_TRY(const auto environment, probe::environment_of(image, path));
+    const auto cube = [&](double shininess, int side) {
+        const probe::Lobe lobe(environment, shininess);
+        return probe::make_cube_map(side, world.jobs(),
+                                    [&](const glm::dvec3& direction) { return lobe.around(direction); });
+    };
+    return CubeImages{{"diffuseMap", cube(1, 16)}, {"specularMap", cube(48, 32)}};
+}
+
+bool looks_up_environment(const Interface& interface) {
+    return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
+        return sampler.name == "diffuseMap" || sampler.name == "specularMap";
+    });
+}
+
+}  // namespace
+
+Result<Mesh> load_mesh(const World& world, const std::string& name) {
+    if (name == "teapot") return read_obj(world.shipped, "data/meshes/teapot.obj");
+    if (name == "sphere") return make_sphere(64, 32);
+    if (name == "torus") return make_torus(1, 0.4, 96, 48);
+    if (name == "plane") return make_plane(3, 32);
+    if (name.ends_with(".obj")) return read_obj(world.disk, name);
+    return fail(Fault::usage, fmt::format("there is no mesh '{}'", name),
+                suggestion(name, {"plane", "sphere", "teapot", "torus"}) + "; or name an .obj file");
+}
+
+Result<std::pair<int, int>> read_pair(const std::string& text, char separator, const std::string& what,
+                                      const std::string& help) {
+    std::pair<int, int> pair;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, pair.first);
+    if (first.ec == std::errc() && first.ptr != end && *first.ptr == separator) {
+        const auto second = std::from_chars(first.ptr + 1, end, pair.second);
+        if (second.ec == std::errc() && second.ptr == end && pair.first > 0 && pair.second > 0) return pair;
+    }
+    return fail(Fault::usage, fmt::format("'{}' is not a valid {}", text, what), help);
+}
+
+Result<CubeImages> load_environment(const World& world, const std::string& folder,
+                                    const std::vector<Interface>& interfaces) {
+    CubeImages images;
+    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up_environment)) return images;
+    if (folder.empty()) return shipped_environment(world);
+    for (const auto& [sampler, file] :
+         {std::pair("diffuseMap", "diffuse.exr"), std::pair("specularMap", "specular.exr")}) {
+        auto image = read_image(world.disk, folder + "/" + file);
+        if (!image) return with_help(image.error(), "name a folder that gobo probe wrote");
+        images.emplace(sampler, std::move(*image));
+    }
+    return images;
+}
+
+std::vector<Interface> interfaces_of(const Composition& composition, const Validated& validated) {
+    std::vector<Interface> interfaces;
+    for (const Permutation& permutation : composition.permutations)
+        interfaces.push_back(interface_of(validated, permutation));
+    return interfaces;
+}
+
+Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, const Family& family,
+                                                           const Composition& composition) {
+    const auto has_shadows = [&](const Permutation& permutation) {
+        return !shadow_lights(family, permutation.key).empty();
+    };
+    if (std::none_of(composition.permutations.begin(), composition.permutations.end(), has_shadows))
+        return std::nullopt;
+    GOBO_TRY(LoadedFamily depth, load_family(world, "depth"));
+    GOBO_TRY(const Composition stages, compose_selection(world, depth, {}));
+    GOBO_TRY(const Validated validated, compile(world, depth.family, stages, {.keep_spirv = true}));
+    const Permutation& permutation = stages.permutations.front();
+    verify::ShadowPass pass;
+    pass.pass.stages = {stage_text(stages, permutation.vertex), stage_text(stages, permutation.fragment)};
+    pass.pass.interface = interface_of(validated, permutation);
+    pass.pass.values = depth.family.render;
+    pass.vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
+    pass.fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
+    return pass;
+}
+
+Result<study::Weights> load_weights(const World& world, const std::string& path) {
+    GOBO_TRY(const auto file, read_or_shipped(world, path, "data/study/weights.csv"));
+    GOBO_TRY(const auto weights, study::read_weights(file.text, file.path));
+    return weights.front();
+}
+
+Result<study::StudyPlan> load_plan(const World& world, const Family& family, const std::string& path) {
+    const std::string shipped = fmt::format("data/study/{}.toml", family.name);
+    if (path.empty() && !world.shipped.is_file(shipped)) return study::default_plan(family);
+    GOBO_TRY(const auto file, read_or_shipped(world, path, shipped));
+    return study::read_plan(file.text, file.path, family);
+}
+
+study::Progress progress_on_terminal(const World& world) {
+    if (world.options.quiet || isatty(STDERR_FILENO) == 0)
+        return [](std::string_view, std::size_t, std::size_t) {};
+    return [](std::string_view what, std::size_t done, std::size_t total) {
+        fmt::print(stderr, "\r\x1b[K");
+        if (done < total) fmt::print(stderr, "{}/{} {}", done + 1, total, what);
+        std::fflush(stderr);
+    };
+}
+
+Result<std::vector<StudiedKey>> measure_qualities(const World& world, const LoadedFamily& family,
+                                                  const StudiedEffects& studied, const Key& effects) {
+    GOBO_TRY(const auto weights, load_weights(world));
+    GOBO_TRY(const auto plan, load_plan(world, family.family));
+    std::vector<Key> keys = study::front_qualities(family.family, studied, effects);
+    if (studied.empty())
+        for (const Choice& choice : single_choices(family.family, effects)) keys.push_back(choice.key);
+    const study::Progress progress = progress_on_terminal(world);
+    progress("measuring " + key_text(family.family, effects), 0, 1);
+    study::Journal journal;
+    GOBO_TRY(const auto result,
+             study::measure_keys({world.shipped, family.family, family.search, world.jobs()}, effects, keys,
+                                 plan, journal));
+    progress("", 1, 1);
+    return study::studied_keys(result, weights);
+}
+
+tl::unexpected<Diagnostics> with_help(Diagnostics errors, const std::string& help) {
+    for (Diagnostic& error : errors) error.help = help;
+    return tl::unexpected(std::move(errors));
+}
+
+Option keep_option(std::string& folder, const std::string& what) {
+    return {"-o,--output", "DIR", fmt::format("Keep {} in this folder; without it nothing is written", what),
+            &folder};
+}
+
+}  // namespace gobo

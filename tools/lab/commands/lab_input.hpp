@@ -1,0 +1,64 @@
+// What the lab's commands read beside what gobo's do, and where they keep what failed.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gobo/input.hpp"
+#include "lab/render/image.hpp"
+#include "lab/study/study.hpp"
+#include "lab/verify/shadow_witness.hpp"
+
+namespace gobo {
+
+/// A mesh of that name, or of an .obj file.
+[[nodiscard]] Result<Mesh> load_mesh(const World& world, const std::string& name);
+
+/// Two whole numbers from 1 on, as "640x480" or "2/4"; `what` they are, for the error, and an example.
+[[nodiscard]] Result<std::pair<int, int>> read_pair(const std::string& text, char separator,
+                                                    const std::string& what, const std::string& help);
+inline Result<std::pair<int, int>> read_size(const std::string& text) {
+    return read_pair(text, 'x', "size", "write width x height, such as 640x480");
+}
+
+/// Cube maps by the name of their sampler.
+using CubeImages = std::map<std::string, Image>;
+/// The environment that pictures are lit by: `folder`/diffuse.exr and `folder`/specular.exr as diffuseMap and
+/// specularMap, as gobo probe wrote them. Where `folder` is empty, those of the shipped environment `studio`,
+/// for a shininess of 48. None where no interface looks any up.
+[[nodiscard]] Result<CubeImages> load_environment(const World& world, const std::string& folder,
+                                                  const std::vector<Interface>& interfaces);
+[[nodiscard]] std::vector<Interface> interfaces_of(const Composition& composition,
+                                                   const Validated& validated);
+
+/// The default key of the family `depth`, which draws shadow maps; nothing where no key has shadows.
+[[nodiscard]] Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world,
+                                                                         const Family& family,
+                                                                         const Composition& composition);
+
+/// The first weights of a file; of the shipped data/study/weights.csv where the path is empty.
+[[nodiscard]] Result<study::Weights> load_weights(const World& world, const std::string& path = {});
+/// The plan of a file; where the path is empty that which came with the family, data/study/NAME.toml, or
+/// default_plan().
+[[nodiscard]] Result<study::StudyPlan> load_plan(const World& world, const Family& family,
+                                                 const std::string& path = {});
+/// One line that is written over, on a terminal only.
+[[nodiscard]] study::Progress progress_on_terminal(const World& world);
+
+/// Measures a combination of effects that a study does not hold: on the scenes of the family's plan, with the
+/// shipped weights, at the qualities that lie on a front of the study; without a study at every single
+/// choice.
+[[nodiscard]] Result<std::vector<StudiedKey>> measure_qualities(const World& world,
+                                                                const LoadedFamily& family,
+                                                                const StudiedEffects& studied,
+                                                                const Key& effects);
+
+/// The errors with what to do about them.
+[[nodiscard]] tl::unexpected<Diagnostics> with_help(Diagnostics errors, const std::string& help);
+
+/// -o of commands that keep what failed, and without it write nothing.
+[[nodiscard]] Option keep_option(std::string& folder, const std::string& what);
+
+}  // namespace gobo
