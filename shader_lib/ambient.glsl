@@ -28,7 +28,7 @@ BLOCK(20, Hemisphere) {
 } hemisphere;
 
 /// The ambient light that arrives at the surface.
-vec3 ambientLight() { return mix(hemisphere.ground, hemisphere.sky, skyShare(visibleNormal(), hemisphere.up)); }
+vec3 ambientLight() { return mix(hemisphere.ground, hemisphere.sky, skyWeight(visibleNormal(), hemisphere.up)); }
 
 #piece spherical_harmonics
 // A whole environment as nine coefficients: max(scale E(n), 0), E the irradiance polynomial (harmonics.glsl). A scale
@@ -37,7 +37,7 @@ vec3 ambientLight() { return mix(hemisphere.ground, hemisphere.sky, skyShare(vis
 #include <harmonics>
 
 /// The light that arrives at the surface.
-vec3 ambientLight() { return max(harmonics.scale * irradiance(), vec3(0.0)); }  // H-B1
+vec3 ambientLight() { return max(harmonics.scale * irradiance(), vec3(0.0)); }  // guard: negative lobe
 
 #piece image
 // A whole environment as a cube map of the diffuse light of a white surface (docs/probes.md): mix(color, D(n), weight).
@@ -47,7 +47,7 @@ vec3 ambientLight() { return max(harmonics.scale * irradiance(), vec3(0.0)); }  
 /// A_0, the part that the map has in the mixture, and the rotation from eye space to the map's axes.
 BLOCK(17, ImageLight) {
     vec3 color;
-    float share;
+    float weight;
     mat3 toMap;
 } imageLight;
 
@@ -57,6 +57,6 @@ SAMPLER(3, samplerCube) diffuseMap;
 /// The ambient light that arrives at the surface.
 vec3 ambientLight() {
     vec3 direction = imageLight.toMap * visibleNormal();
-    if (direction == vec3(0.0)) return imageLight.color;  // H-N1
-    return mix(imageLight.color, textureLod(diffuseMap, direction, 0.0).rgb, imageLight.share);
+    if (direction == vec3(0.0)) return imageLight.color;  // guard: zero vector
+    return mix(imageLight.color, textureLod(diffuseMap, direction, 0.0).rgb, imageLight.weight);
 }

@@ -1,15 +1,15 @@
 // Angles between unit vectors as 1 - cos, which keeps small angles apart: a float cosine tells none below 3.5e-4
 // radians from 0. A zero vector is at a right angle to all: exactly 1, as the dot product has it. Results 0 to 2.
 
-#piece versine
+#piece one_minus_cosine
 // 1 - a.b = |a - b|^2 / 2, relative error 2^-23 / angle near 0.
 // Source: Sinnott, Virtues of the Haversine, Sky and Telescope 68 (1984); |a - b| as in Lyon, Phong Shading
 //         Reformulation for Hardware Renderer Simplification (1993).
 /// 1 - cos of the angle between the unit vectors a and b.
-float versineBetween(vec3 a, vec3 b) {
+float oneMinusCosineBetween(vec3 a, vec3 b) {
     float cosine = dot(a, b);
     vec3 difference = a - b;
-    return cosine > 0.5 ? 0.5 * dot(difference, difference) : 1.0 - cosine;  // H-P4
+    return cosine > 0.5 ? 0.5 * dot(difference, difference) : 1.0 - cosine;  // guard: tiny angle
 }
 
 #piece halfway
@@ -22,13 +22,13 @@ float versineBetween(vec3 a, vec3 b) {
 
 /// 1 - cos of the angle between the unit vector `normal` and the half vector of the unit vectors to the light
 /// and to the viewer.
-float versineToHalfway(vec3 normal, vec3 toLight, vec3 toViewer) {
+float oneMinusCosineToHalfway(vec3 normal, vec3 toLight, vec3 toViewer) {
     vec3 sum = toLight + toViewer;
     float scale = vectorScale(sum);
     vec3 halfway = sum / scale;
-    float square = max(dot(halfway, halfway), 1e-30);  // H-N4
+    float square = max(dot(halfway, halfway), 1e-30);  // guard: opposed directions
     float cosine = dot(normal, halfway) * inversesqrt(square);
-    if (cosine < 0.8) return 1.0 - cosine;  // H-S3
+    if (cosine < 0.8) return 1.0 - cosine;  // guard: sharp highlight
     // Nearly opposed directions have an exact sum.
     vec3 beside = scale > 0.125 ? (cross(normal, toLight) + cross(normal, toViewer)) / scale
                                 : cross(normal, halfway);

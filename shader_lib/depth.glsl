@@ -31,7 +31,7 @@ DEPTH(depth_any) out float gl_FragDepth;
 /// Writes the fragment's depth.
 void writeDepth() {
     float moved = gl_FragCoord.z + depthOffset.offset;
-    gl_FragDepth = moved > 0.0 ? min(moved, 1.0) : 0.0;  // H-D1
+    gl_FragDepth = moved > 0.0 ? min(moved, 1.0) : 0.0;  // guard: depth outside 0 to 1
 }
 
 #piece greater
@@ -42,8 +42,8 @@ DEPTH(depth_greater) out float gl_FragDepth;
 
 /// Writes the fragment's depth.
 void writeDepth() {
-    float away = depthOffset.offset > 0.0 ? depthOffset.offset : 0.0;  // H-D2
-    gl_FragDepth = min(gl_FragCoord.z + away, 1.0);                    // H-D1
+    float away = depthOffset.offset > 0.0 ? depthOffset.offset : 0.0;  // guard: promised side
+    gl_FragDepth = min(gl_FragCoord.z + away, 1.0);                    // guard: depth outside 0 to 1
 }
 
 #piece less
@@ -54,8 +54,8 @@ DEPTH(depth_less) out float gl_FragDepth;
 
 /// Writes the fragment's depth.
 void writeDepth() {
-    float closer = depthOffset.offset < 0.0 ? depthOffset.offset : 0.0;  // H-D2
-    gl_FragDepth = max(gl_FragCoord.z + closer, 0.0);                    // H-D1
+    float closer = depthOffset.offset < 0.0 ? depthOffset.offset : 0.0;  // guard: promised side
+    gl_FragDepth = max(gl_FragCoord.z + closer, 0.0);                    // guard: depth outside 0 to 1
 }
 
 #piece offset

@@ -9,7 +9,7 @@
 // Lambert's law: the cosine.
 #include "diffuse/unlimited.glsl"
 
-/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+/// The diffuse reflection of a light that arrives at an angle of the given cosine to the normal.
 vec3 diffuseTerm(float cosine, vec3 light) { return cosine * light; }
 
 #piece toon
@@ -17,10 +17,10 @@ vec3 diffuseTerm(float cosine, vec3 light) { return cosine * light; }
 #include "diffuse/levels.glsl"
 #include "diffuse/unlimited.glsl"
 
-/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+/// The diffuse reflection of a light that arrives at an angle of the given cosine to the normal.
 vec3 diffuseTerm(float cosine, vec3 light) {
     float levels = float(toon.levels);
-    return (min(floor(levels * cosine), levels - 1.0) / levels) * light;  // H-T1
+    return (min(floor(levels * cosine), levels - 1.0) / levels) * light;  // guard: cosine above 1
 }
 
 #piece toon_ceil
@@ -28,10 +28,10 @@ vec3 diffuseTerm(float cosine, vec3 light) {
 #include "diffuse/levels.glsl"
 #include "diffuse/unlimited.glsl"
 
-/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+/// The diffuse reflection of a light that arrives at an angle of the given cosine to the normal.
 vec3 diffuseTerm(float cosine, vec3 light) {
     float levels = float(toon.levels);
-    return (min(ceil(levels * cosine), levels) / levels) * light;  // H-T1
+    return (min(ceil(levels * cosine), levels) / levels) * light;  // guard: cosine above 1
 }
 
 #piece toon_thresholds
@@ -42,7 +42,7 @@ vec3 diffuseTerm(float cosine, vec3 light) {
 /// The brightest light so far that gives a tone, per channel.
 vec3 brightestLight;
 
-/// Prepares the sum of a point's scattered light. To be called before the first light.
+/// Prepares the sum of a point's diffuse light. To be called before the first light.
 void beginDiffuse() { brightestLight = vec3(0.0); }
 
 /// The tone of a cosine.
@@ -52,14 +52,14 @@ float toneOf(float cosine) {
     return cosine > toon.thresholds.z ? toon.tones.z : 0.0;
 }
 
-/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+/// The diffuse reflection of a light that arrives at an angle of the given cosine to the normal.
 vec3 diffuseTerm(float cosine, vec3 light) {
     float tone = toneOf(cosine);
     if (tone > 0.0) brightestLight = max(brightestLight, light);
     return tone * light;
 }
 
-/// The scattered light that remains of the sum of all terms.
+/// The diffuse light that remains of the sum of all terms.
 vec3 limitedDiffuse(vec3 total) {
     float brightestTone = max(toon.tones.x, max(toon.tones.y, toon.tones.z));
     return min(total, brightestTone * brightestLight);
@@ -67,10 +67,10 @@ vec3 limitedDiffuse(vec3 total) {
 
 #piece unlimited
 // What Lambert's law and bands share: light adds up without bound.
-/// Prepares the sum of a point's scattered light: nothing.
+/// Prepares the sum of a point's diffuse light: nothing.
 void beginDiffuse() {}
 
-/// The scattered light that remains of the sum of all terms: all of it.
+/// The diffuse light that remains of the sum of all terms: all of it.
 vec3 limitedDiffuse(vec3 total) { return total; }
 
 #piece levels

@@ -10,15 +10,15 @@
 vec3 throughFog(vec3 radiance) { return radiance; }
 
 #piece linear
-// Thickens evenly: f = (far - z) / (far - near) within [0, 1]. near = far is a step: clear before, hidden from there on.
+// Thickens evenly: f = (end - z) / (end - start) within [0, 1]. start = end is a step: clear before, hidden from there on.
 #include <fog_distance>
 #include "fog/blend.glsl"
 
 /// The radiance that is seen.
 vec3 throughFog(vec3 radiance) {
-    float ahead = fog.far - fogDistance();
-    float depth = fog.far - fog.near;
-    if (depth == 0.0) return blendFog(radiance, ahead > 0.0 ? 1.0 : 0.0);  // H-F1
+    float ahead = fog.end - fogDistance();
+    float depth = fog.end - fog.start;
+    if (depth == 0.0) return blendFog(radiance, ahead > 0.0 ? 1.0 : 0.0);  // guard: fog that is a step
     return blendFog(radiance, clamp(ahead / depth, 0.0, 1.0));
 }
 
@@ -37,7 +37,7 @@ vec3 throughFog(vec3 radiance) { return blendFog(radiance, min(exp(-fog.density 
 
 /// The radiance that is seen.
 vec3 throughFog(vec3 radiance) {
-    float thickness = min(fog.density * fogDistance(), 16.0);  // H-F2: the square does not overflow
+    float thickness = min(fog.density * fogDistance(), 16.0);  // guard: the square does not overflow
     return blendFog(radiance, min(exp(-thickness * thickness), 1.0));
 }
 
@@ -46,11 +46,11 @@ vec3 throughFog(vec3 radiance) {
 BLOCK(3, Fog) {
     vec3 color;
     float density;
-    float near;
-    float far;
+    float start;
+    float end;
 } fog;
 
-/// The radiance that is seen, of a surface's radiance behind fog of which `clearness` gets through.
-vec3 blendFog(vec3 radiance, float clearness) {
-    return clearness > 1e-30 ? mix(fog.color, radiance, clearness) : fog.color;  // H-F3
+/// The radiance that is seen, of a surface's radiance of which the fog lets `fogFactor` through.
+vec3 blendFog(vec3 radiance, float fogFactor) {
+    return fogFactor > 1e-30 ? mix(fog.color, radiance, fogFactor) : fog.color;  // guard: infinite radiance
 }

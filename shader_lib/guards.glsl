@@ -10,7 +10,7 @@
 float vectorScale(vec3 v) {
     vec3 size = abs(v);
     float largest = max(size.x, max(size.y, size.z));
-    return max(largest, 1e-37);  // H-N1: the zero vector
+    return max(largest, 1e-37);  // guard: the zero vector
 }
 
 #piece unit_vector
@@ -19,13 +19,13 @@ float vectorScale(vec3 v) {
 
 /// The unit vector along v; zero where v is zero.
 vec3 unitVector(vec3 v) {
-    vec3 scaled = v / vectorScale(v);  // H-N2, H-N3: no square under- or overflows
-    return scaled * inversesqrt(max(dot(scaled, scaled), 1e-30));  // H-N1: 0 stays 0
+    vec3 scaled = v / vectorScale(v);  // guard: no square under- or overflows
+    return scaled * inversesqrt(max(dot(scaled, scaled), 1e-30));  // guard: 0 stays 0
 }
 
 #piece unit_vector/ordinary
 /// The unit vector along v; zero where v is zero.
-vec3 unitVector(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }  // H-N1: 0 stays 0
+vec3 unitVector(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }  // guard: 0 stays 0
 
 #piece vector_length
 #include "guards/full.glsl"
@@ -33,7 +33,7 @@ vec3 unitVector(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }  // H
 /// The length of v.
 float vectorLength(vec3 v) {
     float scale = vectorScale(v);
-    vec3 scaled = v / scale;  // H-F2: no square overflows
+    vec3 scaled = v / scale;  // guard: no square overflows
     return scale * sqrt(dot(scaled, scaled));
 }
 
@@ -47,14 +47,14 @@ float vectorLength(vec3 v) { return sqrt(dot(v, v)); }
 /// The unit vector along v in xyz (zero where v is zero), the length of v in w.
 vec4 directionAndLength(vec3 v) {
     float scale = vectorScale(v);
-    vec3 scaled = v / scale;  // H-N2, H-N3: no square under- or overflows
+    vec3 scaled = v / scale;  // guard: no square under- or overflows
     float square = dot(scaled, scaled);
-    return vec4(scaled * inversesqrt(max(square, 1e-30)), scale * sqrt(square));  // H-L1: 0 stays 0
+    return vec4(scaled * inversesqrt(max(square, 1e-30)), scale * sqrt(square));  // guard: 0 stays 0
 }
 
 #piece polar/ordinary
 /// The unit vector along v in xyz (zero where v is zero), the length of v in w.
 vec4 directionAndLength(vec3 v) {
     float square = dot(v, v);
-    return vec4(v * inversesqrt(max(square, 1e-30)), sqrt(square));  // H-L1: 0 stays 0
+    return vec4(v * inversesqrt(max(square, 1e-30)), sqrt(square));  // guard: 0 stays 0
 }

@@ -9,14 +9,14 @@
 // forms are 0.5, of a shorter normal too, so a rounding there decides nothing.
 #include <normal/length>
 
-/// The share of the sky.
-float skyShare(vec3 normal, vec3 up) {
+/// How much of the sky.
+float skyWeight(vec3 normal, vec3 up) {
     vec3 across = cross(normal, up);
-    float sine = sqrt(dot(across, across));  // H-N2: unlike length() it may underflow, 0 will do
-    return clamp(0.5 + 0.5 * sign(dot(normal, up)) * (normalLength(normal) - sine), 0.0, 1.0);  // H-I1
+    float sine = sqrt(dot(across, across));  // guard: unlike length() it may underflow, 0 will do
+    return clamp(0.5 + 0.5 * sign(dot(normal, up)) * (normalLength(normal) - sine), 0.0, 1.0);  // guard: rounded out of its range
 }
 
 #piece cosine
 // 0.5 + 0.5 cos(theta): smooth, cheap, off by up to 0.21, at 45 degrees.
-/// The share of the sky.
-float skyShare(vec3 normal, vec3 up) { return clamp(0.5 + 0.5 * dot(normal, up), 0.0, 1.0); }  // H-I1
+/// How much of the sky.
+float skyWeight(vec3 normal, vec3 up) { return clamp(0.5 + 0.5 * dot(normal, up), 0.0, 1.0); }  // guard: rounded out of its range

@@ -9,18 +9,18 @@
 void beginLightAmbient() {}
 
 /// Adds the ambient term of the next light: none.
-void addLightAmbient(float fading) {}
+void addLightAmbient(float byDistance) {}
 
-/// The radiance that the surface scatters of all ambient terms.
+/// The radiance that the surface reflects of all ambient terms.
 vec3 lightAmbientRadiance() { return vec3(0.0); }
 
 #piece each
 // Numbered as the lights are.
 #include "light_ambient/sum.glsl"
 
-/// A_l of each light: first the directional ones, then point, spot and homogeneous lights.
+/// A_l of each light: first the directional ones, then point, spot lights, and those of either kind.
 BLOCK(13, LightAmbients) {
-    vec3 colors[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS];
+    vec3 colors[DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + DIRECTIONAL_OR_POINT_LIGHTS];
 } lightAmbients;
 
 /// The number of the next light.
@@ -32,9 +32,9 @@ void beginLightAmbient() {
     nextLight = 0;
 }
 
-/// Adds the ambient term of the next light, weakened by `fading`.
-void addLightAmbient(float fading) {
-    addTerm(ambientOfLights, fading * lightAmbients.colors[nextLight]);
+/// Adds the ambient term of the next light, weakened by its distance.
+void addLightAmbient(float byDistance) {
+    addTerm(ambientOfLights, byDistance * lightAmbients.colors[nextLight]);
     ++nextLight;
 }
 
@@ -46,5 +46,5 @@ void addLightAmbient(float fading) {
 /// The ambient light so far.
 LightSum ambientOfLights;
 
-/// The radiance that the surface scatters of all ambient terms.
+/// The radiance that the surface reflects of all ambient terms.
 vec3 lightAmbientRadiance() { return tinted(material.ambient) * totalOf(ambientOfLights); }

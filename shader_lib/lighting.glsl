@@ -23,7 +23,7 @@ vec3 litSurface() {
 #include <material>
 #include <vertex_color>
 
-/// The radiance that the surface scatters of the ambient light.
+/// The ambient light that the surface reflects.
 vec3 ambientRadiance() { return tinted(material.ambient) * ambientLight(); }
 
 #piece attenuation
@@ -31,7 +31,7 @@ vec3 ambientRadiance() { return tinted(material.ambient) * ambientLight(); }
 // where the light is long gone.
 /// The factor by which a light at a distance d is weakened.
 float attenuation(vec3 coefficients, float d) {
-    float reach = min(d, 1e17);  // H-L3: the square does not overflow
+    float reach = min(d, 1e17);  // guard: the square does not overflow
     float denominator = coefficients.x + reach * (coefficients.y + reach * coefficients.z);
-    return 1.0 / max(denominator, 1e-18);  // H-L2
+    return 1.0 / max(denominator, 1e-18);  // guard: no attenuation
 }

@@ -5,7 +5,7 @@
 
 #piece uniform
 // One material for the whole draw.
-/// What the surface emits and how much it reflects, per colour channel. `strength` scales the highlight (S5).
+/// What the surface emits and how much it reflects, per colour channel. `strength` scales the highlight.
 BLOCK(1, Material) {
     vec3 emission;
     float shininess;
@@ -23,7 +23,7 @@ void chooseMaterial() {}
 #include <sides/material>
 #include "surface/material_index.glsl"
 
-/// What a surface emits and how much it reflects, per colour channel. `strength` scales the highlight (S5).
+/// What a surface emits and how much it reflects, per colour channel. `strength` scales the highlight.
 struct MaterialRow {
     vec3 emission;
     float shininess;

@@ -26,30 +26,30 @@ float normalLength(vec3 normal) { return 1.0; }
 /// The length.
 float normalLength(vec3 normal) { return length(normal); }
 
-#piece versine/renormalised
-#include "angle/versine.glsl"
+#piece one_minus_cosine/renormalised
+#include "angle/one_minus_cosine.glsl"
 
 /// 1 - cos of the angle between the unit vectors a and b.
-float highlightVersine(vec3 a, vec3 b) { return versineBetween(a, b); }
+float highlightOneMinusCosine(vec3 a, vec3 b) { return oneMinusCosineBetween(a, b); }
 
-#piece versine/interpolated
+#piece one_minus_cosine/interpolated
 // |a - b|^2 / 2 is not the same where one is shorter than 1.
 /// 1 - a.b.
-float highlightVersine(vec3 a, vec3 b) { return max(1.0 - dot(a, b), 0.0); }  // H-I1
+float highlightOneMinusCosine(vec3 a, vec3 b) { return max(1.0 - dot(a, b), 0.0); }  // guard: rounded out of its range
 
-#piece halfway_versine/renormalised
+#piece halfway_one_minus_cosine/renormalised
 #include "angle/halfway.glsl"
 
 /// 1 - cos of the angle between `normal` and the half vector of the directions to the light and the viewer.
-float halfwayVersine(vec3 normal, vec3 toLight, vec3 toViewer) {
-    return versineToHalfway(normal, toLight, toViewer);
+float halfwayOneMinusCosine(vec3 normal, vec3 toLight, vec3 toViewer) {
+    return oneMinusCosineToHalfway(normal, toLight, toViewer);
 }
 
-#piece halfway_versine/interpolated
+#piece halfway_one_minus_cosine/interpolated
 #include <guards/unit_vector>
-#include <normal/versine>
+#include <normal/one_minus_cosine>
 
 /// 1 - n.h of the half vector of the directions to the light and the viewer.
-float halfwayVersine(vec3 normal, vec3 toLight, vec3 toViewer) {
-    return highlightVersine(normal, unitVector(toLight + toViewer));
+float halfwayOneMinusCosine(vec3 normal, vec3 toLight, vec3 toViewer) {
+    return highlightOneMinusCosine(normal, unitVector(toLight + toViewer));
 }

@@ -13,17 +13,17 @@
 void addPointLights() {
     for (int i = 0; i < POINT_LIGHTS; ++i) {
         LightRay ray = pointRay(i);
-        float share = ray.share;
+        float weight = ray.weight;
 #if POINT_SHADOWS > 0
-        if (i < POINT_SHADOWS) share *= pointVisibility(i);
+        if (i < POINT_SHADOWS) weight *= pointVisibility(i);
 #endif
-        addLightAmbient(ray.fading);
-        addLight(ray.toLight, share * pointLights.lights[i].color);
+        addLightAmbient(ray.attenuation);
+        addLight(ray.toLight, weight * pointLights.lights[i].color);
     }
 }
 
 #piece lights
-/// `position` is in eye space, its w is 1 (L6); `attenuation` holds k_c, k_l, k_q.
+/// `position` is in eye space, its w is 1; `attenuation` holds k_c, k_l, k_q.
 struct PointLight {
     vec4 position;
     vec3 color;

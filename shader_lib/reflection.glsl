@@ -16,7 +16,7 @@ vec3 reflectionRadiance() { return vec3(0.0); }
 /// How much of the map is seen, and the rotation from eye space to its axes.
 BLOCK(18, Reflection) {
     mat3 toMap;
-    float share;
+    float weight;
 } reflection;
 
 /// S: what a surface of the material's shininess shows by the mirrored direction to the viewer. One level.
@@ -28,6 +28,6 @@ vec3 reflectionRadiance() {
     vec3 viewer = towardViewer();
     vec3 direction = reflection.toMap * reflect(-viewer, normal);
     bool isKnown = normal != vec3(0.0) && viewer != vec3(0.0) && direction != vec3(0.0);
-    if (!isKnown) return vec3(0.0);  // H-N1
-    return (reflection.share * material.strength) * material.specular * textureLod(specularMap, direction, 0.0).rgb;
+    if (!isKnown) return vec3(0.0);  // guard: zero vector
+    return (reflection.weight * material.strength) * material.specular * textureLod(specularMap, direction, 0.0).rgb;
 }

@@ -24,7 +24,7 @@ vec3 surfaceRadiance() { return litSurface(); }
 #include <sides/radiance>
 
 /// The radiance that leaves the surface towards the viewer, before fog.
-vec3 surfaceRadiance() { return max(interpolatedRadiance(), vec3(0.0)); }  // H-I1
+vec3 surfaceRadiance() { return max(interpolatedRadiance(), vec3(0.0)); }  // guard: rounded out of its range
 
 #piece flat.frag
 // At each vertex: a face shows the radiance of its provoking vertex, the last one unless the application chooses another.
@@ -38,11 +38,11 @@ vec3 surfaceRadiance() { return faceRadiance(); }
 #piece light_ray
 // Attenuation and weight 0 to 1e18. A direction of zero is a light from nowhere: it gives nothing.
 /// The direction to the light, unit where the key has directions made so (zero: from nowhere); its attenuation,
-/// by which its own ambient light fades; and the share of its light that arrives, its cone counted in.
+/// by which its own ambient light is weakened; and the weight of its light that arrives, its cone counted in.
 struct LightRay {
     vec3 toLight;
-    float fading;
-    float share;
+    float attenuation;
+    float weight;
 };
 
 #piece light_number
@@ -55,8 +55,8 @@ int lightNumber;
 #include <normal>
 #include "shading/light_ray.glsl"
 
-/// An interpolated ray, its direction as the key has normals. What the cone leaves is not told from fading.
+/// An interpolated ray, its direction as the key has normals. What the cone leaves is not told from attenuation.
 LightRay interpolatedRay(vec4 ray) {
-    float share = max(ray.w, 0.0);  // H-I1
-    return LightRay(shadingDirection(ray.xyz), share, share);
+    float weight = max(ray.w, 0.0);  // guard: rounded out of its range
+    return LightRay(shadingDirection(ray.xyz), weight, weight);
 }

@@ -54,11 +54,11 @@ vec2 shadowMapSize() { return vec2(textureSize(shadowMaps, 0).xy); }
 // Only what lies within the map is divided by w, so no quotient leaves 0 to 1; nothing lies between 0 and a negative w.
 #include <shadow_filter>
 
-/// The share of the light that reaches what projects to the place, before the division by w.
+/// How much of the light reaches what projects to the place, before the division by w.
 float visibility(vec4 projected, float layer) {
     float w = projected.w;
     bool isBeside = any(lessThan(projected.xyz, vec3(0.0))) || any(greaterThan(projected.xyz, vec3(w)));
-    if (isBeside || w == 0.0) return 1.0;  // H-W1
+    if (isBeside || w == 0.0) return 1.0;  // guard: behind the light, or beside its map
     return filteredVisibility(projected.xyz / w, layer);
 }
 
@@ -69,7 +69,7 @@ float visibility(vec4 projected, float layer) {
 #include "shadow/visibility.glsl"
 #include "surface/position.glsl"
 
-/// The share of the light that reaches the surface.
+/// How much of the light reaches the surface.
 float mapVisibility(Shadow shadow) { return visibility(shadow.toMap * vec4(surfacePosition(), 1.0), shadow.layer); }
 
 #piece six_maps
@@ -79,7 +79,7 @@ float mapVisibility(Shadow shadow) { return visibility(shadow.toMap * vec4(surfa
 #include "shadow/visibility.glsl"
 #include "surface/position.glsl"
 
-/// The share of the light that reaches the surface.
+/// How much of the light reaches the surface.
 float cubeVisibility(Shadow shadow) {
     vec4 ray = cubeFace((shadow.toMap * vec4(surfacePosition(), 1.0)).xyz);
     vec2 place = 0.5 * ray.z + shadow.spread * ray.xy;

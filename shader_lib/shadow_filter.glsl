@@ -7,7 +7,7 @@
 #include "shadow/comparison.glsl"
 #include "shadow/map_size.glsl"
 
-/// The share of the light that gets through.
+/// How much of the light gets through.
 float filteredVisibility(vec3 place, float layer) {
     vec2 size = shadowMapSize();
     vec2 among = place.xy * size - 0.5;
@@ -27,7 +27,7 @@ float filteredVisibility(vec3 place, float layer) {
 // rule; with GL_NEAREST it is one comparison.
 #include "shadow/comparison.glsl"
 
-/// The share of the light that gets through.
+/// How much of the light gets through.
 float filteredVisibility(vec3 place, float layer) { return compareDepth(place, layer); }
 
 #piece nearest
@@ -35,7 +35,7 @@ float filteredVisibility(vec3 place, float layer) { return compareDepth(place, l
 #include "shadow/comparison.glsl"
 #include "shadow/map_size.glsl"
 
-/// The share of the light that gets through: all or nothing.
+/// How much of the light gets through: all or nothing.
 float filteredVisibility(vec3 place, float layer) {
     vec2 size = shadowMapSize();
     vec2 texel = min(floor(place.xy * size), size - 1.0);

@@ -15,7 +15,7 @@ vec3 highlightRadiance() { return vec3(0.0); }
 
 #piece phong
 // Phong: max(r.v, 0)^m with r = 2 (n.l) n - l. Source: Phong, Illumination for Computer Generated Pictures, CACM 18 (1975).
-#include <normal/versine>
+#include <normal/one_minus_cosine>
 #include <power/highlight>
 #include <viewer>
 #include "specular/highlights.glsl"
@@ -26,13 +26,13 @@ vec3 toViewer;
 /// Prepares what all highlights share. To be called before the first light.
 void beginHighlights() {
     toViewer = towardViewer();
-    reflected = emptySum();
+    specularSum = emptySum();
 }
 
 /// Adds the highlight of a light from the direction `toLight`, unit where the key has directions made so.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
     vec3 mirrored = reflect(-toLight, normal);
-    addTerm(reflected, highlightPower(highlightVersine(mirrored, toViewer), material.shininess) * light);
+    addTerm(specularSum, highlightPower(highlightOneMinusCosine(mirrored, toViewer), material.shininess) * light);
 }
 
 #piece blinn
@@ -46,21 +46,21 @@ void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
 /// Prepares what all highlights share. To be called before the first light.
 void beginHighlights() {
     beginHalfways();
-    reflected = emptySum();
+    specularSum = emptySum();
 }
 
 /// Adds the highlight of a light from the direction `toLight`, unit where the key has directions made so.
 void addHighlight(vec3 normal, vec3 toLight, vec3 light) {
-    float versine = versineOfHighlight(normal, toLight);
-    addTerm(reflected, highlightPower(versine, material.shininess) * light);
+    float oneMinusCosine = oneMinusCosineOfHighlight(normal, toLight);
+    addTerm(specularSum, highlightPower(oneMinusCosine, material.shininess) * light);
 }
 
 #piece highlights
 #include <light_sum>
 #include <material>
 
-/// The reflected light so far.
-LightSum reflected;
+/// The specular light so far.
+LightSum specularSum;
 
 /// The radiance of all highlights.
-vec3 highlightRadiance() { return (material.strength * material.specular) * totalOf(reflected); }
+vec3 highlightRadiance() { return (material.strength * material.specular) * totalOf(specularSum); }

@@ -14,27 +14,27 @@
 void addSpotLights() {
     for (int i = 0; i < SPOT_LIGHTS; ++i) {
         LightRay ray = spotRay(i);
-        float share = ray.share;
+        float weight = ray.weight;
 #if SPOT_SHADOWS > 0
-        if (i < SPOT_SHADOWS) share *= spotVisibility(i);
+        if (i < SPOT_SHADOWS) weight *= spotVisibility(i);
 #endif
-        addLightAmbient(ray.fading);  // L9: outside the cone too
-        addLight(ray.toLight, share * spotLights.lights[i].color);
+        addLightAmbient(ray.attenuation);  // outside the cone too
+        addLight(ray.toLight, weight * spotLights.lights[i].color);
     }
 }
 
 #piece lights
-/// `position` is in eye space, its w is 1 (L6); `axis` is the unit vector along which the light shines. The
-/// cone is given by the versines of its half angles, 1 - cos(angle), which hold an angle of 1e-4 as well as
+/// `position` is in eye space, its w is 1; `axis` is the unit vector along which the light shines. The
+/// cone is given by 1 - cos of its half angles, which hold an angle of 1e-4 as well as
 /// one of 90 degrees; `attenuation` holds k_c, k_l, k_q.
 struct SpotLight {
     vec4 position;
     vec3 color;
     float exponent;
     vec3 attenuation;
-    float innerVersine;
+    float innerOneMinusCosine;
     vec3 axis;
-    float outerVersine;
+    float outerOneMinusCosine;
 };
 
 BLOCK(6, SpotLights) {
@@ -52,16 +52,16 @@ BLOCK(6, SpotLights) {
 #include <spot_edge>
 #include "power/exact.glsl"
 
-/// The edge at a versine: its order of questions leaves the division only where inner < outer.
-float coneEdge(float versine, float innerVersine, float outerVersine) {
-    if (versine >= outerVersine) return 0.0;
-    if (versine <= innerVersine) return 1.0;  // H-P1
-    float fade = (outerVersine - versine) / (outerVersine - innerVersine);
+/// The edge: its order of questions leaves the division only where inner < outer.
+float coneEdge(float oneMinusCosine, float innerOneMinusCosine, float outerOneMinusCosine) {
+    if (oneMinusCosine >= outerOneMinusCosine) return 0.0;
+    if (oneMinusCosine <= innerOneMinusCosine) return 1.0;  // guard: hard edge
+    float fade = (outerOneMinusCosine - oneMinusCosine) / (outerOneMinusCosine - innerOneMinusCosine);
     return fade * fade;
 }
 
-/// The share of the light on the unit vector `ray`, which leads away from the light.
-float coneFactor(vec3 axis, vec3 ray, float innerVersine, float outerVersine, float exponent) {
-    float versine = min(coneVersine(axis, ray), 1.9999998);  // H-P2: 180 degrees holds all directions
-    return coneEdge(versine, innerVersine, outerVersine) * cosinePower(versine, exponent);
+/// How much of the light there is on the unit vector `ray`, which leads away from the light.
+float coneFactor(vec3 axis, vec3 ray, float innerOneMinusCosine, float outerOneMinusCosine, float exponent) {
+    float oneMinusCosine = min(coneOneMinusCosine(axis, ray), 1.9999998);  // guard: 180 degrees holds all directions
+    return coneEdge(oneMinusCosine, innerOneMinusCosine, outerOneMinusCosine) * cosinePower(oneMinusCosine, exponent);
 }

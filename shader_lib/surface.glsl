@@ -56,7 +56,7 @@ vec4 surfaceColor() { return color; }
 
 #piece color.frag
 /// The colour, linear, and its alpha, 0 to 1.
-vec4 surfaceColor() { return max(vertexColor, vec4(0.0)); }  // H-I1
+vec4 surfaceColor() { return max(vertexColor, vec4(0.0)); }  // guard: rounded out of its range
 
 #piece texture_coordinate.vert
 ATTRIBUTE(4) vec2 texcoord;
@@ -85,7 +85,7 @@ int surfaceMaterialIndex() { return flatMaterialIndex; }
 #include "surface/transform.vert.glsl"
 
 /// -1 where the model is mirrored, else 1.
-float handednessOfModel() { return determinant(mat3(transform.modelView)) < 0.0 ? -1.0 : 1.0; }  // H-G2
+float handednessOfModel() { return determinant(mat3(transform.modelView)) < 0.0 ? -1.0 : 1.0; }  // guard: mirrored model
 
 #piece side.vert
 // Both are shaded, one after the other: the fragment stage chooses.
@@ -97,4 +97,4 @@ bool isBackVisible() { return backIsAsked; }
 
 #piece side.frag
 /// Whether the surface's back is seen.
-bool isBackVisible() { return gl_FrontFacing != (handedness > 0.0); }  // H-G2
+bool isBackVisible() { return gl_FrontFacing != (handedness > 0.0); }  // guard: mirrored model

@@ -4,7 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: Color.rgb * scatteredLight + reflectedLight, Color.a.
 
 #piece none
-/// The reflectivity that scatters light.
+/// The reflectivity of ambient and diffuse light.
 vec3 tinted(vec3 reflectivity) { return reflectivity; }
 
 #piece alpha/none
@@ -14,7 +14,7 @@ float surfaceAlpha() { return 1.0; }
 #piece modulate
 #include "surface/color.glsl"
 
-/// The reflectivity that scatters light.
+/// The reflectivity of ambient and diffuse light.
 vec3 tinted(vec3 reflectivity) { return surfaceColor().rgb * reflectivity; }
 
 #piece alpha/modulate

@@ -1,4 +1,4 @@
-// The vertex stage of every lit surface: places the vertex and hands on what the fragment stage reads.
+// The vertex stage of every lit surface: places the vertex and writes what the fragment stage reads.
 #include "surface/position.glsl"
 #include <varyings>
 

@@ -21,7 +21,7 @@ struct PartState {
 };
 
 /// 1 - cos(angle): how lit takes the half angles of a cone.
-float versine(float angle) {
+float one_minus_cosine(float angle) {
     const float half = std::sin(angle / 2);
     return 2 * half * half;
 }
@@ -58,8 +58,8 @@ void add(const Light& light, const glm::mat4& view, LightBlocks& blocks) {
             to.color = light.color;
             to.attenuation = light.attenuation;
             to.exponent = light.exponent;
-            to.innerVersine = versine(light.inner_angle);
-            to.outerVersine = versine(light.outer_angle);
+            to.innerOneMinusCosine = one_minus_cosine(light.inner_angle);
+            to.outerOneMinusCosine = one_minus_cosine(light.outer_angle);
         }
     }
 }

@@ -14,7 +14,7 @@ using gobo::scene::LightKind;
 using gobo::scene::PlacedLight;
 
 /// 1 - cos(angle), which holds small angles as well as large ones.
-float versine(double angle) {
+float one_minus_cosine(double angle) {
     const double sine = std::sin(angle / 2);
     return static_cast<float>(2 * sine * sine);
 }
@@ -42,8 +42,8 @@ void fill(const SeenLight& seen, lit::SpotLight& to) {
     to.color = glm::vec3(seen.light.color);
     to.attenuation = glm::vec3(seen.light.attenuation);
     to.exponent = static_cast<float>(seen.light.exponent);
-    to.innerVersine = versine(seen.light.inner_angle);
-    to.outerVersine = versine(seen.light.outer_angle);
+    to.innerOneMinusCosine = one_minus_cosine(seen.light.inner_angle);
+    to.outerOneMinusCosine = one_minus_cosine(seen.light.outer_angle);
     to.axis = seen.shines_along;
 }
 

@@ -29,8 +29,8 @@ lit::Fog_block fog_block(const gobo::scene::Fog& fog) {
     lit::Fog_block block{};
     block.color = glm::vec3(fog.color);
     block.density = static_cast<float>(fog.density);
-    block.near_ = static_cast<float>(fog.near);
-    block.far_ = static_cast<float>(fog.far);
+    block.start = static_cast<float>(fog.near);
+    block.end = static_cast<float>(fog.far);
     return block;
 }
 

@@ -3,5 +3,5 @@
 #include "shadow/one_map.glsl"
 #include "shadow/parameters.glsl"
 
-/// The share of directional light `i` that reaches the surface.
+/// How much of directional light `i` reaches the surface.
 float directionalVisibility(int i) { return mapVisibility(shadows.shadows[i]); }

@@ -4,7 +4,7 @@
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Multiple Lights and Materials.
 
 #include <directional>
-#include <homogeneous>
+#include <directional_or_point>
 #include <material>
 #include <point>
 #include <reflection>
@@ -15,7 +15,7 @@
 vec3 litSurface() {
     chooseMaterial();
     vec3 radiance = material.emission + ambientRadiance() + reflectionRadiance();
-#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS > 0
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + DIRECTIONAL_OR_POINT_LIGHTS > 0
     beginResponse();
 #endif
 #if DIRECTIONAL_LIGHTS > 0
@@ -27,10 +27,10 @@ vec3 litSurface() {
 #if SPOT_LIGHTS > 0
     addSpotLights();
 #endif
-#if HOMOGENEOUS_LIGHTS > 0
-    addHomogeneousLights();
+#if DIRECTIONAL_OR_POINT_LIGHTS > 0
+    addDirectionalOrPointLights();
 #endif
-#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + HOMOGENEOUS_LIGHTS > 0
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS + DIRECTIONAL_OR_POINT_LIGHTS > 0
     radiance += responseRadiance();
 #endif
     return radiance;

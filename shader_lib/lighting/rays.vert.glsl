@@ -6,12 +6,12 @@
 #include <spot/ray>
 
 #if POINT_LIGHTS + SPOT_LIGHTS > 0
-/// Once raysToLights() has been called: point lights first, the unit vector to the light in xyz, the share of
+/// Once raysToLights() has been called: point lights first, the unit vector to the light in xyz, the weight of
 /// its light that arrives in w.
 vec4 rayToLight[POINT_LIGHTS + SPOT_LIGHTS];
 
-/// A ray as it is handed on.
-vec4 packedRay(LightRay ray) { return vec4(ray.toLight, ray.share); }
+/// A ray as the vertex stage writes it.
+vec4 packedRay(LightRay ray) { return vec4(ray.toLight, ray.weight); }
 
 /// Finds the rays to all local lights, once for all who ask.
 vec4[POINT_LIGHTS + SPOT_LIGHTS] raysToLights() {

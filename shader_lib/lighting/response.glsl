@@ -5,7 +5,7 @@
 // Edges:  a light gives exactly nothing unless n.l > 0: neither from behind nor where there is no normal or direction.
 
 #include <diffuse>
-#include <intensity>
+#include <n_dot_l>
 #include <light_ambient>
 #include <material>
 #include <sides>
@@ -13,15 +13,15 @@
 #include <vertex_color>
 #include <light_sum>
 
-/// The normal that the lights are weighed against, and the scattered light so far.
+/// The normal that the lights are weighed against, and the diffuse light so far.
 vec3 litNormal;
-LightSum scattered;
+LightSum diffuseSum;
 
 /// Prepares what all lights share. To be called before the first light.
 void beginResponse() {
     litNormal = visibleNormal();
-    scattered = emptySum();
-    beginIntensities();
+    diffuseSum = emptySum();
+    beginCosines();
     beginDiffuse();
     beginLightAmbient();
     beginHighlights();
@@ -29,15 +29,15 @@ void beginResponse() {
 
 /// Adds a light that arrives with radiance `light` from the unit direction `toLight` (zero: from nowhere).
 void addLight(vec3 toLight, vec3 light) {
-    float cosine = nextIntensity(litNormal, toLight);
-    if (cosine > 0.0) {  // H-S4; NaN does not pass
-        addTerm(scattered, diffuseTerm(cosine, light));
+    float cosine = nextCosine(litNormal, toLight);
+    if (cosine > 0.0) {  // guard: light from behind; NaN does not pass
+        addTerm(diffuseSum, diffuseTerm(cosine, light));
         addHighlight(litNormal, toLight, light);
     }
 }
 
 /// The radiance that the surface gives back of all lights added.
 vec3 responseRadiance() {
-    vec3 diffuse = tinted(material.diffuse) * limitedDiffuse(totalOf(scattered));
+    vec3 diffuse = tinted(material.diffuse) * limitedDiffuse(totalOf(diffuseSum));
     return diffuse + highlightRadiance() + lightAmbientRadiance();
 }

@@ -3,5 +3,5 @@
 #include "shadow/parameters.glsl"
 #include "shadow/six_maps.glsl"
 
-/// The share of point light `i` that reaches the surface.
+/// How much of point light `i` reaches the surface.
 float pointVisibility(int i) { return cubeVisibility(shadows.shadows[DIRECTIONAL_SHADOWS + SPOT_SHADOWS + i]); }

@@ -7,16 +7,16 @@
 // Edges:  x^0 is 1 for every x, 0^0 too; the base is never negative nor above 1; at a large exponent what remains is the
 //         rounding of the directions, about 2 sqrt(m) 2^-24 / |l + v|.
 
-/// log(1 - versine) for a versine in [0, 1).
-float logarithmOfCosine(float versine) {
-    if (versine > 0.1875) return log(1.0 - versine);
-    float z = versine / (2.0 - versine);
+/// log(1 - oneMinusCosine), for 0 to 1.
+float logarithmOfCosine(float oneMinusCosine) {
+    if (oneMinusCosine > 0.1875) return log(1.0 - oneMinusCosine);
+    float z = oneMinusCosine / (2.0 - oneMinusCosine);
     float square = z * z;
-    return -2.0 * z * (1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0))));  // H-S3
+    return -2.0 * z * (1.0 + square * (1.0 / 3.0 + square * (0.2 + square * (1.0 / 7.0))));  // guard: sharp highlight
 }
 
-/// max(1 - versine, 0) to the power of `exponent`.
-float cosinePower(float versine, float exponent) {
-    if (versine < 1.0) return exp(exponent * logarithmOfCosine(versine));  // H-S2, H-P3
-    return exponent > 0.0 ? 0.0 : 1.0;  // H-S1
+/// max(1 - oneMinusCosine, 0) to the power of `exponent`.
+float cosinePower(float oneMinusCosine, float exponent) {
+    if (oneMinusCosine < 1.0) return exp(exponent * logarithmOfCosine(oneMinusCosine));  // guard: base below 0 or behind the light
+    return exponent > 0.0 ? 0.0 : 1.0;  // guard: 0 to the power of 0
 }

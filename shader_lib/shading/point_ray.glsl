@@ -12,8 +12,8 @@
 /// The ray to light number i.
 LightRay pointRay(int i) {
     vec4 ray = directionAndLength(pointLights.lights[i].position.xyz - surfacePosition());
-    float fading = attenuation(pointLights.lights[i].attenuation, ray.w);
-    return LightRay(ray.xyz, fading, fading);
+    float byDistance = attenuation(pointLights.lights[i].attenuation, ray.w);
+    return LightRay(ray.xyz, byDistance, byDistance);
 }
 
 #piece hybrid.frag

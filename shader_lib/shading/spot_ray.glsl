@@ -13,9 +13,9 @@
 LightRay spotRay(int i) {
     SpotLight light = spotLights.lights[i];
     vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
-    float cone = coneFactor(light.axis, -ray.xyz, light.innerVersine, light.outerVersine, light.exponent);
-    float fading = attenuation(light.attenuation, ray.w);
-    return LightRay(ray.xyz, fading, cone * fading);
+    float cone = coneFactor(light.axis, -ray.xyz, light.innerOneMinusCosine, light.outerOneMinusCosine, light.exponent);
+    float byDistance = attenuation(light.attenuation, ray.w);
+    return LightRay(ray.xyz, byDistance, cone * byDistance);
 }
 
 #piece hybrid.frag

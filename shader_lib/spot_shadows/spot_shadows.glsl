@@ -3,5 +3,5 @@
 #include "shadow/one_map.glsl"
 #include "shadow/parameters.glsl"
 
-/// The share of spot light `i` that reaches the surface.
+/// How much of spot light `i` reaches the surface.
 float spotVisibility(int i) { return mapVisibility(shadows.shadows[DIRECTIONAL_SHADOWS + i]); }

@@ -55,8 +55,8 @@ Invocations points(std::size_t count) {
         invocations.values[name + ".color"] = {1, 0.75, 0.5};
         invocations.values[name + ".falloff"] = {0.25};
     }
-    invocations.values["Fog.near"] = {0.5};
-    invocations.values["Fog.far"] = {2};
+    invocations.values["Fog.start"] = {0.5};
+    invocations.values["Fog.end"] = {2};
     return invocations;
 }
 

@@ -15,8 +15,8 @@ const Inputs kNoLight = {{"DirectionalLights.lights[].color", {0, 0, 0}},
                          {"SpotLights.lights[].color", {0, 0, 0}}};
 const Inputs kNoHighlight = {{"Material.strength", {0}}};
 /// All around, and as bright everywhere.
-const Inputs kWideCone = {{"SpotLights.lights[].innerVersine", {2}},
-                          {"SpotLights.lights[].outerVersine", {2}},
+const Inputs kWideCone = {{"SpotLights.lights[].innerOneMinusCosine", {2}},
+                          {"SpotLights.lights[].outerOneMinusCosine", {2}},
                           {"SpotLights.lights[].exponent", {0}}};
 const Inputs kOnlyLights = {{"Material.emission", {0, 0, 0}}, {"Ambient.color", {0, 0, 0}}};
 constexpr std::array<double, 4> kFogColor = {0.5, 0.25, 0.75, 1};
@@ -31,8 +31,9 @@ const std::vector<std::string> kQuality = {"directional", "point",  "spot",     
 const std::vector<std::string> kHighlightQuality = {"directional", "point", "spot",  "specular",
                                                     "shading",     "power", "viewer"};
 
-Inputs cone(double versine) {
-    return {{"SpotLights.lights[].innerVersine", {versine}}, {"SpotLights.lights[].outerVersine", {versine}}};
+Inputs cone(double one_minus_cosine) {
+    return {{"SpotLights.lights[].innerOneMinusCosine", {one_minus_cosine}},
+            {"SpotLights.lights[].outerOneMinusCosine", {one_minus_cosine}}};
 }
 
 /// A point on the plane z = -5 at an angle (radians) from the axis of the spot light.
@@ -49,7 +50,7 @@ Inputs light_from(double x, double y, double z) {
 }
 
 Inputs fog_from_to(double near, double far) {
-    return {{"Fog.near", {near}}, {"Fog.far", {far}}};
+    return {{"Fog.start", {near}}, {"Fog.end", {far}}};
 }
 
 const std::vector<std::string> kShadowFeatures = {
@@ -102,7 +103,7 @@ std::vector<Inputs> bright_surfaces() {
 }
 
 const double kTiny = 1e-4;  // radians
-const double kTinyVersine = 2 * std::sin(kTiny / 2) * std::sin(kTiny / 2);
+const double kTinyOneMinusCosine = 2 * std::sin(kTiny / 2) * std::sin(kTiny / 2);
 
 const std::vector<Case> kCases = {
     {"H_N1_zero_normal", "directional + point + spot > 0", {{{"normal", {0, 0, 0}}}}, same_as(kNoLight)},
@@ -113,14 +114,14 @@ const std::vector<Case> kCases = {
     {"H_N1_no_normal_to_look_up",
      "ambient == image",
      {{{"normal", {0, 0, 0}}}, {{"ImageLight.toMap", {0, 0, 0, 0, 0, 0, 0, 0, 0}}}},
-     same_as({{"ImageLight.share", {0}}}),
+     same_as({{"ImageLight.weight", {0}}}),
      {"ambient", "reflection", "shading"}},
     {"H_N1_nothing_to_mirror",
      "reflection == image",
      {{{"normal", {0, 0, 0}}},
       {{"position", {0, 0, 0}}},
       {{"Reflection.toMap", {0, 0, 0, 0, 0, 0, 0, 0, 0}}}},
-     same_as({{"Reflection.share", {0}}}),
+     same_as({{"Reflection.weight", {0}}}),
      {"ambient", "reflection", "shading"}},
     {"H_N1_viewer_at_the_surface", "", {{{"position", {0, 0, 0}}}}, near_double(kByDirection)},
     {"H_N2_short_normal",
@@ -199,11 +200,11 @@ const std::vector<Case> kCases = {
     // 0.3 % of the angle to either side of the edge
     {"H_P4_tiny_cone_inside",
      "spot > 0",
-     {with(cone(kTinyVersine), off_axis(kTiny * 0.997))},
+     {with(cone(kTinyOneMinusCosine), off_axis(kTiny * 0.997))},
      same_as(kWideCone)},
     {"H_P4_tiny_cone_outside",
      "spot > 0",
-     {with(cone(kTinyVersine), off_axis(kTiny * 1.003))},
+     {with(cone(kTinyOneMinusCosine), off_axis(kTiny * 1.003))},
      same_as(kNoLight)},
     {"H_W1_behind_the_light",
      "directional_shadows + spot_shadows > 0",
@@ -256,14 +257,14 @@ const std::vector<Case> kCases = {
      same_as(kNoLight),
      kQuality},
     {"H_P2_cone_of_0_degrees_by_cosine",
-     "spot > 0 && spot_edge != versine",
+     "spot > 0 && spot_edge != one_minus_cosine",
      {cone(0), with(cone(0), off_axis(0.3)),
       with(cone(0), {{"SpotLights.lights[].axis", {0, 0, -1.000001}}})},
      same_as(kNoLight),
      kQuality},
     {"H_P4_tiny_cone_by_angle",
      "spot > 0 && spot_edge == angle",
-     {with(cone(kTinyVersine), off_axis(kTiny * 1.003))},
+     {with(cone(kTinyOneMinusCosine), off_axis(kTiny * 1.003))},
      same_as(kNoLight),
      kQuality},
     {"H_S1_shininess_zero_without_logarithm",

@@ -1,4 +1,4 @@
-// The guards of the shader library: each line of a piece that a comment marks `// H-XX`.
+// The guards of the shader library: each line of a piece that a comment marks `// guard: ...`.
 #pragma once
 
 #include <ostream>

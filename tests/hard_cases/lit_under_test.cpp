@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
-#include "lab/evaluate/images.hpp"
+#include "core/file_system.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
+#include "lab/evaluate/images.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 
@@ -40,14 +40,14 @@ const Inputs& ordinary_inputs() {
         {"SpotLights.lights[].color", {1, 1, 1}},
         {"SpotLights.lights[].exponent", {0}},
         {"SpotLights.lights[].attenuation", {1, 0, 0}},
-        {"SpotLights.lights[].innerVersine", {0.25}},
-        {"SpotLights.lights[].outerVersine", {0.5}},
+        {"SpotLights.lights[].innerOneMinusCosine", {0.25}},
+        {"SpotLights.lights[].outerOneMinusCosine", {0.5}},
         {"SpotLights.lights[].axis", {0, 0, -1}},
         {"Toon.levels", {4}},
         {"Fog.color", {0.5, 0.25, 0.75}},
         {"Fog.density", {0.1}},
-        {"Fog.near", {1}},
-        {"Fog.far", {9}},
+        {"Fog.start", {1}},
+        {"Fog.end", {9}},
         {"DepthOffset.offset", {0.125}},
         // Every point is looked up in the middle of a directional or spot light's map, and on a point light's
         // +x.
@@ -63,9 +63,9 @@ const Inputs& ordinary_inputs() {
         {"gl_FrontFacing", {1}},
         {"ToonThresholds.thresholds", {0.95, 0.5, 0.25}},
         {"ToonThresholds.tones", {1, 0.625, 0.375}},
-        {"HomogeneousLights.lights[].position", {0, 0, 1, 0}},
-        {"HomogeneousLights.lights[].color", {1, 1, 1}},
-        {"HomogeneousLights.lights[].attenuation", {1, 0, 0}},
+        {"DirectionalOrPointLights.lights[].position", {0, 0, 1, 0}},
+        {"DirectionalOrPointLights.lights[].color", {1, 1, 1}},
+        {"DirectionalOrPointLights.lights[].attenuation", {1, 0, 0}},
         {"LightAmbients.colors[]", {0.25, 0.25, 0.25}},
         {"Hemisphere.up", {0, 1, 0}},
         {"Hemisphere.sky", {0.5, 0.5, 0.5}},
@@ -79,9 +79,9 @@ const Inputs& ordinary_inputs() {
         {"Materials.rows[].shininess", {8}},
         {"Materials.rows[].strength", {1}},
         {"ImageLight.color", {0.125, 0.125, 0.125}},
-        {"ImageLight.share", {0.5}},
+        {"ImageLight.weight", {0.5}},
         {"ImageLight.toMap", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
-        {"Reflection.share", {0.5}},
+        {"Reflection.weight", {0.5}},
         {"Reflection.toMap", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
         {"diffuseMap", {0.25, 0.5, 1, 1}},
         {"specularMap", {0.25, 0.5, 1, 1}},

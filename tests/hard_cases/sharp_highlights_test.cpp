@@ -63,10 +63,10 @@ Exact exact_of(const Highlight& point, Real shininess, bool is_phong) {
     const Vector sum = to_light + to_viewer;
     const Vector a = is_phong ? 2 * glm::dot(normal, to_light) * normal - to_light : normal;
     const Vector b = is_phong ? to_viewer : glm::normalize(sum);
-    const Real versine =
+    const Real one_minus_cosine =
         glm::dot(a - b, a - b) / 2;  // as in Blinn's and Phong's models, without cancellation
     const Real limit = (is_phong ? 6 : 2) * std::sqrt(shininess) * 0x1p-24L / glm::length(sum);
-    return {std::exp(shininess * std::log1p(-versine)), limit + 0x1p-24L};
+    return {std::exp(shininess * std::log1p(-one_minus_cosine)), limit + 0x1p-24L};
 }
 
 void append(std::vector<double>& rows, const std::vector<Highlight>& points, glm::vec3 Highlight::*member) {

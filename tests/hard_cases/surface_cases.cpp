@@ -23,8 +23,8 @@ Inputs light_from(double x, double y, double z) {
 }
 
 Inputs either_light(double x, double y, double z, double w) {
-    return {{"HomogeneousLights.lights[].position", {x, y, z, w}},
-            {"HomogeneousLights.lights[].attenuation", {0, 0, 1}}};
+    return {{"DirectionalOrPointLights.lights[].position", {x, y, z, w}},
+            {"DirectionalOrPointLights.lights[].attenuation", {0, 0, 1}}};
 }
 
 Inputs index(double material) {
@@ -68,19 +68,19 @@ std::vector<Case> toon_cases() {
         {"H_T2_beside_a_threshold", "directional > 0 && diffuse == toon_thresholds",
          beside({0.25, 0.5, 0.95}), is_neighbouring_tone(), features},
         {"H_T1_interpolated_cosine_beyond_one",
-         "directional > 0 && intensity == vertex && diffuse != toon",
-         {with(kOnlyLights, {{"lightIntensities[]", {1.000001, 0, 0, 0}}})},
+         "directional > 0 && n_dot_l == vertex && diffuse != toon",
+         {with(kOnlyLights, {{"lightCosines[]", {1.000001, 0, 0, 0}}})},
          is_color({1, 1, 1, 1}),
          features},
         {"S8_tones_of_the_vertices_cosines",
-         "directional > 0 && intensity == vertex && diffuse == toon_thresholds",
-         {with(kOnlyLights, {{"lightIntensities[]", {0.6, 0, 0, 0}}})},
+         "directional > 0 && n_dot_l == vertex && diffuse == toon_thresholds",
+         {with(kOnlyLights, {{"lightCosines[]", {0.6, 0, 0, 0}}})},
          is_color({0.625, 0.625, 0.625, 1}),
          features},
         {"S8_vertices_cosines_seen_from_the_back",
-         "directional > 0 && intensity == vertex && diffuse == toon_thresholds && sides == two",
-         {with(with(kOnlyLights, faces_front(false)), {{"lightIntensities[]", {0.6, 0, 0, 0}}}),
-          with(with(kOnlyLights, faces_front(true)), {{"lightIntensities[]", {-0.6, 0, 0, 0}}})},
+         "directional > 0 && n_dot_l == vertex && diffuse == toon_thresholds && sides == two",
+         {with(with(kOnlyLights, faces_front(false)), {{"lightCosines[]", {0.6, 0, 0, 0}}}),
+          with(with(kOnlyLights, faces_front(true)), {{"lightCosines[]", {-0.6, 0, 0, 0}}})},
          is_color({0, 0, 0, 1}),
          {"directional", "diffuse", "intensity", "shading", "sides"}},
         {"H_T2_thresholds_of_zero",
@@ -189,22 +189,22 @@ std::vector<Case> colour_cases() {
 }
 
 std::vector<Case> light_cases() {
-    const std::vector<std::string> features = {"homogeneous", "diffuse", "specular", "shading",
+    const std::vector<std::string> features = {"directional_or_point", "diffuse", "specular", "shading",
                                                "light_ambient"};
-    const Inputs dark = {{"HomogeneousLights.lights[].color", {0, 0, 0}}};
+    const Inputs dark = {{"DirectionalOrPointLights.lights[].color", {0, 0, 0}}};
     return {
         {"H_L1_either_kind_at_the_surface",
-         "homogeneous == 1 && light_ambient == none",
+         "directional_or_point == 1 && light_ambient == none",
          {either_light(0, 0, -5, 1), either_light(0, 0, -10, 2), either_light(0, 0, 0, 0)},
          same_as(dark),
          features},
         {"L6_hardly_any_w",
-         "homogeneous == 1",
+         "directional_or_point == 1",
          {either_light(0, 0, 1, 1e-7), either_light(0, 0, 1, -1e-7), either_light(0, 0, 1e6, 1e-40)},
          same_as(either_light(0, 0, 1, 0)),
          features},
         {"L6_position_times_w",
-         "homogeneous == 1",
+         "directional_or_point == 1",
          {either_light(0, 0, -4, 4), either_light(0, 0, 4, -4)},
          same_as(either_light(0, 0, -1, 1)),
          features},
@@ -221,7 +221,7 @@ std::vector<Case> light_cases() {
     };
 }
 
-std::vector<Case> surroundings_cases() {
+std::vector<Case> environment_cases() {
     const std::vector<std::string> features = {"ambient", "hemisphere", "harmonics", "sides", "shading"};
     return {
         {"H_N1_no_normal_under_a_sky",
@@ -281,7 +281,7 @@ std::vector<Case> surroundings_cases() {
 std::vector<Case> surface_cases() {
     std::vector<Case> all;
     for (const auto& part :
-         {toon_cases(), side_cases(), material_cases(), colour_cases(), light_cases(), surroundings_cases()})
+         {toon_cases(), side_cases(), material_cases(), colour_cases(), light_cases(), environment_cases()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -106,7 +106,7 @@ class UberCase : public testing::TestWithParam<Case> {
 TEST_P(UberCase, IsThatOfThePermutation) {
     const Case& tested = GetParam();
     const std::string where = tested.where.empty() ? "" : " && (" + tested.where + ")";
-    const LitUnderTest lit("shading == fragment && intensity == fragment" + where, tested.features, {}, 2);
+    const LitUnderTest lit("shading == fragment && n_dot_l == fragment" + where, tested.features, {}, 2);
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
         for (std::size_t point = 0; point < tested.points.size(); ++point)
             for (const sanitize::Machine machine : {sanitize::Machine::ieee, sanitize::Machine::flushed}) {
@@ -123,7 +123,7 @@ std::vector<Case> cases_per_fragment() {
         return tested.where.find("shading == vertex") != std::string::npos ||
                tested.where.find("shading == flat") != std::string::npos ||
                tested.where.find("shading == hybrid") != std::string::npos ||
-               tested.where.find("intensity == vertex") != std::string::npos;
+               tested.where.find("n_dot_l == vertex") != std::string::npos;
     });
     return cases;
 }

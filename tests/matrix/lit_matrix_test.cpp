@@ -11,13 +11,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/text.hpp"
+#include "../unit/reflect_unused.hpp"
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "../unit/reflect_unused.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/validate.hpp"
 
@@ -80,7 +80,7 @@ TEST_P(LitMatrix, EveryCombinationOfThreeIsValidAndDeclaresNothingInVain) {
 TEST_P(LitMatrix, TheMostLightsOfEachKindAreValid) {
     Selection selection;
     selection.cover = 2;
-    selection.where = "directional == 8 && point == 8 && spot == 8 && homogeneous == 8";
+    selection.where = "directional == 8 && point == 8 && spot == 8 && directional_or_point == 8";
     const Composition composition = compose_lit(selection, GetParam());
     EXPECT_GE(composition.permutations.size(), 4u * 4u) << "fogs by depths, of which every dialect has some";
     EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");

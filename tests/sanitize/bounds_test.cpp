@@ -83,7 +83,7 @@ const Fault kFaults[] = {
      "return 1.5 * exp(", "is above what its inputs allow"},
     {"light_behind_subtracts", "point=1", "diffuse/lambert.glsl", "return cosine", "return cosine - 0.5",
      "'fragmentColor' is negative"},
-    {"fog_adds", "fog=exponential", "fog/blend.glsl", "mix(fog.color, radiance, clearness)",
+    {"fog_adds", "fog=exponential", "fog/blend.glsl", "mix(fog.color, radiance, fogFactor)",
      "2.0 * fog.color + radiance", "is above what its inputs allow"},
     {"vertex_light_too_bright", "directional=1 shading=vertex", "lighting/ambient.glsl", "return ",
      "return 1.1 * ", "'litRadiance' is above what its inputs allow"},

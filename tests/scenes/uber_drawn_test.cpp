@@ -42,7 +42,8 @@ constexpr const char* keys[] = {
     "directional=2 directional_shadows=1 fog=linear point=2 point_shadows=1 spot=2 spot_shadows=1 "
     "specular=blinn",
     "diffuse=toon_thresholds directional=1 material=array point=1 sides=two vertex_color=modulate",
-    "ambient=hemisphere cutout=threshold fog=exponential homogeneous=4 light_ambient=each specular=phong",
+    "ambient=hemisphere cutout=threshold directional_or_point=4 fog=exponential light_ambient=each "
+    "specular=phong",
     "ambient=image diffuse=toon directional=1 directional_shadows=1 material=array reflection=image "
     "sides=two_materials",
     "ambient=spherical_harmonics diffuse=toon_ceil fog=exponential_squared light_ambient=each spot=1",

@@ -71,14 +71,14 @@ int count_of(const Family& family, const Key& key, const char* feature) {
 std::vector<Key> switched_cover(const ShippedFamily& lit, const ShippedFamily& uber) {
     Selection selection;
     selection.cover = 2;
-    selection.over = {"directional",         "point",         "spot",        "homogeneous",
+    selection.over = {"directional",         "point",         "spot",        "directional_or_point",
                       "directional_shadows", "point_shadows", "spot_shadows"};
     for (const Feature& feature : lit.family.features) {
         const auto index = uber.family.index_of(feature.name);
         const Feature& own = uber.family.features[static_cast<std::size_t>(*index)];
         if (own.index_of("switched")) selection.over.push_back(feature.name);
     }
-    selection.where = fmt::format("directional + point + spot + homogeneous <= {}", kSwitchedLights);
+    selection.where = fmt::format("directional + point + spot + directional_or_point <= {}", kSwitchedLights);
     const auto keys = select(lit.family, selection, "450");
     EXPECT_TRUE(keys) << text_of(keys.error());
     return *keys;
@@ -152,10 +152,11 @@ TEST(UberKey, KeepsQualityAndSwitchesTheRest) {
     const ShippedFamily lit("lit");
     const ShippedFamily uber("uber");
     const Key key = *parse_key(lit.family, "fog=linear fog_distance=planar specular=phong point=2");
-    EXPECT_EQ(key_text(uber.family, uber_key(uber.family, lit.family, key, UberLights::switched)),
-              "ambient=switched cutout=switched diffuse=switched directional=1 directional_shadows=1 fog=switched "
-              "fog_distance=planar light_ambient=switched lighting=switched material=switched "
-              "reflection=switched sides=switched specular=switched spot=1 vertex_color=switched");
+    EXPECT_EQ(
+        key_text(uber.family, uber_key(uber.family, lit.family, key, UberLights::switched)),
+        "ambient=switched cutout=switched diffuse=switched directional=1 directional_shadows=1 fog=switched "
+        "fog_distance=planar light_ambient=switched lighting=switched material=switched "
+        "reflection=switched sides=switched specular=switched spot=1 vertex_color=switched");
     EXPECT_EQ(lights_of(lit.family, key), 2);
 }
 

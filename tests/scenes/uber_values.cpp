@@ -23,7 +23,7 @@ constexpr std::array kinds = {
     LightFeature{"directional", "DirectionalLights", "directional_shadows", false, false},
     LightFeature{"point", "PointLights", "point_shadows", true, false},
     LightFeature{"spot", "SpotLights", "spot_shadows", true, true},
-    LightFeature{"homogeneous", "HomogeneousLights", nullptr, false, false}};
+    LightFeature{"directional_or_point", "DirectionalOrPointLights", nullptr, false, false}};
 
 /// The kinds in the order in which the block `Shadows` has them.
 constexpr std::array<std::size_t, 3> shadow_order = {0, 2, 1};
@@ -66,7 +66,7 @@ void add_light(const std::vector<RenderValue>& given, const LightFeature& kind, 
     set(values, to + "isEnabled", 1);
     set(values, to + "isLocal", kind.is_local ? 1 : 0);
     set(values, to + "isSpot", kind.is_spot ? 1 : 0);
-    set(values, to + "isHomogeneous", kind.shadows == nullptr ? 1 : 0);
+    set(values, to + "isDirectionalOrPoint", kind.shadows == nullptr ? 1 : 0);
     set(values, to + "isShadowed", place.shadow >= 0 ? 1 : 0);
 }
 

@@ -16,8 +16,8 @@ enum class UberLights { switched, looped };
 [[nodiscard]] Key uber_key(const Family& uber, const Family& lit, const Key& key, UberLights lights);
 
 /// The values of a permutation's uniforms with those that make the ubershader do the same. Lights stand in
-/// the order directional, point, spot, homogeneous, as the permutation adds them; shadows are those of the
-/// block `Shadows` among the values.
+/// the order directional, point, spot, directional_or_point, as the permutation adds them; shadows are those
+/// of the block `Shadows` among the values.
 [[nodiscard]] std::vector<RenderValue> uber_values(const Family& uber, const Family& lit, const Key& key,
                                                    std::vector<RenderValue> values);
 

@@ -44,13 +44,13 @@
 #include "diffuse/as_itself.glsl"
 #include "uber/switches.glsl"
 
-/// Prepares the sum of a point's scattered light. To be called before the first light.
+/// Prepares the sum of a point's diffuse light. To be called before the first light.
 void beginDiffuse() {
     beginUnlimited();
     beginTones();
 }
 
-/// What is scattered of a light that arrives at an angle of the given cosine to the normal.
+/// The diffuse reflection of a light that arrives at an angle of the given cosine to the normal.
 vec3 diffuseTerm(float cosine, vec3 light) {
     if (switches.diffuse == 1) return toonTerm(cosine, light);
     if (switches.diffuse == 2) return toonCeilTerm(cosine, light);
@@ -58,7 +58,7 @@ vec3 diffuseTerm(float cosine, vec3 light) {
     return lambertTerm(cosine, light);
 }
 
-/// The scattered light that remains of the sum of all terms.
+/// The diffuse light that remains of the sum of all terms.
 vec3 limitedDiffuse(vec3 total) { return switches.diffuse == 3 ? limitedTones(total) : unlimitedDiffuse(total); }
 
 #piece levels

@@ -8,7 +8,7 @@
 /// Prepares the sum of the lights' ambient terms. To be called before the first light.
 void beginLightAmbient() { ambientOfLights = emptySum(); }
 
-/// Adds the ambient term of the light that is being added, weakened by `fading`.
-void addLightAmbient(float fading) {
-    if (switches.light_ambient == 1) addTerm(ambientOfLights, fading * ambientOfLight);
+/// Adds the ambient term of the light that is being added, weakened by its distance.
+void addLightAmbient(float byDistance) {
+    if (switches.light_ambient == 1) addTerm(ambientOfLights, byDistance * ambientOfLight);
 }

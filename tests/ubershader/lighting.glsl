@@ -50,14 +50,14 @@ BLOCK(23, LoopedLights) {
     AnyLight directional[8];
     AnyLight point[8];
     AnyLight spot[8];
-    AnyLight homogeneous[8];
+    AnyLight directional_or_point[8];
 } loopedLights;
 
 /// Adds a light whose kind is that of its array, whatever it says itself.
-void addLightOfKind(AnyLight light, bool isLocal, bool isSpot, bool isHomogeneous) {
+void addLightOfKind(AnyLight light, bool isLocal, bool isSpot, bool isDirectionalOrPoint) {
     light.isLocal = isLocal;
     light.isSpot = isSpot;
-    light.isHomogeneous = isHomogeneous;
+    light.isDirectionalOrPoint = isDirectionalOrPoint;
     addAnyLight(light);
 }
 
@@ -70,6 +70,6 @@ vec3 litSurface() {
     for (int i = 0; i < switches.directional; ++i) addLightOfKind(loopedLights.directional[i], false, false, false);
     for (int i = 0; i < switches.point; ++i) addLightOfKind(loopedLights.point[i], true, false, false);
     for (int i = 0; i < switches.spot; ++i) addLightOfKind(loopedLights.spot[i], true, true, false);
-    for (int i = 0; i < switches.homogeneous; ++i) addLightOfKind(loopedLights.homogeneous[i], false, false, true);
+    for (int i = 0; i < switches.directional_or_point; ++i) addLightOfKind(loopedLights.directional_or_point[i], false, false, true);
     return radiance + responseRadiance();
 }

@@ -20,7 +20,7 @@ const DiskFileSystem disk;
 constexpr std::array at_run_time = {"switched", "looped"};
 /// The counts at which keys stand whose lights are found at run time (uber.toml).
 constexpr std::array stand_ins = {"directional", "directional_shadows", "spot"};
-constexpr std::array counts = {"directional",         "point",         "spot",        "homogeneous",
+constexpr std::array counts = {"directional",         "point",         "spot",        "directional_or_point",
                                "directional_shadows", "point_shadows", "spot_shadows"};
 
 bool is_switch(const std::string& value) {
@@ -43,7 +43,7 @@ Selection every_pair(const Family& family, const Key& key) {
     const bool has_counts = finds_lights_at_run_time(family, key);
     Selection selection;
     selection.cover = 2;
-    selection.where = fmt::format("directional + point + spot + homogeneous <= {}", kSwitchedLights);
+    selection.where = fmt::format("directional + point + spot + directional_or_point <= {}", kSwitchedLights);
     for (std::size_t i = 0; i < key.size(); ++i) {
         const Feature& feature = family.features[i];
         const bool is_count =
@@ -107,8 +107,7 @@ std::vector<oracle::Model> models_of(const Family& family, const Key& key) {
     lit.name = "lit";
     std::vector<oracle::Model> models;
     const std::vector<Key> settings = settings_of(family, key).value();
-    for (const Key& setting : settings)
-        models.push_back(oracle::model_of(lit, setting).value());
+    for (const Key& setting : settings) models.push_back(oracle::model_of(lit, setting).value());
     return models;
 }
 

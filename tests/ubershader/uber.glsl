@@ -8,7 +8,7 @@ BLOCK(22, Switches) {
     int diffuse;
     int directional;
     int fog;
-    int homogeneous;
+    int directional_or_point;
     int light_ambient;
     int lighting;
     int material;
@@ -34,7 +34,7 @@ vec3 ambientOfLight;
 
 #piece light
 #include <guards/polar>
-#include "homogeneous/either_ray.glsl"
+#include "directional_or_point/either_ray.glsl"
 #include "lighting/attenuation.glsl"
 #include "lighting/response.glsl"
 #include "shading/light_ray.glsl"
@@ -44,22 +44,22 @@ vec3 ambientOfLight;
 #include "surface/position.glsl"
 #include "uber/light_ambient.glsl"
 
-/// `position` is where a light is that is local, `direction` is the unit vector to one that is not; of a homogeneous
+/// `position` is where a light is that is local, `direction` is the unit vector to one that is not; of a directional_or_point
 /// light the position's w tells which it is. What a kind has no use for is not read.
 struct AnyLight {
     vec4 position;
     vec3 color;
     float exponent;
     vec3 attenuation;
-    float innerVersine;
+    float innerOneMinusCosine;
     vec3 axis;
-    float outerVersine;
+    float outerOneMinusCosine;
     vec3 direction;
     bool isEnabled;
     vec3 ambient;
     bool isLocal;
     bool isSpot;
-    bool isHomogeneous;
+    bool isDirectionalOrPoint;
     bool isShadowed;
     Shadow shadow;
 };
@@ -68,13 +68,13 @@ struct AnyLight {
 LightRay anyRay(AnyLight light) {
     if (!light.isLocal) return LightRay(light.direction, 1.0, 1.0);
     vec4 ray = directionAndLength(light.position.xyz - surfacePosition());
-    float fading = attenuation(light.attenuation, ray.w);
-    if (!light.isSpot) return LightRay(ray.xyz, fading, fading);
-    float cone = coneFactor(light.axis, -ray.xyz, light.innerVersine, light.outerVersine, light.exponent);
-    return LightRay(ray.xyz, fading, cone * fading);
+    float byDistance = attenuation(light.attenuation, ray.w);
+    if (!light.isSpot) return LightRay(ray.xyz, byDistance, byDistance);
+    float cone = coneFactor(light.axis, -ray.xyz, light.innerOneMinusCosine, light.outerOneMinusCosine, light.exponent);
+    return LightRay(ray.xyz, byDistance, cone * byDistance);
 }
 
-/// The share of a directional, point or spot light that no surface keeps from this one.
+/// How much of a directional, point or spot light no surface keeps from this one.
 float anyVisibility(AnyLight light) {
     if (!light.isShadowed) return 1.0;
     return light.isLocal && !light.isSpot ? cubeVisibility(light.shadow) : mapVisibility(light.shadow);
@@ -83,13 +83,13 @@ float anyVisibility(AnyLight light) {
 /// Adds a light to the surface's response.
 void addAnyLight(AnyLight light) {
     ambientOfLight = light.ambient;
-    if (light.isHomogeneous) {
+    if (light.isDirectionalOrPoint) {
         LightRay ray = eitherRay(light.position, light.attenuation);
-        addLightAmbient(ray.fading);
-        addLight(ray.toLight, ray.share * light.color);
+        addLightAmbient(ray.attenuation);
+        addLight(ray.toLight, ray.weight * light.color);
     } else {
         LightRay ray = anyRay(light);
-        addLightAmbient(ray.fading);
-        addLight(ray.toLight, ray.share * anyVisibility(light) * light.color);
+        addLightAmbient(ray.attenuation);
+        addLight(ray.toLight, ray.weight * anyVisibility(light) * light.color);
     }
 }

@@ -27,7 +27,7 @@ const std::map<std::string, int (*)(const Model&), std::less<>>& switches() {
         {"diffuse", [](const Model& model) { return number(model.diffuse); }},
         {"directional", [](const Model& model) { return model.directional; }},
         {"fog", [](const Model& model) { return number(model.fog); }},
-        {"homogeneous", [](const Model& model) { return model.homogeneous; }},
+        {"directional_or_point", [](const Model& model) { return model.directional_or_point; }},
         {"light_ambient", [](const Model& model) { return number(model.light_ambient); }},
         {"lighting", [](const Model& model) { return number(model.lighting); }},
         {"material", [](const Model& model) { return number(model.material); }},
@@ -53,9 +53,9 @@ constexpr std::array kinds = {
     Kind{"directional", "DirectionalLights", &Model::directional, &Model::directional_shadows},
     Kind{"point", "PointLights", &Model::point, &Model::point_shadows},
     Kind{"spot", "SpotLights", &Model::spot, &Model::spot_shadows},
-    Kind{"homogeneous", "HomogeneousLights", &Model::homogeneous, nullptr}};
+    Kind{"directional_or_point", "DirectionalOrPointLights", &Model::directional_or_point, nullptr}};
 
-enum KindNumber : std::size_t { directional, point, spot, homogeneous };
+enum KindNumber : std::size_t { directional, point, spot, directional_or_point };
 
 std::size_t count_of(const Model& model, std::size_t kind) {
     return static_cast<std::size_t>(model.*kinds[kind].count);
@@ -105,7 +105,7 @@ UberPort member_of(const Model& model, const std::optional<Light>& light, std::s
     if (member == "isEnabled") return flag(true);
     if (member == "isLocal") return flag(light->kind == point || light->kind == spot);
     if (member == "isSpot") return flag(light->kind == spot);
-    if (member == "isHomogeneous") return flag(light->kind == homogeneous);
+    if (member == "isDirectionalOrPoint") return flag(light->kind == directional_or_point);
     if (member == "isShadowed") return flag(shadow.has_value());
     if (member == "ambient") {
         if (model.light_ambient == oracle::LightAmbient::none) return {};

@@ -18,8 +18,8 @@ struct UberPort {
 /// Of a reflected name in the blocks that the ubershader has and `lit` has not, or not so:
 /// "Switches.diffuse", "SwitchedLights.lights[3].shadow.layer", "LoopedLights.spot[0].axis", "Toon.tones",
 /// "Materials.rows[0].diffuse" where the model has one material. Lights stand in the order directional,
-/// point, spot, homogeneous; lights beyond them are switched off, and what a light does not have is 0.
-/// Nothing for names that mean the same in both.
+/// point, spot, directional_or_point; lights beyond them are switched off, and what a light does not have is
+/// 0. Nothing for names that mean the same in both.
 [[nodiscard]] std::optional<UberPort> uber_port(const oracle::Model& model, std::string_view name);
 
 /// What a sample has by a reflected name of the ubershader; `own` is what it has by the name in `lit`. Such

@@ -30,7 +30,7 @@
 #include "vertex_color/none.glsl"
 #include "vertex_color/as_itself.glsl"
 
-/// The reflectivity that scatters light.
+/// The reflectivity of ambient and diffuse light.
 vec3 tinted(vec3 reflectivity) {
     return switches.vertex_color == 1 ? tintedByVertices(reflectivity) : untinted(reflectivity);
 }

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "lab/oracle/oracle.hpp"
-#include "lab/oracle/power.hpp"
+#include "lab/oracle/response.hpp"
 
 namespace gobo::oracle {
 namespace {
@@ -33,7 +33,7 @@ struct PowerRow {
     std::string name;
     Power power;
     double at_zero_exponent;      ///< at a right angle
-    double beyond_right_angle;    ///< at exponent 2 and a versine of 1.5
+    double beyond_right_angle;    ///< at exponent 2 and a one minus cosine of 1.5
     double error_times_exponent;  ///< at exponent 100: the largest difference from the exact power, times 100
 };
 
@@ -52,9 +52,9 @@ TEST(OraclePower, IsAsFarOffAsStated) {
         EXPECT_NEAR(lobe(row.power, 1, 0), row.at_zero_exponent, kRounding);
         EXPECT_NEAR(lobe(row.power, 1.5, 2), row.beyond_right_angle, kRounding);
         double largest = 0;
-        for (double versine = 0; versine < 0.2; versine += 1e-5) {
-            const double exact = lobe(Power::exact, versine, 100);
-            largest = std::max(largest, std::abs(lobe(row.power, versine, 100) - exact));
+        for (double one_minus_cosine = 0; one_minus_cosine < 0.2; one_minus_cosine += 1e-5) {
+            const double exact = lobe(Power::exact, one_minus_cosine, 100);
+            largest = std::max(largest, std::abs(lobe(row.power, one_minus_cosine, 100) - exact));
         }
         EXPECT_LE(largest * 100, row.error_times_exponent);
         EXPECT_GE(largest * 100, row.power == Power::squaring ? 0 : 0.95 * row.error_times_exponent);

@@ -168,16 +168,16 @@ TEST(OracleSurface, TellsTheKindOfALightByItsW) {
     Scene one = scene;
     one.point.clear();
     const glm::dvec3 distant = radiance({.directional = 1}, one);
-    const Model either{.homogeneous = 1};
+    const Model either{.directional_or_point = 1};
     for (const double w : {1.0, 0.25, 8.0, -2.0}) {
         Scene other = white_scene();
-        other.homogeneous = {{glm::dvec4(w * glm::dvec3(1, 2, -3), w), {4, 3, 2}, fading}};
+        other.directional_or_point = {{glm::dvec4(w * glm::dvec3(1, 2, -3), w), {4, 3, 2}, fading}};
         Scene bare = white_scene();
         bare.point = scene.point;
         EXPECT_LT(glm::length(radiance(either, other) - radiance({.point = 1}, bare)), kRounding) << w;
     }
     Scene other = white_scene();
-    other.homogeneous = {{glm::dvec4(7.0 * tilted(30), 0), {1, 2, 3}, fading}};
+    other.directional_or_point = {{glm::dvec4(7.0 * tilted(30), 0), {1, 2, 3}, fading}};
     EXPECT_LT(glm::length(radiance(either, other) - distant), kRounding);
     EXPECT_GT(glm::length(local), 0);
 }
@@ -196,29 +196,29 @@ TEST(OracleSurface, KeepsALightsAmbientTermOutsideItsCone) {
         << "from behind";
 }
 
-// ---- Surroundings ----------------------------------------------------------------------------------------
+// ---- Environment ----------------------------------------------------------------------------------------
 
 TEST(OracleSurface, SeesTheShareOfTheSkyThatTheIntegralGives) {
     // The sky's cosine-weighted share of the hemisphere over a surface tilted by theta is (1 + cos(theta)) /
     // 2; the book's sine form is what it takes the exact one to be, and both agree at 0, 90 and 180 degrees.
     for (const double degrees : {0.0, 90.0, 180.0})
-        EXPECT_NEAR(sky_share(Hemisphere::sine, degrees * kDegree),
-                    sky_share(Hemisphere::cosine, degrees * kDegree), kRounding);
-    EXPECT_NEAR(sky_share(Hemisphere::sine, 30 * kDegree), 0.75, kRounding);
-    EXPECT_NEAR(sky_share(Hemisphere::sine, 150 * kDegree), 0.25, kRounding);
-    EXPECT_NEAR(sky_share(Hemisphere::cosine, 60 * kDegree), 0.75, kRounding);
+        EXPECT_NEAR(sky_weight(Hemisphere::sine, degrees * kDegree),
+                    sky_weight(Hemisphere::cosine, degrees * kDegree), kRounding);
+    EXPECT_NEAR(sky_weight(Hemisphere::sine, 30 * kDegree), 0.75, kRounding);
+    EXPECT_NEAR(sky_weight(Hemisphere::sine, 150 * kDegree), 0.25, kRounding);
+    EXPECT_NEAR(sky_weight(Hemisphere::cosine, 60 * kDegree), 0.75, kRounding);
     double largest = 0;
     for (double degrees = 0; degrees <= 180; degrees += 0.5) {
-        const double sine = sky_share(Hemisphere::sine, degrees * kDegree);
-        largest = std::max(largest, std::abs(sine - sky_share(Hemisphere::cosine, degrees * kDegree)));
-        EXPECT_NEAR(sine + sky_share(Hemisphere::sine, (180 - degrees) * kDegree), 1, kRounding) << degrees;
+        const double sine = sky_weight(Hemisphere::sine, degrees * kDegree);
+        largest = std::max(largest, std::abs(sine - sky_weight(Hemisphere::cosine, degrees * kDegree)));
+        EXPECT_NEAR(sine + sky_weight(Hemisphere::sine, (180 - degrees) * kDegree), 1, kRounding) << degrees;
     }
     EXPECT_NEAR(largest, (std::numbers::sqrt2 - 1) / 2, 1e-12) << "0.21, at 45 and 135 degrees";
     for (const double length : {0.3, 0.9}) {
-        EXPECT_NEAR(sky_share(Hemisphere::sine, 89.9999 * kDegree, length),
-                    sky_share(Hemisphere::sine, 90.0001 * kDegree, length), 1e-9)
+        EXPECT_NEAR(sky_weight(Hemisphere::sine, 89.9999 * kDegree, length),
+                    sky_weight(Hemisphere::sine, 90.0001 * kDegree, length), 1e-9)
             << "a shortened normal sees no jump at the horizon";
-        EXPECT_NEAR(sky_share(Hemisphere::sine, 0, length), 0.5 + 0.5 * length, kRounding);
+        EXPECT_NEAR(sky_weight(Hemisphere::sine, 0, length), 0.5 + 0.5 * length, kRounding);
     }
 }
 

@@ -12,7 +12,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/oracle/power.hpp"
+#include "lab/oracle/response.hpp"
 
 namespace gobo::oracle {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 // A few dozen double operations of size 1, each off by at most 1.1e-16.
 constexpr double kRounding = 1e-13;
 
-double versine(double degrees) {
+double one_minus_cosine(double degrees) {
     return 1 - std::cos(degrees * kDegree);
 }
 
@@ -125,12 +125,12 @@ struct Cone {
 };
 
 TEST(Oracle, ShapesTheConeOfASpotLight) {
-    const double midway = std::acos(1 - (versine(20) + versine(40)) / 2) / kDegree;
+    const double midway = std::acos(1 - (one_minus_cosine(20) + one_minus_cosine(40)) / 2) / kDegree;
     const std::vector<Cone> cones = {
         {"on the axis", 20, 40, 8, 0, 1},
         {"inside the inner angle only the exponent counts", 20, 40, 2, 10,
          std::pow(std::cos(10 * kDegree), 2)},
-        {"midway in versines a quarter is left", 20, 40, 0, midway, 0.25},
+        {"midway in one minus cosine a quarter is left", 20, 40, 0, midway, 0.25},
         {"outside", 20, 40, 0, 41, 0},
         {"hard edge, inside", 30, 30, 0, 29.9, 1},
         {"hard edge, outside", 30, 30, 0, 30.1, 0},
@@ -143,12 +143,12 @@ TEST(Oracle, ShapesTheConeOfASpotLight) {
     };
     for (const Cone& cone : cones) {
         SpotLight light;
-        light.inner_versine = versine(cone.inner);
-        light.outer_versine = versine(cone.outer);
+        light.inner_one_minus_cosine = one_minus_cosine(cone.inner);
+        light.outer_one_minus_cosine = one_minus_cosine(cone.outer);
         light.exponent = cone.exponent;
         Decisions decisions;
-        // Around 1e-4 radians a versine in double is good to 2e-8 of itself; the edge is 3e-3 away.
-        EXPECT_NEAR(cone_share(light, cone.at * kDegree, decisions), cone.expected, kRounding) << cone.name;
+        // Around 1e-4 radians a one minus cosine in double is good to 2e-8 of itself; the edge is 3e-3 away.
+        EXPECT_NEAR(cone_weight(light, cone.at * kDegree, decisions), cone.expected, kRounding) << cone.name;
     }
 }
 
@@ -176,7 +176,7 @@ TEST(Oracle, LetsThroughWhatEachFogSays) {
     for (const Foggy& row : fogs) {
         Decisions decisions;
         const FogParameters fog{glm::dvec3(1), row.density, row.near, row.far};
-        EXPECT_NEAR(clearness(row.kind, fog, row.distance, decisions), row.expected, kRounding) << row.name;
+        EXPECT_NEAR(fog_factor(row.kind, fog, row.distance, decisions), row.expected, kRounding) << row.name;
     }
     EXPECT_DOUBLE_EQ(fog_distance(FogDistance::radial, {2, 3, -6}), 7);
     EXPECT_DOUBLE_EQ(fog_distance(FogDistance::planar, {2, 3, -6}), 6);
@@ -234,7 +234,7 @@ TEST(Oracle, GivesNoLightWhereADirectionIsMissing) {
 
 TEST(Oracle, HasNoHighlightFromALightExactlyBehindTheViewersRay) {
     EXPECT_EQ(highlight_angle(Specular::blinn, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}), std::acos(0.0));
-    EXPECT_NEAR(lobe(Power::exact, versine_of(std::acos(0.0)), 10), 0, kRounding);
+    EXPECT_NEAR(lobe(Power::exact, one_minus_cosine_of(std::acos(0.0)), 10), 0, kRounding);
 }
 
 TEST(Oracle, TellsHowNearADecisionIsAndGivesTheOtherSideWithinTheEdge) {
@@ -295,8 +295,8 @@ TEST(Oracle, ApproachesSimplerModelsInTheLimit) {
 TEST(Oracle, MakesBlinnsHighlightAsWideAsPhongsAtFourTimesTheExponent) {
     // h is half as far from n as r is from v, and cos(a)^m is exp(-m a^2 / 2) to fourth order in a.
     for (const double degrees : {0.5, 1.0, 2.0}) {
-        const double phong = lobe(Power::exact, versine_of(degrees * kDegree), 100);
-        const double blinn = lobe(Power::exact, versine_of(degrees / 2 * kDegree), 400);
+        const double phong = lobe(Power::exact, one_minus_cosine_of(degrees * kDegree), 100);
+        const double blinn = lobe(Power::exact, one_minus_cosine_of(degrees / 2 * kDegree), 400);
         const double fourth_order = 100 * std::pow(degrees * kDegree, 4) / 12;
         EXPECT_NEAR(phong, blinn, 1.01 * fourth_order) << degrees << " degrees";
     }

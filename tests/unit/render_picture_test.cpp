@@ -52,7 +52,7 @@ const std::vector<RenderValue> lights = {
     {"Lights.lights[1].position", "eye_point", {-5, 2, 4}, {}},
     {"Lights.lights[1].color", "", {0.1, 0.2, 0.4}, {}},
     {"Lights.lights[2].color", "", {9, 9, 9}, {}},  // beyond this permutation's count: left out
-    {"Fog.near", "", {1}, {}},                      // of a block that this permutation does not have
+    {"Fog.start", "", {1}, {}},                     // of a block that this permutation does not have
     {"Material.diffuse", "", {0.8, 0.8, 0.8}, {}},
     {"Material.twoSided", "", {0}, {}},
 };

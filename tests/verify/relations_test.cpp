@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "lab/evaluate/evaluate.hpp"
-#include "lit_library.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/render/mesh.hpp"
-#include "validate/validate.hpp"
 #include "lab/verify/feed.hpp"
+#include "lit_library.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {
@@ -120,7 +120,7 @@ TEST(Relations, AnEffectTurnedOffIsAbsent) {
         {"exponential squared fog of density 0", "fog=exponential_squared point=1", "point=1",
          [](Sample& sample) { sample.scene.fog.density = 0; }},
         {"linear fog that begins behind everything", "fog=linear point=1", "point=1",
-         [](Sample& sample) { sample.scene.fog.near = 1e5, sample.scene.fog.far = 2e5; }},
+         [](Sample& sample) { sample.scene.fog.start = 1e5, sample.scene.fog.end = 2e5; }},
         {"highlights of strength 0", "point=1 specular=blinn", "point=1",
          [](Sample& sample) { sample.scene.material.strength = 0; }},
         {"highlights of a surface that reflects nothing", "point=1 specular=phong", "point=1",
@@ -136,7 +136,7 @@ TEST(Relations, AnEffectTurnedOffIsAbsent) {
 TEST(Relations, ASpotLightOfAllDirectionsIsAPointLight) {
     const Samples spots = changed(samples_with(0, 0, 2), [](Sample& sample) {
         for (oracle::SpotLight& light : sample.scene.spot) {
-            light.inner_versine = light.outer_versine = 2;
+            light.inner_one_minus_cosine = light.outer_one_minus_cosine = 2;
             light.exponent = 0;
             sample.scene.point.push_back(light);
         }

@@ -79,8 +79,8 @@ void add_light(Family& family, const std::string& name, const glm::dvec3& place)
     const glm::dvec3 axis = -glm::normalize(place);
     set(name + ".lights[0].axis", "eye_direction", {axis.x, axis.y, axis.z});
     set(name + ".lights[0].exponent", "", {0});
-    set(name + ".lights[0].innerVersine", "", {0.5});
-    set(name + ".lights[0].outerVersine", "", {0.6});
+    set(name + ".lights[0].innerOneMinusCosine", "", {0.5});
+    set(name + ".lights[0].outerOneMinusCosine", "", {0.6});
 }
 
 /// The last value given to a name counts; lit_shadows reads the first, so the family's own go.

@@ -9,9 +9,9 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
+#include "lab/verify/verify.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
-#include "lab/verify/verify.hpp"
 
 namespace gobo {
 namespace {
@@ -178,7 +178,8 @@ TEST(StatedRelations, ThoseOfLitHold) {
     selection.cover = 2;
     selection.where = "directional <= 2 && point <= 2 && spot <= 2";
     // In so small a cover lights without shadows and without ambient light of their own may not meet.
-    selection.keys = {{"directional=2 homogeneous=2 point=2 spot=2 specular=blinn fog=exponential", {}}};
+    selection.keys = {
+        {"directional=2 directional_or_point=2 fog=exponential point=2 specular=blinn spot=2", {}}};
     std::vector<Key> keys = select(family, selection, "450").value();
     const std::size_t tested = keys.size();
     for (std::size_t i = 0; i < tested; ++i)

@@ -3,13 +3,13 @@
 
 #include "core/file_system.hpp"
 #include "lab/evaluate/evaluate.hpp"
-#include "lit_library.hpp"
-#include "validate/validate.hpp"
 #include "lab/verify/ask_oracle.hpp"
 #include "lab/verify/feed.hpp"
 #include "lab/verify/random.hpp"
 #include "lab/verify/sample.hpp"
 #include "lab/verify/test_meshes.hpp"
+#include "lit_library.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {
@@ -63,8 +63,8 @@ TEST(Verify, FindsTheTextsSlips) {
          "coefficients.z", "point=1"},
         {"fog by the wrong distance", "fog_distance/planar.glsl", "surfacePosition().z",
          "surfacePosition().y", "fog=linear fog_distance=planar"},
-        {"a power good to floats only at small exponents", "power/exact.glsl", "versine > 0.1875",
-         "versine >= 0.0", "directional=1 specular=blinn"},
+        {"a power good to floats only at small exponents", "power/exact.glsl", "oneMinusCosine > 0.1875",
+         "oneMinusCosine >= 0.0", "directional=1 specular=blinn"},
     };
     const Family family = lit_family();
     for (const Slip& slip : slips) {
@@ -83,7 +83,7 @@ struct Demanding {
 /// Keys whose points once were out of tolerance, each with what was wrong.
 constexpr Demanding demanding[] = {
     {"near_exact_of_small_exponents: 1.0 / 3.0 was rounded to a float, in fp64 too",
-     "cutout=threshold depth=less directional=4 fog=exponential guards=ordinary homogeneous=5 "
+     "cutout=threshold depth=less directional=4 directional_or_point=5 fog=exponential guards=ordinary "
      "light_sum=pairwise material=array power=near_exact shading=vertex shadow_filter=sampler sides=two "
      "specular=blinn spot=5 spot_edge=angle spot_shadows=1 vertex_color=modulate viewer=infinite"},
     {"texels_asked_beside_their_centres: a light wholly in shadow shone by a rounding of the lookup's place",
@@ -128,12 +128,12 @@ TEST(Verify, WritesAFailingPointAsAnInputOfEval) {
                             0.25,
                             1e-6,
                             9,
-                            {{{"eyeNormal", {0, 0, 0.1}}}, {{"Fog.near", {2}}}, {}}};
+                            {{{"eyeNormal", {0, 0, 0.1}}}, {{"Fog.start", {2}}}, {}}};
     EXPECT_EQ(verify::eval_input(failure, "fog=linear"),
               "# fog=linear: fp32 fragmentColor[1] is 0.25, should be 0.5 within 1e-06\n"
               "stage = \"fragment\"\n"
               "\n[inputs]\n\"eyeNormal\" = [0, 0, 0.1]\n"
-              "\n[uniforms]\n\"Fog.near\" = 2\n");
+              "\n[uniforms]\n\"Fog.start\" = 2\n");
 }
 
 TEST(Verify, AsksTheOracleAboutAnyInvocation) {

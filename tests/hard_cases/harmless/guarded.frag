@@ -21,8 +21,8 @@ void main() {
     float highlight = cosine > 0.0 ? pow(cosine, clamp(shininess, 1.0, 100.0)) : 0.0;
     float fade = 1.0 / (1.0 + dot(ray, ray));
     float depth = far - near;
-    float clearness = abs(depth) > 1e-3 ? clamp((far + position.z) / depth, 0.0, 1.0) : 1.0;
+    float fogFactor = abs(depth) > 1e-3 ? clamp((far + position.z) / depth, 0.0, 1.0) : 1.0;
     float angle = acos(cosine);
     int band = min(int(cosine * 4.0), 3);
-    color = palette[band] * fade * clearness + highlight * angle;
+    color = palette[band] * fade * fogFactor + highlight * angle;
 }

@@ -6,6 +6,6 @@ uniform float far;
 layout(location = 0) out vec4 color;
 
 void main() {
-    float clearness = (far - abs(position.z)) / (far - near);  // trap: division by zero
-    color = vec4(clamp(clearness, 0.0, 1.0));  // trap: clamp() fed a NaN
+    float fogFactor = (far - abs(position.z)) / (far - near);  // trap: division by zero
+    color = vec4(clamp(fogFactor, 0.0, 1.0));  // trap: clamp() fed a NaN
 }

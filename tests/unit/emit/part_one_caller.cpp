@@ -39,8 +39,8 @@ lit::SpotLights spot() {
     light.color = glm::vec3(1, 0.93F, 0.80F);
     light.attenuation = glm::vec3(1, 0, 0);
     light.exponent = 6;
-    light.innerVersine = 0.034F;
-    light.outerVersine = 0.055F;
+    light.innerOneMinusCosine = 0.034F;
+    light.outerOneMinusCosine = 0.055F;
     return spot;
 }
 
@@ -48,8 +48,8 @@ lit::Fog_block mist() {
     lit::Fog_block mist{};
     mist.color = glm::vec3(0.012F, 0.022F, 0.045F);
     mist.density = 0.075F;
-    mist.near_ = 8;
-    mist.far_ = 17;
+    mist.start = 8;
+    mist.end = 17;
     return mist;
 }
 

@@ -29,13 +29,13 @@ enum class Cutout { none, threshold };
 enum class VertexColor { none, modulate };
 
 // Quality: the same model where it is evaluated, or what stands in for parts of it.
-enum class Intensity { fragment, vertex };
+enum class NDotL { fragment, vertex };
 enum class Normal { renormalised, interpolated };
 enum class Viewer { local, infinite };
 enum class Power { exact, near_exact, squaring, gaussian_fitted, gaussian, lyon, schlick };
 enum class LightSum { plain, compensated, pairwise };
 enum class Guards { full, ordinary };
-enum class SpotEdge { versine, angle, cosine };
+enum class SpotEdge { one_minus_cosine, angle, cosine };
 
 /// One model: everything about a key that the radiance and the depth depend on.
 struct Model {
@@ -48,20 +48,20 @@ struct Model {
     FogDistance fog_distance = FogDistance::radial;
     Shading shading = Shading::fragment;
     Depth depth = Depth::untouched;
-    Intensity intensity = Intensity::fragment;  ///< where the cosine of each light is found
+    NDotL n_dot_l = NDotL::fragment;  ///< where the cosine of each light is found
     Normal normal = Normal::renormalised;
     Viewer viewer = Viewer::local;
     Power power = Power::exact;
     LightSum light_sum = LightSum::plain;
     Guards guards = Guards::full;
-    SpotEdge spot_edge = SpotEdge::versine;
+    SpotEdge spot_edge = SpotEdge::one_minus_cosine;
     int directional_shadows = 0;  ///< the first so many lights of each kind
     int point_shadows = 0;
     int spot_shadows = 0;
     Reflection reflection = Reflection::none;
     ShadowFilter shadow_filter = ShadowFilter::bilinear;
     Lighting lighting = Lighting::lit;
-    int homogeneous = 0;
+    int directional_or_point = 0;
     LightAmbient light_ambient = LightAmbient::none;
     Ambient ambient = Ambient::global;
     Hemisphere hemisphere = Hemisphere::sine;
@@ -76,15 +76,15 @@ struct Model {
     [[nodiscard]] bool is_per_fragment() const {
         return shading == Shading::fragment || shading == Shading::hybrid;
     }
-    [[nodiscard]] int lights() const { return directional + point + spot + homogeneous; }
+    [[nodiscard]] int lights() const { return directional + point + spot + directional_or_point; }
     [[nodiscard]] bool looks_up_images() const {
         return ambient == Ambient::image || reflection == Reflection::image;
     }
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 
-/// The model of a key of `lit`; otherwise the reason why the oracle has none: another family, or a feature or value
-/// that stands at anything but its default and that the oracle's equations do not cover.
+/// The model of a key of `lit`; otherwise the reason why the oracle has none: another family, or a feature or
+/// value that stands at anything but its default and that the oracle's equations do not cover.
 [[nodiscard]] tl::expected<Model, std::string> model_of(const Family& family, const Key& key);
 
 }  // namespace gobo::oracle

@@ -1,13 +1,12 @@
 #include "lab/oracle/oracle.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
-
-#include "lab/oracle/shadow.hpp"
+#include <glm/geometric.hpp>
 
 namespace gobo::oracle {
-
 namespace {
 
 /// The material as the point's colour tints it.
@@ -31,24 +30,31 @@ AmbientLight ambient_light(const Model& model, const Scene& scene, const glm::dv
     return {scene.ambient, scene.ambient, glm::dvec3(0)};
 }
 
-/// What remains of the scattered light of all terms: tones by thresholds are limited by the brightest.
+/// What remains of the diffuse light of all terms: tones by thresholds are limited by the brightest.
 glm::dvec3 limited(const Model& model, const Scene& scene, const std::vector<LightTerm>& terms) {
     glm::dvec3 total{0};
     glm::dvec3 brightest{0};
     for (const LightTerm& term : terms) {
-        total += term.diffuse * term.arrival.radiance;
-        if (term.diffuse > 0) brightest = glm::max(brightest, term.arrival.radiance);
+        total += term.diffuse * term.incident.radiance;
+        if (term.diffuse > 0) brightest = glm::max(brightest, term.incident.radiance);
     }
     if (model.diffuse != Diffuse::toon_thresholds) return total;
     return glm::min(total, *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end()) * brightest);
 }
 
 /// The lights' cosines to the side that is seen, where they come from the vertices.
-std::vector<double> intensities_of(const Model& model, const SurfacePoint& point, bool is_flipped) {
-    if (model.intensity == Intensity::fragment) return {};
-    std::vector<double> result = point.intensities;
+std::vector<double> cosines_of(const Model& model, const SurfacePoint& point, bool is_flipped) {
+    if (model.n_dot_l == NDotL::fragment) return {};
+    std::vector<double> result = point.cosines;
     for (double& cosine : result) cosine *= is_flipped ? -1 : 1;
     return result;
+}
+
+double linear_fog_factor(const FogParameters& fog, double distance, Decisions& decisions) {
+    if (fog.start != fog.end) return std::clamp((fog.end - distance) / (fog.end - fog.start), 0.0, 1.0);
+    const double unit = std::max(fog.end, distance);  // the deciding quantity is a ratio of distances
+    if (unit == 0) return 0;
+    return decisions.above(fog.end / unit, distance / unit) ? 1 : 0;
 }
 
 }  // namespace
@@ -80,7 +86,7 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     const glm::dvec3 normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
     const View view{normal, to_viewer(model, point.position), material.shininess,
                     is_hybrid ? point.halfways : std::vector<glm::dvec3>(),
-                    intensities_of(model, point, is_flipped)};
+                    cosines_of(model, point, is_flipped)};
     const glm::dvec3 highlight = material.strength * material.specular;
     radiance.ambient = ambient_light(model, scene, normal);
     if (model.reflection == Reflection::image)
@@ -88,16 +94,16 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     const glm::dvec3 mirrored = highlight * radiance.reflected.value;
     radiance.value = material.emission + material.ambient * radiance.ambient.value + mirrored;
     radiance.largest = material.emission + material.ambient * radiance.ambient.largest + mirrored;
-    std::vector<Arrival> lights = is_hybrid ? interpolated_arrivals(model, scene, point)
-                                            : arrivals(model, scene, point.position, decisions);
+    std::vector<IncidentLight> lights = is_hybrid ? interpolated_incident_lights(model, scene, point)
+                                                  : incident_lights(model, scene, point.position, decisions);
     cast_shadows(model, scene, point.position, lights, decisions);
-    for (const Arrival& arrival : lights) {
-        LightTerm term = respond(model, scene, view, arrival, radiance.terms.size(), decisions);
+    for (const IncidentLight& incident : lights) {
+        LightTerm term = respond(model, scene, view, incident, radiance.terms.size(), decisions);
         if (model.light_ambient == LightAmbient::each)
-            term.ambient = arrival.fading * scene.light_ambients.at(radiance.terms.size());
-        radiance.value += highlight * term.specular * arrival.radiance + material.ambient * term.ambient;
-        radiance.largest += material.diffuse * arrival.unshaped + material.ambient * term.ambient;
-        if (model.specular != Specular::none) radiance.largest += highlight * arrival.unshaped;
+            term.ambient = incident.attenuation * scene.light_ambients.at(radiance.terms.size());
+        radiance.value += highlight * term.specular * incident.radiance + material.ambient * term.ambient;
+        radiance.largest += material.diffuse * incident.unshaped + material.ambient * term.ambient;
+        if (model.specular != Specular::none) radiance.largest += highlight * incident.unshaped;
         radiance.terms.push_back(term);
     }
     radiance.value += material.diffuse * limited(model, scene, radiance.terms);
@@ -113,29 +119,37 @@ bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& poin
            decisions.above(scene.cutout_threshold, point.opacity * alpha_of(model, point));
 }
 
+double fog_distance(FogDistance kind, const glm::dvec3& position) {
+    return kind == FogDistance::radial ? glm::length(position) : std::abs(position.z);
+}
+
+double fog_factor(Fog kind, const FogParameters& fog, double distance, Decisions& decisions) {
+    if (kind == Fog::none) return 1;
+    if (kind == Fog::linear) return linear_fog_factor(fog, distance, decisions);
+    const double thickness = fog.density * distance;
+    return std::exp(kind == Fog::exponential ? -thickness : -thickness * thickness);
+}
+
+glm::dvec3 within_range(OutputRange range, const glm::dvec3& radiance) {
+    if (range == OutputRange::half_float) return glm::min(radiance, glm::dvec3((2 - 0x1p-10) * 0x1p15));
+    return range == OutputRange::display ? glm::min(radiance, glm::dvec3(1)) : radiance;
+}
+
 Seen seen_through_fog(const Model& model, const Scene& scene, const glm::dvec3& position,
                       const glm::dvec3& radiance, const glm::dvec3& largest, Decisions& decisions) {
     if (model.fog == Fog::none) return {radiance, largest, 0, 1};
     const double distance = fog_distance(model.fog_distance, position);
-    const double clear = clearness(model.fog, scene.fog, distance, decisions);
+    const double clear = fog_factor(model.fog, scene.fog, distance, decisions);
     return {clear * radiance + (1 - clear) * scene.fog.color, largest + scene.fog.color, distance, clear};
 }
 
 std::optional<double> written_depth(const Model& model, const Scene& scene, double depth) {
-    const double offset = scene.depth_offset;
-    switch (model.depth) {
-        case Depth::untouched:
-            return std::nullopt;
-        case Depth::any:
-            return std::clamp(depth + offset, 0.0, 1.0);
-        case Depth::greater:
-            return std::min(depth + std::max(offset, 0.0), 1.0);
-        case Depth::less:
-            return std::max(depth + std::min(offset, 0.0), 0.0);
-        case Depth::unchanged:
-            break;
-    }
-    return depth;
+    if (model.depth == Depth::untouched) return std::nullopt;
+    if (model.depth == Depth::unchanged) return depth;
+    double offset = scene.depth_offset;
+    if (model.depth == Depth::greater) offset = std::max(offset, 0.0);
+    if (model.depth == Depth::less) offset = std::min(offset, 0.0);
+    return std::clamp(depth + offset, 0.0, 1.0);
 }
 
 }  // namespace gobo::oracle

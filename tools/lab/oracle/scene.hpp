@@ -5,12 +5,10 @@
 #include <array>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-
-#include "lab/oracle/image_light.hpp"
-#include "lab/oracle/surroundings.hpp"
 
 namespace gobo::oracle {
 
@@ -24,10 +22,10 @@ struct SurfacePoint {
     bool is_back = false;  ///< which side is seen
 
     /// Per light, where its cosine to the front's normal is found at the vertices and interpolated.
-    std::vector<double> intensities = {};
+    std::vector<double> cosines = {};
 
     // What hybrid shading is given besides, interpolated between vertices.
-    std::vector<glm::dvec4> rays = {};      ///< per local light: its direction, and the share that arrives
+    std::vector<glm::dvec4> rays = {};      ///< per local light: its direction, and the weight that arrives
     std::vector<glm::dvec3> halfways = {};  ///< per light: between its direction and the viewer's
 };
 
@@ -54,12 +52,12 @@ struct PointLight {
     glm::dvec3 attenuation{0};  ///< k_c, k_l, k_q of 1 / (k_c + k_l d + k_q d^2)
 };
 
-/// A point light with a cone. A versine is 1 - cos of an angle, here the half angle of the cone.
+/// A point light with a cone. Of its half angles it has 1 - cos.
 struct SpotLight : PointLight {
     glm::dvec3 axis{0};  ///< unit, along which the light shines
     double exponent = 0;
-    double inner_versine = 0;  ///< full light up to here
-    double outer_versine = 2;  ///< none from here on; 2 is all directions
+    double inner_one_minus_cosine = 0;  ///< full light up to here
+    double outer_one_minus_cosine = 2;  ///< none from here on; 2 is all directions
 };
 
 /// How a shadowed light's maps are looked up. Of directional and spot lights `to_map` leads from eye space to
@@ -83,18 +81,48 @@ struct DepthMaps {
 };
 
 /// A light that is directional or local, as w has it.
-struct HomogeneousLight {
+struct DirectionalOrPointLight {
     glm::dvec4 position{0};     ///< a direction where w is 0 (below 2^-20), else a point times its w
     glm::dvec3 color{0};        ///< radiance where the attenuation is 1
     glm::dvec3 attenuation{0};  ///< as a point light's; a direction has none
+};
+
+/// A sky on one side, a ground on the other.
+struct HemisphereLight {
+    glm::dvec3 up{0, 1, 0};  ///< unit, eye space; zero: no side
+    glm::dvec3 sky{0};       ///< radiance
+    glm::dvec3 ground{0};    ///< radiance
+};
+
+/// An environment by nine coefficients of spherical harmonics: L00, L1-1, L10, L11, L2-2, L2-1, L20, L21,
+/// L22.
+struct HarmonicsLight {
+    glm::dmat3 to_probe{1};  ///< eye space to the probe's axes
+    std::array<glm::dvec3, 9> coefficients{};
+    double scale = 1;
+};
+
+/// What a cube map holds, as a function of the unit direction d: mean + slope d. Not negative where |slope d|
+/// does not exceed the mean.
+struct CubeMap {
+    glm::dvec3 mean{0};
+    glm::dmat3 slope{0};
+};
+
+/// A map looked up by a direction of eye space.
+struct ImageLight {
+    glm::dvec3 color{0};   ///< what the map is mixed with; reflections mix with nothing
+    double weight = 0;     ///< the map's, 0 to 1
+    glm::dmat3 to_map{1};  ///< rotation from eye space to the map's axes
+    CubeMap map;
 };
 
 /// Distances along the view. Each kind of fog reads what it needs.
 struct FogParameters {
     glm::dvec3 color{0};
     double density = 0;
-    double near = 0;
-    double far = 0;
+    double start = 0;
+    double end = 0;
 };
 
 /// All that is the same for every point of a draw.
@@ -109,8 +137,9 @@ struct Scene {
     double depth_offset = 0;        ///< in window depth
     std::vector<Shadow> shadows{};  ///< of the first directional lights, then spot lights, then point lights
     DepthMaps maps{};
-    std::vector<HomogeneousLight> homogeneous;
-    std::vector<glm::dvec3> light_ambients;  ///< of each light: directional, point, spot, homogeneous
+    std::vector<DirectionalOrPointLight> directional_or_point;
+    std::vector<glm::dvec3>
+        light_ambients;  ///< of each light: directional, point, spot, directional_or_point
     HemisphereLight hemisphere;
     HarmonicsLight harmonics;
     std::array<double, 3> toon_thresholds{0.95, 0.5, 0.25};  ///< cosines, the highest first

@@ -1,5 +1,3 @@
-#include "lab/oracle/shadow.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+
+#include "lab/oracle/lights.hpp"
 
 namespace gobo::oracle {
 namespace {
@@ -78,11 +78,9 @@ class Layer {
 
     /// 1 where the texel's surface is not nearer to the light, else 0.
     double lit(int column, int row) {
-        const auto index = (static_cast<std::size_t>(layer_) * static_cast<std::size_t>(maps_.height) +
-                            static_cast<std::size_t>(row)) *
-                               static_cast<std::size_t>(maps_.width) +
-                           static_cast<std::size_t>(column);
-        return above(depth_.value, maps_.depths[index], depth_.terms, decisions_) ? 0 : 1;
+        const int texel = (layer_ * maps_.height + row) * maps_.width + column;
+        const double stored = maps_.depths[static_cast<std::size_t>(texel)];
+        return above(depth_.value, stored, depth_.terms, decisions_) ? 0 : 1;
     }
 
     /// The sum over all texels of a tent of two texels' width about each: the place lies in four of them. At
@@ -93,12 +91,11 @@ class Layer {
             return std::max(0.0, 1 - std::abs(at - (texel + 0.5)));
         };
         double sum = 0;
-        for (int row = 0; row < maps_.height; ++row) {
+        for (int row = 0; row < maps_.height; ++row)
             for (int column = 0; column < maps_.width; ++column) {
                 const double weight = tent(x.value, maps_.width, column) * tent(y.value, maps_.height, row);
                 if (weight > 0) sum += weight * lit(column, row);
             }
-        }
         return sum;
     }
 
@@ -130,7 +127,7 @@ Visibility look_up(const Model& model, const Scene& scene, const Projected& proj
     const Sum y = divided(projected.y, projected.w);
     const DepthMaps& maps = scene.maps;
     Layer asked(maps, layer, divided(projected.depth, projected.w), decisions);
-    // A place that moves by a texel changes the share by at most 1, and so does the centre of a texel: it
+    // A place that moves by a texel changes the weight by at most 1, and so does the centre of a texel: it
     // then gets so much of the next one.
     const double centres = maps.width + maps.height;
     if (model.shadow_filter == ShadowFilter::nearest) return {asked.nearest(x, y), 0, 0, centres};
@@ -142,15 +139,14 @@ Visibility look_up(const Model& model, const Scene& scene, const Projected& proj
 /// A face of the cube: the axis that it lies on, and along which of the ray's components its sides run
 /// (OpenGL 4.5, table 8.19).
 struct Face {
-    int s_axis, t_axis;
+    std::size_t s_axis, t_axis;
     double s_sign, t_sign;
 };
 
 constexpr std::array<Face, 6> kFaces = {
     {{2, 1, -1, -1}, {2, 1, 1, -1}, {0, 2, 1, 1}, {0, 2, 1, -1}, {0, 1, 1, -1}, {0, 1, -1, -1}}};
 
-}  // namespace
-
+/// In one map: of directional and spot lights.
 Visibility visibility_in_map(const Model& model, const Scene& scene, const Shadow& shadow,
                              const glm::dvec3& position, Decisions& decisions) {
     const Projected projected{row_of(shadow, 0, position), row_of(shadow, 1, position),
@@ -158,14 +154,12 @@ Visibility visibility_in_map(const Model& model, const Scene& scene, const Shado
     return look_up(model, scene, projected, shadow.layer, decisions);
 }
 
+/// In the six maps of a cube: of point lights.
 Visibility visibility_in_cube(const Model& model, const Scene& scene, const Shadow& shadow,
                               const glm::dvec3& position, Decisions& decisions) {
-    std::array<Sum, 3> ray;
-    double unit = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        ray[static_cast<std::size_t>(axis)] = row_of(shadow, axis, position);
-        unit = std::max(unit, ray[static_cast<std::size_t>(axis)].terms);
-    }
+    const std::array ray = {row_of(shadow, 0, position), row_of(shadow, 1, position),
+                            row_of(shadow, 2, position)};
+    const double unit = std::max({ray[0].terms, ray[1].terms, ray[2].terms});
     std::size_t largest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis)
         if (above(std::abs(ray[axis].value), std::abs(ray[largest].value), unit, decisions)) largest = axis;
@@ -175,24 +169,23 @@ Visibility visibility_in_cube(const Model& model, const Scene& scene, const Shad
     const Sum w = scaled(ray[largest], is_positive ? 1 : -1);
     const Sum half = scaled(w, 0.5);
     const Projected projected{
-        plus(half, scaled(ray[static_cast<std::size_t>(face.s_axis)], face.s_sign * shadow.spread)),
-        plus(half, scaled(ray[static_cast<std::size_t>(face.t_axis)], face.t_sign * shadow.spread)),
+        plus(half, scaled(ray[face.s_axis], face.s_sign * shadow.spread)),
+        plus(half, scaled(ray[face.t_axis], face.t_sign * shadow.spread)),
         plus(scaled(w, shadow.depth_scale), {shadow.depth_shift, std::abs(shadow.depth_shift), 0}), w};
     return look_up(model, scene, projected, shadow.layer + static_cast<double>(number), decisions);
 }
 
+}  // namespace
+
 void cast_shadows(const Model& model, const Scene& scene, const glm::dvec3& position,
-                  std::vector<Arrival>& lights, Decisions& decisions) {
+                  std::vector<IncidentLight>& lights, Decisions& decisions) {
     const auto cast = [&](int first_light, int first_shadow, int count, auto visibility) {
         for (int i = 0; i < count; ++i) {
             const Shadow& shadow = scene.shadows[static_cast<std::size_t>(first_shadow + i)];
-            Arrival& light = lights[static_cast<std::size_t>(first_light + i)];
-            const Visibility visible = visibility(model, scene, shadow, position, decisions);
-            light.radiance *= visible.share;
+            IncidentLight& light = lights[static_cast<std::size_t>(first_light + i)];
+            light.shadow = visibility(model, scene, shadow, position, decisions);
+            light.radiance *= light.shadow.weight;
             light.is_shadowed = true;
-            light.shadow_per_rounding = visible.per_rounding;
-            light.shadow_per_length = visible.per_length;
-            light.shadow_per_place = visible.per_place;
         }
     };
     cast(0, 0, model.directional_shadows, visibility_in_map);

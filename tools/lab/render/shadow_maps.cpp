@@ -198,7 +198,7 @@ std::vector<ShadowLight> shadow_lights(const Family& family, const Key& key) {
     }
     for (int i = 0; i < given.count("spot_shadows"); ++i) {
         const std::string light = fmt::format("SpotLights.lights[{}]", i);
-        const std::vector<double> one_minus_cosine = given.numbers(light + ".outerVersine");
+        const std::vector<double> one_minus_cosine = given.numbers(light + ".outerOneMinusCosine");
         const double cosine =
             1 - (one_minus_cosine.empty() ? 1 : std::clamp(one_minus_cosine.front(), 0.0, 2.0));
         lights.push_back({Kind::spot, given.vector(light + ".position"), given.direction(light + ".axis"),

@@ -125,7 +125,7 @@ class PointMaker {
     }
 
     /// `from` along z and `to` at a cosine k / n from it, or a rounding beside that; numbers of the right
-    /// range take the cosine or versine, so that it is exactly an edge of theirs.
+    /// range take the cosine or one minus cosine, so that it is exactly an edge of theirs.
     void set_cosine(const InputField& to, const InputField& from) {
         const double bands = static_cast<double>(1 + random_.index(8));
         const double band = static_cast<double>(random_.index(static_cast<std::size_t>(bands) + 1));

@@ -39,7 +39,7 @@ void bring_nearer(oracle::PointLight& light, const glm::dvec3& surface, double e
 }
 
 /// The same for a light that is local by its w; the division by w rounds its place, too.
-void bring_nearer(oracle::HomogeneousLight& light, const glm::dvec3& surface, double error) {
+void bring_nearer(oracle::DirectionalOrPointLight& light, const glm::dvec3& surface, double error) {
     if (std::abs(light.position.w) < 0x1p-20) return;
     const glm::dvec3 place = glm::dvec3(light.position) / light.position.w;
     oracle::PointLight local{place, light.color, light.attenuation};
@@ -87,7 +87,7 @@ class LitBounds final : public ModelBounds {
 
     void bring_lights_nearer() {
         if (stage_ == StageKind::fragment) {
-            for (oracle::HomogeneousLight& light : sample_.scene.homogeneous)
+            for (oracle::DirectionalOrPointLight& light : sample_.scene.directional_or_point)
                 bring_nearer(light, sample_.surface.position, 0);
             return;
         }
@@ -95,7 +95,8 @@ class LitBounds final : public ModelBounds {
         const double error = position_error(sample_);
         for (oracle::PointLight& light : sample_.scene.point) bring_nearer(light, surface, error);
         for (oracle::SpotLight& light : sample_.scene.spot) bring_nearer(light, surface, error);
-        for (oracle::HomogeneousLight& light : sample_.scene.homogeneous) bring_nearer(light, surface, error);
+        for (oracle::DirectionalOrPointLight& light : sample_.scene.directional_or_point)
+            bring_nearer(light, surface, error);
     }
 
     void narrow(const verify::Expected& expected, std::span<Interval> intervals) const {

@@ -58,8 +58,8 @@ void add_light(const PlacedLight& placed, const glm::dvec3& position, const std:
     values.set(name + ".attenuation", light.attenuation);
     if (light.kind != LightKind::spot) return;
     values.set(name + ".exponent", light.exponent);
-    values.set(name + ".innerVersine", one_minus_cosine(light.inner_angle));
-    values.set(name + ".outerVersine", one_minus_cosine(light.outer_angle));
+    values.set(name + ".innerOneMinusCosine", one_minus_cosine(light.inner_angle));
+    values.set(name + ".outerOneMinusCosine", one_minus_cosine(light.outer_angle));
     values.set_direction(name + ".axis", placed.direction);
 }
 
@@ -108,16 +108,16 @@ void add_overrides(const Scene& scene, const Overrides& overrides, Values& value
     if (overrides.fog) {
         values.set("Fog.color", overrides.fog->color);
         values.set("Fog.density", overrides.fog->density);
-        values.set("Fog.near", overrides.fog->near);
-        values.set("Fog.far", overrides.fog->far);
+        values.set("Fog.start", overrides.fog->near);
+        values.set("Fog.end", overrides.fog->far);
     }
     values.set("ImageLight.color", scene.ambient);
     values.set_source("ImageLight.toMap", "inverse_view");
     values.set_source("Reflection.toMap", "inverse_view");
-    values.set("Reflection.share", overrides.reflection.value_or(0));
+    values.set("Reflection.weight", overrides.reflection.value_or(0));
     if (!overrides.probe) return;
     const Probe& probe = *overrides.probe;
-    values.set("ImageLight.share", probe.share);
+    values.set("ImageLight.weight", probe.share);
     values.set_direction("Hemisphere.up", probe.up);
     values.set("Hemisphere.sky", probe.sky);
     values.set("Hemisphere.ground", probe.ground);

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "lab/oracle/output_range.hpp"
+#include "lab/oracle/oracle.hpp"
+#include "lab/verify/cosines.hpp"
 #include "lab/verify/hybrid.hpp"
-#include "lab/verify/intensities.hpp"
 #include "lab/verify/rounding.hpp"
 
 namespace gobo::verify {
@@ -109,9 +109,9 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
     point.normal = normal.value;
     const PointErrors errors{glm::length(position_error), normal.error};
     if (model.shading == oracle::Shading::fragment) {
-        if (model.intensity == oracle::Intensity::fragment) return outputs;
-        for (Expected& intensity : expect_intensities(model, sample.scene, point, errors.position,
-                                                      errors.normal + kDirectionError, decisions))
+        if (model.n_dot_l == oracle::NDotL::fragment) return outputs;
+        for (Expected& intensity : expect_cosines(model, sample.scene, point, errors.position,
+                                                  errors.normal + kDirectionError, decisions))
             outputs.push_back(std::move(intensity));
         return outputs;
     }

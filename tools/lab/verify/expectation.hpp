@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "lab/oracle/decisions.hpp"
+#include "lab/oracle/lights.hpp"
 #include "lab/verify/sample.hpp"
 
 namespace gobo::verify {

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "lab/verify/cosines.hpp"
 #include "lab/verify/feed_surface.hpp"
 #include "lab/verify/field_access.hpp"
 #include "lab/verify/image_light_feed.hpp"
-#include "lab/verify/intensities.hpp"
 #include "lab/verify/sample_textures.hpp"
 #include "lab/verify/shadow_feed.hpp"
 
@@ -42,8 +42,8 @@ Fields plain_fields() {
         {"Toon.levels", field([](auto& s) -> auto& { return s.scene.toon_levels; })},
         {"Fog.color", field([](auto& s) -> auto& { return s.scene.fog.color; })},
         {"Fog.density", field([](auto& s) -> auto& { return s.scene.fog.density; })},
-        {"Fog.near", field([](auto& s) -> auto& { return s.scene.fog.near; })},
-        {"Fog.far", field([](auto& s) -> auto& { return s.scene.fog.far; })},
+        {"Fog.start", field([](auto& s) -> auto& { return s.scene.fog.start; })},
+        {"Fog.end", field([](auto& s) -> auto& { return s.scene.fog.end; })},
         {"DepthOffset.offset", field([](auto& s) -> auto& { return s.scene.depth_offset; })},
     };
 }
@@ -104,8 +104,10 @@ std::optional<Field> spot_field(const ElementName& name) {
     const auto of = [&](auto access) { return light_field(&oracle::Scene::spot, name.index, access); };
     if (name.member == "axis") return of([](auto& light) -> auto& { return light.axis; });
     if (name.member == "exponent") return of([](auto& light) -> auto& { return light.exponent; });
-    if (name.member == "innerVersine") return of([](auto& light) -> auto& { return light.inner_versine; });
-    if (name.member == "outerVersine") return of([](auto& light) -> auto& { return light.outer_versine; });
+    if (name.member == "innerOneMinusCosine")
+        return of([](auto& light) -> auto& { return light.inner_one_minus_cosine; });
+    if (name.member == "outerOneMinusCosine")
+        return of([](auto& light) -> auto& { return light.outer_one_minus_cosine; });
     return point_field(&oracle::Scene::spot, name);
 }
 
@@ -116,7 +118,7 @@ std::optional<Field> lit_field_of(const std::string& name) {
     if (const auto found = plain.find(name); found != plain.end()) return found->second;
     if (auto ray = handed_on_field(name, "lightRays", &oracle::SurfacePoint::rays)) return ray;
     if (auto half = handed_on_field(name, "lightsHalfways", &oracle::SurfacePoint::halfways)) return half;
-    if (auto cosines = intensities_field(name)) return cosines;
+    if (auto cosines = cosines_field(name)) return cosines;
     if (const auto light = element_name(name, "DirectionalLights.lights")) return directional_field(*light);
     if (const auto light = element_name(name, "PointLights.lights"))
         return point_field(&oracle::Scene::point, *light);

@@ -63,14 +63,15 @@ Field growing(std::vector<Element> oracle::Scene::*list, std::size_t index) {
             }};
 }
 
-std::optional<Field> homogeneous_member(const ElementName& name) {
+std::optional<Field> directional_or_point_member(const ElementName& name) {
     const auto of = [&](auto access) {
-        return Field{[=](const Sample& s) { return numbers(access(s.scene.homogeneous[name.index])); },
-                     [=](Sample& s, const std::vector<double>& values) {
-                         auto& all = s.scene.homogeneous;
-                         if (all.size() <= name.index) all.resize(name.index + 1);
-                         assign(access(all[name.index]), values);
-                     }};
+        return Field{
+            [=](const Sample& s) { return numbers(access(s.scene.directional_or_point[name.index])); },
+            [=](Sample& s, const std::vector<double>& values) {
+                auto& all = s.scene.directional_or_point;
+                if (all.size() <= name.index) all.resize(name.index + 1);
+                assign(access(all[name.index]), values);
+            }};
     };
     if (name.member == "position") return of([](auto& light) -> auto& { return light.position; });
     if (name.member == "color") return of([](auto& light) -> auto& { return light.color; });
@@ -103,7 +104,8 @@ std::optional<Field> surface_field_of(const std::string& name) {
     if (name == "ToonThresholds.thresholds")
         return triple([](auto& s) -> auto& { return s.scene.toon_thresholds; });
     if (name == "ToonThresholds.tones") return triple([](auto& s) -> auto& { return s.scene.toon_tones; });
-    if (const auto light = element_name(name, "HomogeneousLights.lights")) return homogeneous_member(*light);
+    if (const auto light = element_name(name, "DirectionalOrPointLights.lights"))
+        return directional_or_point_member(*light);
     if (const auto light = element_name(name, "LightAmbients.colors"))
         return growing(&oracle::Scene::light_ambients, light->index);
     if (const auto row = element_name(name, "Materials.rows"); row && row->index < 14)

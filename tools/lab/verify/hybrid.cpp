@@ -9,23 +9,23 @@
 namespace gobo::verify {
 namespace {
 
-/// The scene with local lights that are white and 1 bright: what arrives of them is their share. Arrivals refer
-/// to the lights of their scene.
+/// The scene with local lights that are white and 1 bright: what arrives of them is their share. Incident
+/// lights refer to the lights of their scene.
 oracle::Scene with_white_lights(oracle::Scene scene) {
     for (oracle::PointLight& light : scene.point) light.color = glm::dvec3(1);
     for (oracle::SpotLight& light : scene.spot) light.color = glm::dvec3(1);
     return scene;
 }
 
-Expected expect_ray(std::size_t index, const oracle::Arrival& arrival, const ArrivalErrors& errors) {
+Expected expect_ray(std::size_t index, const oracle::IncidentLight& incident, const IncidentErrors& errors) {
     Expected result{fmt::format("lightRays[{}]", index), 4, {}, {}, {}};
     for (std::size_t i = 0; i < 3; ++i) {
-        result.value[i] = arrival.to_light[static_cast<int>(i)];
+        result.value[i] = incident.to_light[static_cast<int>(i)];
         result.largest[i] = 1;
         result.float_error[i] = errors.direction;
     }
-    result.value[3] = arrival.radiance.x;
-    result.largest[3] = arrival.unshaped.x;
+    result.value[3] = incident.radiance.x;
+    result.largest[3] = incident.unshaped.x;
     result.float_error[3] = errors.radiance.x;
     return result;
 }
@@ -57,11 +57,11 @@ std::vector<Expected> expect_handed_on(const oracle::Model& model, const oracle:
     const double viewer = viewer_error(model, position, position_error);
     const oracle::Scene white = with_white_lights(scene);
     std::size_t number = 0;
-    for (const oracle::Arrival& arrival : oracle::arrivals(model, white, position, decisions)) {
-        const ArrivalErrors errors = arrival_errors(model, arrival, position_error);
+    for (const oracle::IncidentLight& incident : oracle::incident_lights(model, white, position, decisions)) {
+        const IncidentErrors errors = incident_errors(model, incident, position_error);
         if (number >= scene.directional.size())
-            outputs.push_back(expect_ray(number - scene.directional.size(), arrival, errors));
-        const glm::dvec3 half = arrival.to_light + to_viewer;
+            outputs.push_back(expect_ray(number - scene.directional.size(), incident, errors));
+        const glm::dvec3 half = incident.to_light + to_viewer;
         outputs.push_back(
             expect_halfway(number, half, halfway_error(errors.direction, viewer, glm::length(half))));
         ++number;
@@ -75,13 +75,14 @@ void hand_on(const oracle::Model& model, const oracle::Scene& scene, Random& ran
     const glm::dvec3 to_viewer = oracle::to_viewer(model, point.position);
     const oracle::Scene white = with_white_lights(scene);
     std::size_t number = 0;
-    for (const oracle::Arrival& arrival : oracle::arrivals(model, white, point.position, decisions)) {
+    for (const oracle::IncidentLight& incident :
+         oracle::incident_lights(model, white, point.position, decisions)) {
         if (number++ >= scene.directional.size()) {
-            const double share = arrival.radiance.x * random.between(0.9, 1.1);
-            point.rays.emplace_back(shortened(arrival.to_light, random),
+            const double share = incident.radiance.x * random.between(0.9, 1.1);
+            point.rays.emplace_back(shortened(incident.to_light, random),
                                     random.one_in(16) ? -0.01 * share : share);
         }
-        point.halfways.push_back(shortened(oracle::direction_of(arrival.to_light + to_viewer), random));
+        point.halfways.push_back(shortened(oracle::direction_of(incident.to_light + to_viewer), random));
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lab/oracle/decisions.hpp"
+#include "lab/oracle/lights.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/oracle/scene.hpp"
 #include "lab/verify/expectation.hpp"

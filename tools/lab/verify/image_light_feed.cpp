@@ -11,7 +11,7 @@ namespace {
 
 void fill(Random& random, oracle::ImageLight& light) {
     light.color = random.components(0, 1);
-    light.share = random.one_in(8) ? static_cast<double>(random.whole(0, 1)) : random.unit();
+    light.weight = random.one_in(8) ? static_cast<double>(random.whole(0, 1)) : random.unit();
     light.to_map = glm::dmat3(glm::rotate(glm::dmat4(1), random.between(0, 6.28), random.direction()));
     light.map.mean = random.components(0.5, 2);
     for (int column = 0; column < 3; ++column) light.map.slope[column] = random.components(-0.25, 0.25);
@@ -26,7 +26,7 @@ void round_all(Numbers& numbers) {
 
 void round_all(oracle::ImageLight& light) {
     round_all(light.color);
-    light.share = static_cast<float>(light.share);
+    light.weight = static_cast<float>(light.weight);
     round_all(light.to_map);
 }
 
@@ -57,10 +57,10 @@ void round_image_lights(oracle::Scene& scene) {
 std::optional<Field> image_light_field(std::string_view name) {
     if (name == "ImageLight.color")
         return field(3, [](auto& scene) { return glm::value_ptr(scene.image_light.color); });
-    if (name == "ImageLight.share") return field(1, [](auto& scene) { return &scene.image_light.share; });
+    if (name == "ImageLight.weight") return field(1, [](auto& scene) { return &scene.image_light.weight; });
     if (name == "ImageLight.toMap")
         return field(9, [](auto& scene) { return glm::value_ptr(scene.image_light.to_map); });
-    if (name == "Reflection.share") return field(1, [](auto& scene) { return &scene.reflection.share; });
+    if (name == "Reflection.weight") return field(1, [](auto& scene) { return &scene.reflection.weight; });
     if (name == "Reflection.toMap")
         return field(9, [](auto& scene) { return glm::value_ptr(scene.reflection.to_map); });
     return std::nullopt;

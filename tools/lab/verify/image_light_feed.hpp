@@ -15,7 +15,7 @@ void fill_image_lights(Random& random, oracle::Scene& scene);
 /// Every number of them as a float.
 void round_image_lights(oracle::Scene& scene);
 
-/// The field of that reflected name: "ImageLight.share". Nothing where there is none.
+/// The field of that reflected name: "ImageLight.weight". Nothing where there is none.
 [[nodiscard]] std::optional<Field> image_light_field(std::string_view name);
 
 }  // namespace gobo::verify

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/oracle/power.hpp"
+#include "lab/oracle/response.hpp"
 #include "lab/verify/rounding.hpp"
 
 namespace gobo::verify {
@@ -17,7 +17,7 @@ constexpr double kU = kUnitRoundoff;
 constexpr double kSmallestFloat = 0x1p-126;
 
 /// What computing 1 - u costs: nothing where a formula takes u as it is; otherwise one rounding of 1.
-double subtraction_error(Power power, const Versine& u) {
+double subtraction_error(Power power, const OneMinusCosine& u) {
     switch (power) {
         case Power::exact:
         case Power::near_exact:
@@ -31,7 +31,7 @@ double subtraction_error(Power power, const Versine& u) {
 }
 
 /// The roundings of the formula, each counted as often as what follows multiplies it by.
-double formula_error(Power power, const Versine& u, double exponent, double value) {
+double formula_error(Power power, const OneMinusCosine& u, double exponent, double value) {
     const double logarithm = value > 0 ? std::abs(std::log(value)) : 0;
     switch (power) {
         case Power::exact:  // six of the logarithm and the product, two of the exponential
@@ -63,12 +63,12 @@ double formula_error(Power power, const Versine& u, double exponent, double valu
 
 }  // namespace
 
-double power_error(Power power, const Versine& versine, double exponent) {
-    const double spread = versine.error + subtraction_error(power, versine);
-    const double least = oracle::lobe(power, std::min(versine.value + spread, 2.0), exponent);
-    const double most = oracle::lobe(power, std::max(versine.value - spread, 0.0), exponent);
-    const double value = oracle::lobe(power, versine.value, exponent);
-    return most - least + formula_error(power, versine, exponent, value);
+double power_error(Power power, const OneMinusCosine& one_minus_cosine, double exponent) {
+    const double spread = one_minus_cosine.error + subtraction_error(power, one_minus_cosine);
+    const double least = oracle::lobe(power, std::min(one_minus_cosine.value + spread, 2.0), exponent);
+    const double most = oracle::lobe(power, std::max(one_minus_cosine.value - spread, 0.0), exponent);
+    const double value = oracle::lobe(power, one_minus_cosine.value, exponent);
+    return most - least + formula_error(power, one_minus_cosine, exponent, value);
 }
 
 }  // namespace gobo::verify

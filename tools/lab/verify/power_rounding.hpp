@@ -5,14 +5,16 @@
 
 namespace gobo::verify {
 
-/// A versine, known to within `error`.
-struct Versine {
+/// A one minus cosine, known to within `error`.
+struct OneMinusCosine {
     double value = 0;
     double error = 0;
 };
 
-/// Bound of the error of `oracle::lobe()` for a versine that is off by its error: the spread of the lobe over
-/// that error, evaluated at both ends since the slope may be infinite, and the formula's own roundings.
-[[nodiscard]] double power_error(oracle::Power power, const Versine& versine, double exponent);
+/// Bound of the error of `oracle::lobe()` for a one minus cosine that is off by its error: the spread of the
+/// lobe over that error, evaluated at both ends since the slope may be infinite, and the formula's own
+/// roundings.
+[[nodiscard]] double power_error(oracle::Power power, const OneMinusCosine& one_minus_cosine,
+                                 double exponent);
 
 }  // namespace gobo::verify

@@ -16,14 +16,14 @@ constexpr double kU = kUnitRoundoff;
 /// 1 - a.b of two directions whose errors add up to `directions`. Near 0 it is |a - b|^2 / 2, whose
 /// derivative is |a - b| = sqrt(2 u), and five roundings; from 1/2 on 1 - a.b, with four roundings of at most
 /// 1, which are eight of u.
-Versine versine_of_unit(double value, double directions) {
+OneMinusCosine one_minus_cosine_of_unit(double value, double directions) {
     const double slope = std::sqrt(2 * value);
     return {value, (slope + directions / 2) * directions + 8 * kU * value};
 }
 
 /// 1 - a.b as it stands: the directions' errors, by the sine of the angle where both are unit, and four
 /// roundings of at most 1 each.
-Versine versine_of_cosine(double value, double directions, bool are_unit) {
+OneMinusCosine one_minus_cosine_of_cosine(double value, double directions, bool are_unit) {
     const double sine = std::sqrt(std::max(value * (2 - value), 0.0));
     const double slope = are_unit ? sine + directions / 2 : 1;
     return {value, slope * directions + 4 * kU};
@@ -31,33 +31,35 @@ Versine versine_of_cosine(double value, double directions, bool are_unit) {
 
 /// Where a ray lies in a cone. By the angle itself: |a x b| and a.b are good to four roundings of 1 each, so
 /// that the angle is off by six, and 2 sin^2 of its half by its slope, the sine, and six roundings more.
-Versine cone_versine(oracle::SpotEdge edge, double angle, double directions) {
-    const double value = oracle::versine_of(angle);
-    if (edge == oracle::SpotEdge::versine) return versine_of_unit(value, directions);
-    if (edge == oracle::SpotEdge::cosine) return versine_of_cosine(value, directions, true);
+OneMinusCosine cone_one_minus_cosine(oracle::SpotEdge edge, double angle, double directions) {
+    const double value = oracle::one_minus_cosine_of(angle);
+    if (edge == oracle::SpotEdge::one_minus_cosine) return one_minus_cosine_of_unit(value, directions);
+    if (edge == oracle::SpotEdge::cosine) return one_minus_cosine_of_cosine(value, directions, true);
     const double off = directions + 6 * kU;
     return {value, (std::sin(angle) + off / 2) * off + 6 * kU * value};
 }
 
-/// How far a highlight's versine is off, of directions whose errors add up to `directions`.
-Versine lobe_versine(const oracle::Model& model, double value, double directions) {
-    return model.normal == oracle::Normal::renormalised ? versine_of_unit(value, directions)
-                                                        : versine_of_cosine(value, directions, false);
+/// How far a highlight's one minus cosine is off, of directions whose errors add up to `directions`.
+OneMinusCosine lobe_one_minus_cosine(const oracle::Model& model, double value, double directions) {
+    return model.normal == oracle::Normal::renormalised
+               ? one_minus_cosine_of_unit(value, directions)
+               : one_minus_cosine_of_cosine(value, directions, false);
 }
 
-double edge(const oracle::SpotLight& light, double versine) {
-    const double width = light.outer_versine - light.inner_versine;
-    if (width <= 0) return versine < light.outer_versine || light.outer_versine >= 2 ? 1 : 0;
-    const double fade = std::clamp((light.outer_versine - versine) / width, 0.0, 1.0);
+double edge(const oracle::SpotLight& light, double one_minus_cosine) {
+    const double width = light.outer_one_minus_cosine - light.inner_one_minus_cosine;
+    if (width <= 0)
+        return one_minus_cosine < light.outer_one_minus_cosine || light.outer_one_minus_cosine >= 2 ? 1 : 0;
+    const double fade = std::clamp((light.outer_one_minus_cosine - one_minus_cosine) / width, 0.0, 1.0);
     return fade * fade;
 }
 
 /// Error of a spot light's share. A hard edge is decided, not rounded: it adds nothing here.
-double cone_error(oracle::SpotEdge spot_edge, const oracle::Arrival& arrival, double to_light_error) {
-    const oracle::SpotLight& light = *arrival.spot;
+double cone_error(oracle::SpotEdge spot_edge, const oracle::IncidentLight& incident, double to_light_error) {
+    const oracle::SpotLight& light = *incident.spot;
     // The axis is unit to two roundings.
-    const Versine u = cone_versine(spot_edge, arrival.cone_angle, to_light_error + 2 * kU);
-    const bool is_hard = light.inner_versine >= light.outer_versine;
+    const OneMinusCosine u = cone_one_minus_cosine(spot_edge, incident.cone_angle, to_light_error + 2 * kU);
+    const bool is_hard = light.inner_one_minus_cosine >= light.outer_one_minus_cosine;
     const double most = edge(light, std::max(u.value - u.error, 0.0));
     const double edge_error = is_hard ? 0 : most - edge(light, u.value + u.error) + 6 * kU * most;
     return edge_error + power_error(oracle::Power::exact, u, light.exponent) + kU;
@@ -68,10 +70,10 @@ double cone_error(oracle::SpotEdge spot_edge, const oracle::Arrival& arrival, do
 /// before the place in the map is decided. The weights and the product with the light are ten roundings of at
 /// most 1. A texel's centre, where a formula asks for that, is rounded once as it is divided by the map's
 /// size.
-double shadow_error(const oracle::Arrival& arrival, double position_error) {
-    const double centre = arrival.shadow_per_place * kU;
-    if (arrival.shadow_per_rounding == 0) return arrival.is_shadowed ? centre + kU : 0;
-    return arrival.shadow_per_rounding * 9 * kU + arrival.shadow_per_length * position_error + centre +
+double shadow_error(const oracle::IncidentLight& incident, double position_error) {
+    const double centre = incident.shadow.per_place * kU;
+    if (incident.shadow.per_rounding == 0) return incident.is_shadowed ? centre + kU : 0;
+    return incident.shadow.per_rounding * 9 * kU + incident.shadow.per_length * position_error + centre +
            10 * kU;
 }
 
@@ -118,21 +120,21 @@ glm::dvec3 ambient_error(const oracle::AmbientLight& ambient, double normal) {
 
 TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term,
                        double shininess, const PointErrors& errors, double normal, double to_viewer) {
-    const ArrivalErrors arrival = arrival_errors(model, term.arrival, errors.position);
-    const glm::dvec3& light = term.arrival.radiance;
+    const IncidentErrors incident = incident_errors(model, term.incident, errors.position);
+    const glm::dvec3& light = term.incident.radiance;
     TermErrors result;
-    result.ambient = term.ambient * (arrival.fading + 2 * kU);
+    result.ambient = term.ambient * (incident.attenuation + 2 * kU);
     // The gate is decided; where it is open, the cosine is off by both directions and a dot product.
-    const double cosine = normal + arrival.direction + 3 * kU;
+    const double cosine = normal + incident.direction + 3 * kU;
     const bool may_be_lit = term.is_lit || std::abs(term.cosine) <= cosine;
     if (!may_be_lit) return result;
     const double diffuse = model.diffuse == oracle::Diffuse::lambert ? cosine : 2 * kU;
-    result.scattered = light * (diffuse + kU) + arrival.radiance * largest_share(model, scene, term);
+    result.scattered = light * (diffuse + kU) + incident.radiance * largest_share(model, scene, term);
     if (model.specular == oracle::Specular::none) return result;
-    const double directions = highlight_directions(model, term, normal, arrival.direction, to_viewer);
-    const double share =
-        power_error(model.power, lobe_versine(model, term.highlight_versine, directions), shininess);
-    result.reflected = light * (share + kU) + arrival.radiance * term.specular;
+    const double directions = highlight_directions(model, term, normal, incident.direction, to_viewer);
+    const double share = power_error(
+        model.power, lobe_one_minus_cosine(model, term.highlight_one_minus_cosine, directions), shininess);
+    result.reflected = light * (share + kU) + incident.radiance * term.specular;
     return result;
 }
 
@@ -141,17 +143,17 @@ TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, c
 /// Directional lights are inputs, unit to two roundings. Of local ones the ray is a difference (one rounding,
 /// and the position's own error), the distance is good to as much, and 1 / (k_c + d (k_l + d k_q)) changes by
 /// at most twice as much, with seven roundings of positive terms.
-ArrivalErrors arrival_errors(const oracle::Model& model, const oracle::Arrival& arrival,
-                             double position_error) {
-    const glm::dvec3 shadow = arrival.unshaped * shadow_error(arrival, position_error);
-    if (arrival.is_interpolated) return {given_direction(model), kU, arrival.radiance * kU + shadow};
-    if (arrival.is_given) return {2 * kU, 0, shadow};
-    if (arrival.distance == 0) return {kDirectionError, 0, glm::dvec3(0)};
-    const double ray = kU + (position_error + kU * arrival.place_size) / arrival.distance;
+IncidentErrors incident_errors(const oracle::Model& model, const oracle::IncidentLight& incident,
+                               double position_error) {
+    const glm::dvec3 shadow = incident.unshaped * shadow_error(incident, position_error);
+    if (incident.is_interpolated) return {given_direction(model), kU, incident.radiance * kU + shadow};
+    if (incident.is_given) return {2 * kU, 0, shadow};
+    if (incident.distance == 0) return {kDirectionError, 0, glm::dvec3(0)};
+    const double ray = kU + (position_error + kU * incident.place_size) / incident.distance;
     const double direction = ray + kDirectionError;
     const double fading = 2 * direction + 7 * kU;
-    const double cone = arrival.spot != nullptr ? cone_error(model.spot_edge, arrival, direction) : 0;
-    return {direction, fading, arrival.radiance * fading + arrival.unshaped * cone + shadow};
+    const double cone = incident.spot != nullptr ? cone_error(model.spot_edge, incident, direction) : 0;
+    return {direction, fading, incident.radiance * fading + incident.unshaped * cone + shadow};
 }
 
 double viewer_error(const oracle::Model& model, const glm::dvec3& position, double position_error) {
@@ -192,10 +194,10 @@ glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene, con
     if (model.fog == oracle::Fog::none) return radiance_error;
     const oracle::FogParameters& fog = scene.fog;
     const double distance = kDirectionError * seen.distance + position_error;
-    double clearness = 0;
-    if (model.fog == oracle::Fog::linear && fog.near != fog.far) {
-        const double ahead = distance + kU * std::abs(fog.far - seen.distance);
-        clearness = ahead / std::abs(fog.far - fog.near) + 2 * kU * seen.clearness;
+    double fog_factor = 0;
+    if (model.fog == oracle::Fog::linear && fog.start != fog.end) {
+        const double ahead = distance + kU * std::abs(fog.end - seen.distance);
+        fog_factor = ahead / std::abs(fog.end - fog.start) + 2 * kU * seen.fog_factor;
     } else if (model.fog != oracle::Fog::linear) {
         // exp(-t) or exp(-t^2): the thickness t is a product, the square doubles its relative error.
         const double thickness = fog.density * seen.distance;
@@ -203,10 +205,10 @@ glm::dvec3 fog_error(const oracle::Model& model, const oracle::Scene& scene, con
         const double exponent = model.fog == oracle::Fog::exponential
                                     ? thickness * relative
                                     : thickness * thickness * (2 * relative + kU);
-        clearness = seen.clearness * (exponent + 2 * kU);
+        fog_factor = seen.fog_factor * (exponent + 2 * kU);
     }
-    const glm::dvec3 blend = glm::abs(radiance) * seen.clearness + fog.color * (1 - seen.clearness);
-    return seen.clearness * radiance_error + (glm::abs(radiance) + fog.color) * clearness + 3 * kU * blend;
+    const glm::dvec3 blend = glm::abs(radiance) * seen.fog_factor + fog.color * (1 - seen.fog_factor);
+    return seen.fog_factor * radiance_error + (glm::abs(radiance) + fog.color) * fog_factor + 3 * kU * blend;
 }
 
 }  // namespace gobo::verify

@@ -24,16 +24,16 @@ inline constexpr double kDirectionError = 6 * kUnitRoundoff;
                                         const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
                                         const PointErrors& errors);
 
-/// What a light's arrival is known to: the length of its direction's error, each channel's error.
-struct ArrivalErrors {
+/// What a light's incident is known to: the length of its direction's error, each channel's error.
+struct IncidentErrors {
     double direction = 0;
-    double fading = 0;  ///< relative
+    double attenuation = 0;  ///< relative
     glm::dvec3 radiance{0};
 };
 
 /// Bounds for a light whose distance is computed from a position that is itself off by so much.
-[[nodiscard]] ArrivalErrors arrival_errors(const oracle::Model& model, const oracle::Arrival& arrival,
-                                           double position_error);
+[[nodiscard]] IncidentErrors incident_errors(const oracle::Model& model,
+                                             const oracle::IncidentLight& incident, double position_error);
 
 /// Bound of the error of the direction to the viewer.
 [[nodiscard]] double viewer_error(const oracle::Model& model, const glm::dvec3& position,

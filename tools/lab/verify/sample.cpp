@@ -8,9 +8,9 @@
 #include <glm/matrix.hpp>
 
 #include "lab/oracle/oracle.hpp"
+#include "lab/verify/cosines.hpp"
 #include "lab/verify/hybrid.hpp"
 #include "lab/verify/image_light_feed.hpp"
-#include "lab/verify/intensities.hpp"
 #include "lab/verify/random.hpp"
 #include "lab/verify/sample_surface.hpp"
 #include "lab/verify/shadow_sample.hpp"
@@ -58,13 +58,13 @@ class SampleMaker {
         add_lights(sample);
         if (model_.shading == oracle::Shading::hybrid && !is_vertex_)
             hand_on(model_, sample.scene, random_, sample.surface);
-        if (model_.intensity == oracle::Intensity::vertex && !is_vertex_)
-            hand_on_intensities(model_, sample.scene, random_, sample.surface);
+        if (model_.n_dot_l == oracle::NDotL::vertex && !is_vertex_)
+            hand_on_cosines(model_, sample.scene, random_, sample.surface);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
         add_shadows(model_, random_, sample);
-        fill_surroundings(model_, random_, sample.scene);
+        fill_environment(model_, random_, sample.scene);
         if (model_.looks_up_images()) fill_image_lights(random_, sample.scene);
         if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4)) brighten(sample);
     }
@@ -186,23 +186,24 @@ class SampleMaker {
 
     void aim(oracle::SpotLight& light, const glm::dvec3& direction) {
         const double outer = random_.one_in(8) ? 1.5707963267948966 : random_.across(0.01, 1.5);
-        light.outer_versine = random_.one_in(16) ? 2 : 1 - std::cos(outer);
-        light.inner_versine = light.outer_versine * (random_.one_in(4) ? 1 : random_.between(0, 0.9));
+        light.outer_one_minus_cosine = random_.one_in(16) ? 2 : 1 - std::cos(outer);
+        light.inner_one_minus_cosine =
+            light.outer_one_minus_cosine * (random_.one_in(4) ? 1 : random_.between(0, 0.9));
         light.exponent = random_.one_in(4) ? 0 : random_.across(0.1, 1e3);
         // Seen from the light, the point lies somewhere from the axis to a little outside the cone.
         const glm::dvec3 aside = glm::normalize(glm::cross(direction, random_.direction()));
         const double angle = outer * random_.between(0, 1.2);
         light.axis = -std::cos(angle) * direction + std::sin(angle) * aside;
-        if (light.outer_versine == 2 && random_.one_in(2)) {  // it holds even the ray straight back
+        if (light.outer_one_minus_cosine == 2 && random_.one_in(2)) {  // it holds even the ray straight back
             light.axis = direction;
-            light.inner_versine = 2;
+            light.inner_one_minus_cosine = 2;
             light.exponent = 0;
         }
     }
 
     /// A direction of any length, a point, or a point times some w: a power of two, so that a float holds the
     /// same place.
-    oracle::HomogeneousLight either_kind(const glm::dvec3& surface) {
+    oracle::DirectionalOrPointLight either_kind(const glm::dvec3& surface) {
         oracle::PointLight local;
         const glm::dvec3 direction = place(local, surface);
         if (random_.one_in(2)) {
@@ -225,16 +226,16 @@ class SampleMaker {
             oracle::SpotLight& light = sample.scene.spot.emplace_back();
             aim(light, place(light, sample.surface.position));
         }
-        for (int i = 0; i < model_.homogeneous; ++i)
-            sample.scene.homogeneous.push_back(either_kind(sample.surface.position));
+        for (int i = 0; i < model_.directional_or_point; ++i)
+            sample.scene.directional_or_point.push_back(either_kind(sample.surface.position));
     }
 
     /// Fog that is thin, thick or in between at the point's distance.
     void fill_fog(oracle::FogParameters& fog, double distance) {
         fog.color = random_.components(0, 1);
         fog.density = std::min(random_.between(0, 3) / distance, 1e3);
-        fog.near = distance * random_.between(0, 1.5);
-        fog.far = random_.one_in(8) ? fog.near : fog.near + distance * random_.between(0.1, 2);
+        fog.start = distance * random_.between(0, 1.5);
+        fog.end = random_.one_in(8) ? fog.start : fog.start + distance * random_.between(0.1, 2);
     }
 
     /// Radiances around the largest that a 16-bit float holds.
@@ -276,8 +277,8 @@ void to_float(oracle::Scene& scene) {
     for (glm::dvec3* color : {&material.emission, &material.ambient, &material.diffuse, &material.specular,
                               &scene.ambient, &scene.fog.color})
         to_float(*color);
-    for (double* number : {&material.shininess, &material.strength, &scene.fog.density, &scene.fog.near,
-                           &scene.fog.far, &scene.depth_offset})
+    for (double* number : {&material.shininess, &material.strength, &scene.fog.density, &scene.fog.start,
+                           &scene.fog.end, &scene.depth_offset})
         to_float(*number);
     for (oracle::Shadow& shadow : scene.shadows) {
         for (int column = 0; column < 4; ++column)
@@ -295,7 +296,7 @@ void to_float(oracle::Scene& scene) {
     for (oracle::SpotLight& light : scene.spot) {
         to_float(static_cast<oracle::PointLight&>(light));
         to_float(light.axis);
-        for (double* number : {&light.exponent, &light.inner_versine, &light.outer_versine})
+        for (double* number : {&light.exponent, &light.inner_one_minus_cosine, &light.outer_one_minus_cosine})
             to_float(*number);
     }
 }
@@ -337,7 +338,7 @@ Sample rounded_to_float(Sample sample) {
     for (glm::dvec4& ray : sample.surface.rays)
         for (int i = 0; i < 4; ++i) to_float(ray[i]);
     for (glm::dvec3& halfway : sample.surface.halfways) to_float(halfway);
-    for (double& cosine : sample.surface.intensities) to_float(cosine);
+    for (double& cosine : sample.surface.cosines) to_float(cosine);
     round_surface(sample);
     return sample;
 }

@@ -40,7 +40,7 @@ void to_float(oracle::Material& material) {
 }
 
 void to_float(oracle::Scene& scene) {
-    for (oracle::HomogeneousLight& light : scene.homogeneous) {
+    for (oracle::DirectionalOrPointLight& light : scene.directional_or_point) {
         to_float(light.position);
         to_float(light.color);
         to_float(light.attenuation);
@@ -98,7 +98,7 @@ void vary_surface(std::size_t vertex, Sample& sample) {
     sample.surface.material = random.whole(-2, 16);
 }
 
-void fill_surroundings(const oracle::Model& model, Random& random, oracle::Scene& scene) {
+void fill_environment(const oracle::Model& model, Random& random, oracle::Scene& scene) {
     if (model.ambient == oracle::Ambient::hemisphere) fill_hemisphere(random, scene.hemisphere);
     if (model.ambient == oracle::Ambient::spherical_harmonics) fill_harmonics(random, scene.harmonics);
     if (model.light_ambient == oracle::LightAmbient::each)

@@ -19,7 +19,7 @@ void vary_surface(std::size_t vertex, Sample& sample);
 
 /// Fills the light that belongs to no direction: of a hemisphere, of harmonics, the lights' own ambient
 /// terms; and the thresholds of tones.
-void fill_surroundings(const oracle::Model& model, Random& random, oracle::Scene& scene);
+void fill_environment(const oracle::Model& model, Random& random, oracle::Scene& scene);
 
 /// Rounds every number of those to a float.
 void round_surface(Sample& sample);

@@ -1,4 +1,4 @@
-#include "lab/oracle/surroundings.hpp"
+#include "lab/oracle/environment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ std::array<Term, 9> terms_at(const glm::dvec3& n) {
 }
 
 int last_order(Harmonics order) {
-    return order == Harmonics::second ? 2 : order == Harmonics::first ? 1 : 0;
+    return 2 - static_cast<int>(order);
 }
 
 /// How much longer a matrix makes a vector at most: 1 for rotations. The 16th root of the Frobenius norm of
@@ -52,9 +52,16 @@ double largest_stretch(const glm::dmat3& matrix) {
     return stretch < 1.04 ? 1 : stretch;
 }
 
+LookedUp look_up(const ImageLight& light, const glm::dvec3& direction) {
+    const glm::dvec3 turned = glm::normalize(light.to_map * direction);
+    LookedUp found{light.map.mean + light.map.slope * turned, glm::dvec3(0)};
+    for (int column = 0; column < 3; ++column) found.slope += glm::abs(light.map.slope[column]);
+    return found;
+}
+
 }  // namespace
 
-double sky_share(Hemisphere kind, double angle, double length) {
+double sky_weight(Hemisphere kind, double angle, double length) {
     if (length == 0) return 0.5;
     if (kind == Hemisphere::cosine) return 0.5 + 0.5 * length * std::cos(angle);
     const double beyond_half = 0.5 * length * (1 - std::sin(angle));  // 0 at a right angle, of any length
@@ -62,8 +69,8 @@ double sky_share(Hemisphere kind, double angle, double length) {
 }
 
 AmbientLight hemisphere_light(Hemisphere kind, const HemisphereLight& light, const glm::dvec3& normal) {
-    const double share = sky_share(kind, angle_between(normal, light.up), glm::length(normal));
-    return {share * light.sky + (1 - share) * light.ground, light.sky + light.ground,
+    const double weight = sky_weight(kind, angle_between(normal, light.up), glm::length(normal));
+    return {weight * light.sky + (1 - weight) * light.ground, light.sky + light.ground,
             0.5 * glm::abs(light.sky - light.ground)};
 }
 
@@ -88,6 +95,19 @@ AmbientLight harmonics_light(Harmonics order, const HarmonicsLight& light, const
         result.slope += term.slope * size;
     }
     return result;
+}
+
+LookedUp ambient_from_image(const ImageLight& light, const glm::dvec3& normal) {
+    if (normal == glm::dvec3(0)) return {light.color, glm::dvec3(0)};
+    const LookedUp found = look_up(light, normal);
+    return {(1 - light.weight) * light.color + light.weight * found.value, light.weight * found.slope};
+}
+
+LookedUp reflection_from_image(const ImageLight& light, const glm::dvec3& normal,
+                               const glm::dvec3& to_viewer) {
+    if (normal == glm::dvec3(0) || to_viewer == glm::dvec3(0)) return {};
+    const LookedUp found = look_up(light, 2 * glm::dot(normal, to_viewer) * normal - to_viewer);
+    return {light.weight * found.value, light.weight * found.slope};
 }
 
 }  // namespace gobo::oracle

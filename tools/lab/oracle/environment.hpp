@@ -1,29 +1,11 @@
-// Light that has no one direction: of a sky and a ground, or of a whole environment.
+// Light that has no one direction: of a sky and a ground, or of a whole environment, by harmonics or by cube
+// maps.
 #pragma once
 
-#include <array>
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
 #include "lab/oracle/model.hpp"
+#include "lab/oracle/scene.hpp"
 
 namespace gobo::oracle {
-
-/// A sky on one side, a ground on the other.
-struct HemisphereLight {
-    glm::dvec3 up{0, 1, 0};  ///< unit, eye space; zero: no side
-    glm::dvec3 sky{0};       ///< radiance
-    glm::dvec3 ground{0};    ///< radiance
-};
-
-/// An environment by nine coefficients of spherical harmonics: L00, L1-1, L10, L11, L2-2, L2-1, L20, L21,
-/// L22.
-struct HarmonicsLight {
-    glm::dmat3 to_probe{1};  ///< eye space to the probe's axes
-    std::array<glm::dvec3, 9> coefficients{};
-    double scale = 1;
-};
 
 /// Ambient light at a surface, with what its accuracy hangs on.
 struct AmbientLight {
@@ -32,12 +14,12 @@ struct AmbientLight {
     glm::dvec3 slope{0};    ///< at most so much per unit of error of the normal
 };
 
-/// The share of the sky that a surface at this angle (radians) from straight up sees: 1 - sin / 2 up to a
+/// The part of the sky that a surface at this angle (radians) from straight up sees: 1 - sin / 2 up to a
 /// right angle and sin / 2 beyond it, exactly; (1 + cos) / 2 approximately. What is more or less than half
 /// counts by the length of a normal that is interpolated as it is.
-[[nodiscard]] double sky_share(Hemisphere kind, double angle, double length = 1);
+[[nodiscard]] double sky_weight(Hemisphere kind, double angle, double length = 1);
 
-/// mix(G, S, share of the sky). A zero normal sees half of each.
+/// mix(G, S, weight of the sky). A zero normal sees half of each.
 [[nodiscard]] AmbientLight hemisphere_light(Hemisphere kind, const HemisphereLight& light,
                                             const glm::dvec3& normal);
 
@@ -49,5 +31,18 @@ struct AmbientLight {
 /// max(scale irradiance, 0).
 [[nodiscard]] AmbientLight harmonics_light(Harmonics order, const HarmonicsLight& light,
                                            const glm::dvec3& normal);
+
+/// Light looked up, with what its accuracy hangs on.
+struct LookedUp {
+    glm::dvec3 value{0};  ///< radiance
+    glm::dvec3 slope{0};  ///< at most so much per unit of error of the direction
+};
+
+/// mix(color, map(normal), weight); the color alone where the normal is zero.
+[[nodiscard]] LookedUp ambient_from_image(const ImageLight& light, const glm::dvec3& normal);
+
+/// weight map(r) with r = 2 (n.v) n - v; nothing where either vector is zero.
+[[nodiscard]] LookedUp reflection_from_image(const ImageLight& light, const glm::dvec3& normal,
+                                             const glm::dvec3& to_viewer);
 
 }  // namespace gobo::oracle

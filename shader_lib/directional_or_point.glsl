@@ -5,26 +5,26 @@
 //         9th ed., ch. 7.
 // Ranges: eye space; components within 1e6, colour 0 to 1e5 (radiance at attenuation 1).
 
-#piece homogeneous
-#include <homogeneous/ray>
+#piece directional_or_point
+#include <directional_or_point/ray>
 #include "lighting/response.glsl"
 
-/// Adds every homogeneous light to the surface's response.
-void addHomogeneousLights() {
-    for (int i = 0; i < HOMOGENEOUS_LIGHTS; ++i) {
-        LightRay ray = homogeneousRay(i);
-        addLightAmbient(ray.fading);
-        addLight(ray.toLight, ray.share * homogeneousLights.lights[i].color);
+/// Adds every such light to the surface's response.
+void addDirectionalOrPointLights() {
+    for (int i = 0; i < DIRECTIONAL_OR_POINT_LIGHTS; ++i) {
+        LightRay ray = directionalOrPointRay(i);
+        addLightAmbient(ray.attenuation);
+        addLight(ray.toLight, ray.weight * directionalOrPointLights.lights[i].color);
     }
 }
 
-#piece ray/homogeneous
-#include "homogeneous/either_ray.glsl"
-#include "homogeneous/lights.glsl"
+#piece ray/directional_or_point
+#include "directional_or_point/either_ray.glsl"
+#include "directional_or_point/lights.glsl"
 
 /// The ray to light number i.
-LightRay homogeneousRay(int i) {
-    return eitherRay(homogeneousLights.lights[i].position, homogeneousLights.lights[i].attenuation);
+LightRay directionalOrPointRay(int i) {
+    return eitherRay(directionalOrPointLights.lights[i].position, directionalOrPointLights.lights[i].attenuation);
 }
 
 #piece either_ray
@@ -39,19 +39,19 @@ LightRay eitherRay(vec4 position, vec3 coefficients) {
     float w = position.w;
     bool isLocal = abs(w) >= 9.5367431640625e-7;
     vec4 ray = directionAndLength(isLocal ? position.xyz / w - surfacePosition() : position.xyz);
-    float fading = isLocal ? attenuation(coefficients, ray.w) : 1.0;
-    return LightRay(ray.xyz, fading, fading);
+    float byDistance = isLocal ? attenuation(coefficients, ray.w) : 1.0;
+    return LightRay(ray.xyz, byDistance, byDistance);
 }
 
 #piece lights
 /// `position` is a point in eye space, times its w; or where w is 0 the direction to the light, of any length.
 /// `attenuation` holds k_c, k_l, k_q, which a direction does not need.
-struct HomogeneousLight {
+struct DirectionalOrPointLight {
     vec4 position;
     vec3 color;
     vec3 attenuation;
 };
 
-BLOCK(11, HomogeneousLights) {
-    HomogeneousLight lights[HOMOGENEOUS_LIGHTS];
-} homogeneousLights;
+BLOCK(11, DirectionalOrPointLights) {
+    DirectionalOrPointLight lights[DIRECTIONAL_OR_POINT_LIGHTS];
+} directionalOrPointLights;

@@ -3,10 +3,10 @@
 #piece fragment
 // Where the model is evaluated.
 /// Prepares the cosines of all lights: nothing.
-void beginIntensities() {}
+void beginCosines() {}
 
 /// The cosine between the normal and the direction to the next light.
-float nextIntensity(vec3 normal, vec3 toLight) { return dot(normal, toLight); }
+float nextCosine(vec3 normal, vec3 toLight) { return dot(normal, toLight); }
 
 #piece vertex.frag
 // At the vertices, and interpolated, so that only the tone is found per fragment. Cheaper, and known to look bad: between
@@ -18,10 +18,10 @@ float nextIntensity(vec3 normal, vec3 toLight) { return dot(normal, toLight); }
 int nextLightNumber;
 
 /// Prepares the cosines of all lights. To be called before the first light.
-void beginIntensities() { nextLightNumber = 0; }
+void beginCosines() { nextLightNumber = 0; }
 
 /// The cosine between the normal and the direction to the next light.
-float nextIntensity(vec3 normal, vec3 toLight) {
+float nextCosine(vec3 normal, vec3 toLight) {
     int number = nextLightNumber++;
-    return cosineOfSide(lightIntensities[number / 4][number % 4]);
+    return cosineOfSide(lightCosines[number / 4][number % 4]);
 }
