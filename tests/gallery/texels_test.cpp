@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/color_texels.hpp"
+#include "lab/evaluate/images.hpp"
 #include "lab/probe/environment.hpp"
 
 namespace gobo::evaluate {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/evaluate/kinds.hpp"
+#include "lab/evaluate/program.hpp"
 #include "lit_guards.hpp"
 #include "lab/render/context.hpp"
 

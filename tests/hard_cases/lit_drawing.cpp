@@ -47,7 +47,7 @@ std::string feeding_stage(const evaluate::Program& fragment) {
     for (const auto& [name, varying] : declared_varyings(fragment))
         outputs +=
             fmt::format("layout(location = {}) {}out {} {}{};\n", varying.first->location,
-                        varying.first->scalar == evaluate::Scalar::real ? "" : "flat ", varying.first->type,
+                        varying.first->scalar == evaluate::Scalar::float32 ? "" : "flat ", varying.first->type,
                         name, varying.elements > 0 ? fmt::format("[{}]", varying.elements) : "");
     for (const evaluate::Port& port : fragment.inputs) {
         if (!is_handed_on(port)) continue;
@@ -79,9 +79,9 @@ std::vector<std::byte> bytes_of(const evaluate::Program& stage, std::size_t bloc
         for (std::size_t i = 0; i < port.components; ++i) {
             const auto real = static_cast<float>((*numbers)[i]);
             const auto whole =
-                port.scalar == evaluate::Scalar::real ? 0 : static_cast<std::int32_t>((*numbers)[i]);
+                port.scalar == evaluate::Scalar::float32 ? 0 : static_cast<std::int32_t>((*numbers)[i]);
             std::memcpy(bytes.data() + port.offsets[i],
-                        port.scalar == evaluate::Scalar::real ? static_cast<const void*>(&real) : &whole, 4);
+                        port.scalar == evaluate::Scalar::float32 ? static_cast<const void*>(&real) : &whole, 4);
         }
     }
     return bytes;
@@ -193,7 +193,7 @@ void LitDrawing::set_attributes(const evaluate::Invocations& vertex) {
         const std::vector<double>* numbers = value_of(vertex, port.name);
         if (!is_handed_on(port) || numbers == nullptr) continue;
         const auto location = static_cast<GLuint>(port.location);
-        if (port.scalar == evaluate::Scalar::real) {
+        if (port.scalar == evaluate::Scalar::float32) {
             float values[4] = {0, 0, 0, 1};
             for (std::size_t i = 0; i < port.components; ++i) values[i] = static_cast<float>((*numbers)[i]);
             context_.gl().VertexAttrib4fv(location, values);

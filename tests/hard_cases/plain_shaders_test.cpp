@@ -14,7 +14,7 @@
 #include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
-#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "lab/sanitize/output_bounds.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "validate/validate.hpp"

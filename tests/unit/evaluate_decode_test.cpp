@@ -48,15 +48,16 @@ std::string error_of(const std::vector<std::uint32_t>& words) {
 }
 
 TEST(Refused, WhatIsNoModule) {
-    EXPECT_EQ(error_of({}), "gobo: error: this is not a SPIR-V module of this machine's byte order\n");
-    EXPECT_EQ(error_of({0x03022307, 0x00000100, 0, 10, 0}),
-              "gobo: error: this is not a SPIR-V module of this machine's byte order\n");
+    EXPECT_EQ(error_of({}), "gobo: error: malformed SPIR-V module at word 0: it is shorter than a header\n");
+    EXPECT_EQ(
+        error_of({0x03022307, 0x00000100, 0, 10, 0}),
+        "gobo: error: malformed SPIR-V module at word 0: it does not begin with SPIR-V's magic number\n");
     EXPECT_EQ(error_of({0x07230203, 0x00010000, 0, 10, 0}),
               "gobo: error: the SPIR-V module has no vertex or fragment stage\n");
     EXPECT_EQ(error_of({0x07230203, 0x00010000, 0, 0xffffffff, 0}),
-              "gobo: error: the SPIR-V module claims 4294967295 ids in 5 words\n");
+              "gobo: error: malformed SPIR-V module at word 0: it claims 4294967295 ids in 5 words\n");
     EXPECT_EQ(error_of({0x07230203, 0x00010000, 0, 10, 0, 0x00040011}),
-              "gobo: error: the SPIR-V module is truncated at word 5\n");
+              "gobo: error: malformed SPIR-V module at word 5: an instruction runs past the end\n");
 }
 
 /// A shader with something of everything: loops, calls, blocks, textures, dynamic indices.

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/trace.hpp"
+#include "lab/evaluate/eval_report.hpp"
 #include "evaluate_support.hpp"
 
 namespace gobo::evaluate {

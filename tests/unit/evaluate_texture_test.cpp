@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/color_texels.hpp"
-#include "lab/evaluate/eval_inputs.hpp"
-#include "lab/evaluate/eval_point.hpp"
+#include "lab/evaluate/images.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "evaluate_support.hpp"
 
 namespace gobo::evaluate {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/color_texels.hpp"
+#include "lab/evaluate/images.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/verify/compare_picture.hpp"

@@ -13,16 +13,10 @@ using spirv::kWhole;
 using spirv::Module;
 using spirv::Type;
 
-/// Far above what any device offers; keeps a malformed module from asking for lists without end.
-constexpr int kMostLocations = 1 << 16;
-constexpr int kMostBindings = 1 << 16;
+/// Locations or binding points, far above what any device offers; keeps a malformed module from asking for
+/// lists without end.
+constexpr int kMostPlaces = 1 << 16;
 constexpr int kLargest = std::numeric_limits<int>::max();
-
-std::string_view stage_name(spv::ExecutionModel model) {
-    constexpr std::string_view kNames[] = {"vertex",   "tess_control", "tess_evaluation",
-                                           "geometry", "fragment",     "compute"};
-    return model <= spv::ExecutionModelGLCompute ? kNames[model] : std::string_view();
-}
 
 /// The number that decorates the id or member; `absent` where none does.
 int decorated(const Module& module, spv::Decoration kind, Id id, int member = kWhole, int absent = 0) {
@@ -32,7 +26,7 @@ int decorated(const Module& module, spv::Decoration kind, Id id, int member = kW
 
 /// The location or binding point that the module states, or -1.
 int stated(const Module& module, spv::Decoration kind, Id id, int member = kWhole) {
-    return std::min(decorated(module, kind, id, member, -1), kMostLocations);
+    return std::min(decorated(module, kind, id, member, -1), kMostPlaces);
 }
 
 /// The extents of an array, outermost first, 0 for no size; empty where the type is no array.
@@ -177,9 +171,12 @@ class Reflection {
     Result<Interface> run() {
         if (module_.entry_points.empty())
             return fail(Fault::internal, "the SPIR-V module has no entry point");
-        const std::string stage(stage_name(module_.entry_points.front().model));
-        if (stage.empty()) return fail(Fault::internal, "the SPIR-V module is of an unknown kind of stage");
-        interface_.stages = {stage};
+        constexpr const char* kStages[] = {"vertex",   "tess_control", "tess_evaluation",
+                                           "geometry", "fragment",     "compute"};
+        const spv::ExecutionModel model = module_.entry_points.front().model;
+        if (model > spv::ExecutionModelGLCompute)
+            return fail(Fault::internal, "the SPIR-V module is of an unknown kind of stage");
+        interface_.stages = {kStages[model]};
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
         if (!problem_.empty()) return fail(Fault::internal, problem_);
@@ -224,12 +221,12 @@ class Reflection {
 
     bool check_block(Id structure, const std::vector<int>& extents, const std::string& name) {
         std::int64_t count = 1;
-        for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostBindings + 1);
+        for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
         if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
             problem_ = fmt::format("block '{}' of the SPIR-V module has no layout", name);
         else if (block_size(module_, structure) > kLargest)
             problem_ = fmt::format("block '{}' takes more than 2 GiB", name);
-        else if (count > kMostBindings)
+        else if (count > kMostPlaces)
             problem_ = fmt::format("block '{}' is an array of too many blocks", name);
         return problem_.empty();
     }
@@ -253,7 +250,7 @@ class Reflection {
         const bool is_attribute =
             variable.storage == spv::StorageClassInput && interface_.stages.front() == "vertex";
         const std::string name = interface_name(module_, variable);
-        if (locations_of(module_, variable.type, is_attribute) > kMostLocations) {
+        if (locations_of(module_, variable.type, is_attribute) > kMostPlaces) {
             problem_ = fmt::format("variable '{}' takes too many locations", name);
             return;
         }

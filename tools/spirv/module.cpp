@@ -2,10 +2,10 @@
 #include "spirv/module.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <initializer_list>
 #include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -18,20 +18,20 @@ constexpr std::uint32_t kDeepest = 255;
 /// Far above what any shader declares; keeps structs of structs of structs from growing without end.
 constexpr std::uint64_t kMostParts = 1 << 20;
 
-/// The fewest words with which an instruction makes sense to the reader.
-struct LeastWords {
-    spv::Op opcode;
-    std::size_t count;
-};
-constexpr LeastWords kLeastWords[] = {
-    {spv::OpTypeImage, 9},      {spv::OpEntryPoint, 4},   {spv::OpMemberName, 4},
-    {spv::OpMemberDecorate, 4}, {spv::OpTypeInt, 4},      {spv::OpTypeVector, 4},
-    {spv::OpTypeMatrix, 4},     {spv::OpTypeArray, 4},    {spv::OpTypePointer, 4},
-    {spv::OpConstant, 4},       {spv::OpSpecConstant, 4}, {spv::OpSpecConstantOp, 4},
-    {spv::OpVariable, 4},       {spv::OpName, 3},         {spv::OpString, 3},
-    {spv::OpDecorate, 3},       {spv::OpTypeFloat, 3},    {spv::OpTypeSampledImage, 3},
-    {spv::OpTypeStruct, 2},     {spv::OpTypeFunction, 3}, {spv::OpTypeRuntimeArray, 3},
-};
+/// The fewest words with which an instruction makes sense to the reader, by opcode.
+constexpr auto kLeastWords = [] {
+    std::array<std::uint8_t, spv::OpMemberDecorate + 1> least{};
+    for (const spv::Op opcode :
+         {spv::OpEntryPoint, spv::OpMemberName, spv::OpMemberDecorate, spv::OpTypeInt, spv::OpTypeVector,
+          spv::OpTypeMatrix, spv::OpTypeArray, spv::OpTypePointer, spv::OpConstant, spv::OpSpecConstant,
+          spv::OpSpecConstantOp, spv::OpVariable})
+        least[opcode] = 4;
+    for (const spv::Op opcode : {spv::OpName, spv::OpString, spv::OpDecorate, spv::OpTypeFloat,
+                                 spv::OpTypeSampledImage, spv::OpTypeFunction, spv::OpTypeRuntimeArray})
+        least[opcode] = 3;
+    least[spv::OpTypeImage] = 9;
+    return least;
+}();
 
 std::optional<Scalar> scalar_of(const Instruction& number) {
     using enum Scalar;
@@ -47,21 +47,6 @@ std::uint32_t limited(std::uint64_t scalars) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(scalars, Type::kMostScalars));
 }
 
-auto key_of(const Name& name) {
-    return std::tuple(name.id, name.member);
-}
-auto key_of(const Decoration& decoration) {
-    return std::tuple(decoration.id, decoration.member, decoration.kind);
-}
-constexpr auto kByKey = [](const auto& entry) { return key_of(entry); };
-
-/// The entry with that key in a list sorted by key, or null.
-template <class Entry, class... Key>
-const Entry* find(const std::vector<Entry>& sorted, Key... key) {
-    const auto found = std::ranges::lower_bound(sorted, std::tuple(key...), {}, kByKey);
-    return found != sorted.end() && key_of(*found) == std::tuple(key...) ? &*found : nullptr;
-}
-
 /// Reads instruction after instruction into a module; stops at the first problem.
 class Reader {
   public:
@@ -73,8 +58,6 @@ class Reader {
         if (!problem_.empty())
             return fail(Fault::internal,
                         fmt::format("malformed SPIR-V module at word {}: {}", position_, problem_));
-        std::ranges::stable_sort(module_.names, {}, kByKey);
-        std::ranges::stable_sort(module_.decorations, {}, kByKey);
         return std::move(module_);
     }
 
@@ -103,8 +86,8 @@ class Reader {
         instruction.opcode = static_cast<spv::Op>(words_[position_] & spv::OpCodeMask);
         instruction.words = words_.subspan(position_, count);
         instruction.line = line_;
-        const auto* least = std::ranges::find(kLeastWords, instruction.opcode, &LeastWords::opcode);
-        if (least != std::end(kLeastWords) && count < least->count)
+        if (static_cast<std::size_t>(instruction.opcode) < kLeastWords.size() &&
+            count < kLeastWords[instruction.opcode])
             return stop("an instruction lacks operands");
         bool has_result = false;
         bool has_type = false;
@@ -164,12 +147,12 @@ class Reader {
     void read_name(const Instruction& instruction, int member, std::size_t first) {
         // Strings are filled up with zeros to whole words.
         if (instruction.words.back() >> 24 != 0) return stop("a string without an end");
-        module_.names.push_back({instruction.id(1), member, instruction.words.subspan(first)});
+        module_.names.try_emplace({instruction.id(1), member}, instruction.words.subspan(first));
     }
 
     void read_decoration(const Instruction& instruction, int member, std::size_t at) {
-        const auto kind = instruction.as<spv::Decoration>(at);
-        module_.decorations.push_back({instruction.id(1), member, kind, instruction.word(at + 1)});
+        module_.decorations.try_emplace({instruction.id(1), member, instruction.as<spv::Decoration>(at)},
+                                        instruction.word(at + 1));
     }
 
     void read_line(const Line& line) {
@@ -216,7 +199,7 @@ class Reader {
 
     void read_variable(const Instruction& instruction) {
         const Type& pointer = module_.type(instruction.type);
-        if (pointer.opcode != spv::OpTypePointer) return stop("a variable whose type is no pointer");
+        if (pointer.opcode != spv::OpTypePointer) return stop("a variable whose type is not a pointer");
         const auto storage = instruction.as<spv::StorageClass>(3);
         if (storage != spv::StorageClassFunction)
             module_.variables.push_back({instruction.result, pointer.element, storage});
@@ -225,47 +208,19 @@ class Reader {
     void read_type(const Instruction& instruction) {
         Type type;
         type.opcode = instruction.opcode;
-        switch (instruction.opcode) {
-            case spv::OpTypeBool:
-                set_scalar(type, Scalar::boolean);
-                break;
-            case spv::OpTypeInt:
-            case spv::OpTypeFloat:
-                set_scalar(type, scalar_of(instruction));
-                break;
-            case spv::OpTypeVector:
-                set_element(type, instruction.id(2), extent(instruction),
-                            {spv::OpTypeBool, spv::OpTypeInt, spv::OpTypeFloat});
-                type.value.rows = static_cast<int>(type.count);
-                break;
-            case spv::OpTypeMatrix:
-                set_element(type, instruction.id(2), extent(instruction), {spv::OpTypeVector});
-                type.value.columns = static_cast<int>(type.count);
-                break;
-            case spv::OpTypeArray:
-                set_element(type, instruction.id(2), array_extent(instruction.id(3)));
-                break;
-            case spv::OpTypeRuntimeArray:
-                set_element(type, instruction.id(2), 0);
-                break;
-            case spv::OpTypeStruct:
-                set_members(type, instruction);
-                break;
-            case spv::OpTypeImage:
-                set_element(type, instruction.id(2), 1, {spv::OpTypeBool, spv::OpTypeInt, spv::OpTypeFloat});
-                type.value = {Scalar::uint32};
-                type.image = {instruction.as<spv::Dim>(3), instruction.word(4) == 1, instruction.word(5) == 1,
-                              instruction.word(6) == 1, instruction.word(7) == 2};
-                break;
-            case spv::OpTypeSampledImage:
-                type.image = set_element(type, instruction.id(2), 1, {spv::OpTypeImage}).image;
-                break;
-            case spv::OpTypePointer:
-                set_element(type, instruction.id(3), 0);
-                type.storage = instruction.as<spv::StorageClass>(2);
-                break;
-            default:
-                break;
+        const auto is = [&](auto... opcodes) { return ((instruction.opcode == opcodes) || ...); };
+        if (is(spv::OpTypeBool)) set_scalar(type, Scalar::boolean);
+        if (is(spv::OpTypeInt, spv::OpTypeFloat)) set_scalar(type, scalar_of(instruction));
+        if (is(spv::OpTypeVector, spv::OpTypeMatrix)) set_columns(type, instruction);
+        if (is(spv::OpTypeArray)) set_element(type, instruction.id(2), array_extent(instruction.id(3)));
+        if (is(spv::OpTypeRuntimeArray)) set_element(type, instruction.id(2), 0);
+        if (is(spv::OpTypeStruct)) set_members(type, instruction);
+        if (is(spv::OpTypeImage)) set_image(type, instruction);
+        if (is(spv::OpTypeSampledImage))
+            type.image = set_element(type, instruction.id(2), 1, {spv::OpTypeImage}).image;
+        if (is(spv::OpTypePointer)) {
+            set_element(type, instruction.id(3), 0);
+            type.storage = instruction.as<spv::StorageClass>(2);
         }
         if (type.depth > kDeepest || type.parts > kMostParts) stop("types nested without end");
         if (problem_.empty()) module_.types.emplace(instruction.result, std::move(type));
@@ -297,7 +252,7 @@ class Reader {
         const Type& element = part(type, id, fitting);
         type.element = id;
         type.count = count;
-        type.value = element.value;
+        type.value = {element.value.scalar};
         type.scalars = limited(std::uint64_t{count} * element.scalars);
         return element;
     }
@@ -306,7 +261,7 @@ class Reader {
         std::uint64_t scalars = 0;
         for (std::size_t word = 2; word < instruction.words.size(); ++word) {
             const Type& member = part(type, instruction.id(word), {});
-            if (type.members.empty()) type.value = member.value;
+            if (type.members.empty()) type.value = {member.value.scalar};
             type.members.push_back(instruction.id(word));
             scalars += member.scalars;
         }
@@ -314,16 +269,29 @@ class Reader {
         type.scalars = limited(scalars);
     }
 
-    /// Of a vector or matrix.
-    std::uint32_t extent(const Instruction& instruction) {
-        if (instruction.word(3) < 2 || instruction.word(3) > 4) stop("a vector or matrix of impossible size");
-        return instruction.word(3);
+    void set_columns(Type& type, const Instruction& instruction) {
+        const std::uint32_t count = instruction.word(3);
+        if (count < 2 || count > 4) return stop("a vector or matrix of impossible size");
+        if (instruction.opcode == spv::OpTypeVector) {
+            set_element(type, instruction.id(2), count, {spv::OpTypeBool, spv::OpTypeInt, spv::OpTypeFloat});
+            type.value.rows = static_cast<int>(count);
+        } else {
+            type.value.rows = set_element(type, instruction.id(2), count, {spv::OpTypeVector}).value.rows;
+            type.value.columns = static_cast<int>(count);
+        }
+    }
+
+    void set_image(Type& type, const Instruction& instruction) {
+        set_element(type, instruction.id(2), 1, {spv::OpTypeBool, spv::OpTypeInt, spv::OpTypeFloat});
+        type.value = {Scalar::uint32};
+        type.image = {instruction.as<spv::Dim>(3), instruction.word(4) == 1, instruction.word(5) == 1,
+                      instruction.word(6) == 1, instruction.word(7) == 2};
     }
 
     std::uint32_t array_extent(Id id) {
         const auto extent = module_.integers.find(id);
         if (extent == module_.integers.end()) {
-            stop("an array whose size is no integer constant");
+            stop("an array whose size is not an integer constant");
             return 0;
         }
         if (extent->second < 1 || extent->second > std::numeric_limits<std::int32_t>::max())
@@ -338,19 +306,15 @@ class Reader {
     std::string problem_;
 };
 
-std::string_view dimension_name(spv::Dim dimension) {
-    constexpr std::string_view kNames[] = {"1D", "2D", "3D", "Cube", "2DRect", "Buffer"};
-    return dimension <= spv::DimBuffer ? kNames[dimension] : "2D";
-}
-
 std::string image_name(const Module& module, const Type& type, std::string_view kind) {
+    constexpr std::string_view kDimensions[] = {"1D", "2D", "3D", "Cube", "2DRect", "Buffer"};
     const Scalar texel = module.type(type.element).value.scalar;
-    return fmt::format("{}{}{}{}{}{}",
-                       texel == Scalar::int32    ? "i"
-                       : texel == Scalar::uint32 ? "u"
-                                                 : "",
-                       kind, dimension_name(type.image.dimension), type.image.multisampled ? "MS" : "",
-                       type.image.arrayed ? "Array" : "", type.image.depth ? "Shadow" : "");
+    const std::string_view prefix = texel == Scalar::int32 ? "i" : texel == Scalar::uint32 ? "u" : "";
+    return fmt::format(
+        "{}{}{}{}{}{}", prefix, kind,
+        kDimensions[type.image.dimension <= spv::DimBuffer ? type.image.dimension : spv::Dim2D],
+        type.image.multisampled ? "MS" : "", type.image.arrayed ? "Array" : "",
+        type.image.depth ? "Shadow" : "");
 }
 
 }  // namespace
@@ -380,13 +344,13 @@ const Instruction* Module::definition(Id id) const {
 }
 
 std::string Module::name(Id id, int member) const {
-    const Name* const found = find(names, id, member);
-    return found == nullptr ? std::string() : literal_text(found->literal);
+    const auto found = names.find({id, member});
+    return found == names.end() ? std::string() : literal_text(found->second);
 }
 
 std::optional<std::uint32_t> Module::decoration(Id id, spv::Decoration kind, int member) const {
-    const Decoration* const found = find(decorations, id, member, kind);
-    return found == nullptr ? std::nullopt : std::optional(found->value);
+    const auto found = decorations.find({id, member, kind});
+    return found == decorations.end() ? std::nullopt : std::optional(found->second);
 }
 
 Place Module::place(std::uint32_t line) const {

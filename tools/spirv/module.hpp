@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -88,23 +90,8 @@ struct EntryPoint {
 /// Stands for the whole id, in place of one of its members.
 inline constexpr int kWhole = -1;
 
-/// Where the name of an id or of one of its members is written.
-struct Name {
-    Id id = Id::none;
-    int member = kWhole;
-    std::span<const std::uint32_t> literal;
-};
-
 /// A literal string: bytes from the lowest of each word up to a zero.
 [[nodiscard]] std::string literal_text(std::span<const std::uint32_t> literal);
-
-/// A decoration of an id or of one of its members, with its first literal, 0 where it has none.
-struct Decoration {
-    Id id = Id::none;
-    int member = kWhole;
-    spv::Decoration kind = spv::DecorationMax;
-    std::uint32_t value = 0;
-};
 
 /// A line of the source; that without a file is unknown.
 struct Line {
@@ -123,8 +110,10 @@ struct Module {
     std::vector<Variable> variables;  ///< in the order of declaration
     std::unordered_map<Id, Type> types;
     std::unordered_map<Id, std::int64_t> integers;  ///< constants of 32 bits; specialisable ones by default
-    std::vector<Name> names;                        ///< sorted by id and member
-    std::vector<Decoration> decorations;            ///< sorted by id, member and kind
+    /// Literal strings that name ids and members of structs (kWhole: the id itself).
+    std::map<std::pair<Id, int>, std::span<const std::uint32_t>> names;
+    /// By id and member: the decoration's first literal, 0 where it has none.
+    std::map<std::tuple<Id, int, spv::Decoration>, std::uint32_t> decorations;
 
     /// The type of that id; one whose opcode is OpNop where there is none.
     [[nodiscard]] const Type& type(Id id) const;

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/commands/commands.hpp"
-#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
 #include "lab/verify/ask_oracle.hpp"
 

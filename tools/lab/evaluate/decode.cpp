@@ -1,4 +1,4 @@
-// From words to a Program: the flow of decoding, and what can be wrong with a module as a whole.
+// From a module to a Program: blocks, branches, and functions put in place of their calls.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -6,51 +6,73 @@
 #include "lab/evaluate/decoder.hpp"
 
 namespace gobo::evaluate {
+namespace {
+
+constexpr std::size_t kDeepestCall = 64;
+constexpr std::uint32_t kMostScalars = 1U << 18U;
+
+}  // namespace
 
 Result<Program> decode(std::span<const std::uint32_t> words) {
-    const Result<Module> module = read_module(words);
-    if (!module) return tl::unexpected(module.error());
-    const Result<Types> types = read_types(*module);
-    if (!types) return tl::unexpected(types.error());
-    return Decoder(*module, *types).decode();
+    GOBO_TRY(const spirv::Module module, spirv::read_module(words));
+    return Decoder(module).decode();
 }
 
 Result<Program> Decoder::decode() {
-    const EntryPoint* entry = find_entry_point();
-    if (entry == nullptr) return fail(error_at({}, "the SPIR-V module has no vertex or fragment stage"));
+    check_types();
+    if (error_) return fail(*error_);
+    GOBO_TRY(functions_, read_functions(module_));
+    const auto entry = std::ranges::find_if(module_.entry_points, [](const spirv::EntryPoint& one) {
+        return one.model == spv::ExecutionModelVertex || one.model == spv::ExecutionModelFragment;
+    });
+    if (entry == module_.entry_points.end())
+        return fail(error_at({}, "the SPIR-V module has no vertex or fragment stage"));
     program_.is_fragment = entry->model == spv::ExecutionModelFragment;
-    program_.places = module_.places;
+    for (std::uint32_t line = 0; line < module_.lines.size(); ++line)
+        program_.places.push_back(module_.place(line));
     program_.names.emplace_back();
     permanent(1);  // slot 0 belongs to nobody
     decode_globals();
-    const auto main = module_.functions.find(entry->function);
-    if (!error_ && (main == module_.functions.end() || main->second.blocks.empty()))
-        error_ = error_at({}, "the SPIR-V module's entry point is no function");
+    const auto main = functions_.find(entry->function);
+    if (!error_ && (main == functions_.end() || main->second.blocks.empty()))
+        error_ = error_at({}, "the SPIR-V module's entry point is not a function");
     if (!error_) {
-        const std::uint32_t begin = new_label();
-        begin_block(begin);
+        begin_block(new_label());
         initialise_globals();
-        Frame frame;
-        inline_function(main->second, std::move(frame));
+        inline_function(main->second, {});
     }
     if (!error_) finish_program();
     if (error_) return fail(*error_);
     return std::move(program_);
 }
 
-const EntryPoint* Decoder::find_entry_point() {
-    for (const EntryPoint& entry : module_.entry_points)
-        if (entry.model == spv::ExecutionModelVertex || entry.model == spv::ExecutionModelFragment)
-            return &entry;
-    return nullptr;
+void Decoder::report(const Instruction& instruction, std::string message) {
+    if (!error_) error_ = error_at(module_.place(instruction.line), std::move(message));
 }
 
-void Decoder::report(const Instruction& instruction, std::string message, std::string help) {
-    if (!error_) error_ = error_at(module_.places[instruction.place], std::move(message), std::move(help));
+void Decoder::report_types(const Instruction& instruction) {
+    report(instruction, opcode_name(instruction.opcode) + " has operands of the wrong types");
 }
 
-void Decoder::report_unknown(const Instruction& instruction) {
-    report(instruction, fmt::format("the evaluator does not know {}", opcode_name(instruction.opcode)));
+/// Types that evaluation does not know are errors, used or not.
+void Decoder::check_types() {
+    for (const Instruction& instruction : module_.instructions) {
+        const auto is = [&](std::initializer_list<spv::Op> list) {
+            return is_one_of(instruction.opcode, list);
+        };
+        if (is({spv::OpTypeSampler, spv::OpTypeRuntimeArray, spv::OpTypeOpaque}))
+            report(instruction, opcode_name(instruction.opcode) + " is not supported");
+        if (is({spv::OpTypeInt, spv::OpTypeFloat}) && instruction.word(2) != 32)
+            report(instruction, fmt::format("{}-bit {} are not supported", instruction.word(2),
+                                            is({spv::OpTypeInt}) ? "integers" : "floating-point numbers"));
+        if (!is({spv::OpTypeArray, spv::OpTypeStruct})) continue;
+        const Type& found = type(instruction.result);
+        const auto is_empty = [&](Id part) { return type(part).scalars == 0; };
+        if (found.scalars > kMostScalars)
+            report(instruction, fmt::format("a type of {} scalars is too large", found.scalars));
+        if (found.is_array() ? is_empty(found.element) : std::ranges::any_of(found.members, is_empty))
+            report(instruction, "a type is made of parts that have no values");
+    }
 }
 
 /// Resolves labels, separates what only observers see, and sorts the interface.
@@ -62,15 +84,200 @@ void Decoder::finish_program() {
             if (edge.target != Program::kEnd) edge.target = label_blocks_[edge.target];
             if (edge.target <= index) program_.blocks[edge.target].is_loop = true;
         }
-        block.quick_first = static_cast<std::uint32_t>(program_.quick.size());
+        block.quick_first = length_of(program_.quick);
         for (std::uint32_t at = block.first; at < block.first + block.count; ++at)
             if (is_quick_[at]) program_.quick.push_back(program_.operations[at]);
-        block.quick_count = static_cast<std::uint32_t>(program_.quick.size()) - block.quick_first;
+        block.quick_count = length_of(program_.quick) - block.quick_first;
     }
-    const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };
-    std::sort(program_.inputs.begin(), program_.inputs.end(), by_name);
-    std::sort(program_.outputs.begin(), program_.outputs.end(), by_name);
-    std::sort(program_.uniforms.begin(), program_.uniforms.end(), by_name);
+    for (std::vector<Port>* const ports : {&program_.inputs, &program_.outputs, &program_.uniforms})
+        std::ranges::sort(*ports, {}, &Port::name);
+}
+
+std::uint32_t Decoder::new_label() {
+    label_blocks_.push_back(0);
+    return length_of(label_blocks_) - 1;
+}
+
+void Decoder::begin_block(std::uint32_t label) {
+    label_blocks_[label] = length_of(program_.blocks);
+    Block& next = program_.blocks.emplace_back();
+    next.first = length_of(program_.operations);
+    next.edge = length_of(program_.edges);
+}
+
+/// Ends the block; its edges have been added.
+void Decoder::end_block(Block::End end, std::uint32_t line) {
+    block().count = length_of(program_.operations) - block().first;
+    block().edges = length_of(program_.edges) - block().edge;
+    block().end = end;
+    block().place = line;
+}
+
+void Decoder::jump(std::uint32_t label, std::uint32_t line) {
+    block().edge = length_of(program_.edges);
+    program_.edges.push_back({label, 0, 0});
+    end_block(label == Program::kEnd ? Block::End::finish : Block::End::jump, line);
+}
+
+/// Decodes the function after the current block, and leaves its last block ended.
+void Decoder::inline_function(const Function& function, Frame new_frame) {
+    new_frame.function = &function;
+    new_frame.uses = uses_in(module_, function);
+    frames_.push_back(&new_frame);
+    for (const BasicBlock& basic : function.blocks) new_frame.labels[basic.label] = new_label();
+    jump(new_frame.labels[function.blocks.front().label], function.line);
+    for (const std::size_t index : structured_order(function)) {
+        if (program_.blocks.size() >= kLargestProgram && !error_)
+            error_ = error_at(module_.place(function.line), "the stage is too long to evaluate");
+        if (error_) break;
+        decode_block(function.blocks[index]);
+    }
+    frames_.pop_back();
+}
+
+void Decoder::decode_block(const BasicBlock& basic) {
+    begin_block(frame().labels[basic.label]);
+    // Phis get slots of their own before anything reads them; those who come here fill them.
+    for (std::uint32_t at = basic.first; at < basic.terminator; ++at) {
+        const Instruction& phi = module_.instructions[at];
+        if (phi.opcode == spv::OpPhi) phi_value(phi);
+    }
+    for (std::uint32_t at = basic.first; at < basic.terminator && !error_; ++at) {
+        frame().at = at;
+        decode_instruction(module_.instructions[at]);
+        if (!error_) finish_instruction(module_.instructions[at]);
+    }
+    if (error_) return;
+    frame().at = basic.terminator;
+    decode_terminator(basic, module_.instructions[basic.terminator]);
+    release_operands(module_.instructions[basic.terminator]);
+    free_released();
+}
+
+/// The slots of a phi.
+Value Decoder::phi_value(const Instruction& phi) {
+    const auto [found, is_new] = frame().values.try_emplace(phi.result);
+    if (is_new)
+        found->second = {phi.type, permanent(type(phi.type).scalars), -1, -1,
+                         intern(module_.name(phi.result))};
+    return found->second;
+}
+
+void Decoder::decode_call(const Instruction& instruction) {
+    const auto callee = functions_.find(instruction.id(3));
+    if (callee == functions_.end() || callee->second.blocks.empty() ||
+        callee->second.parameters.size() + 4 != instruction.words.size())
+        return report(instruction, "a call of a function that is not there");
+    const Function& function = callee->second;
+    const bool is_recursive =
+        std::ranges::any_of(frames_, [&](const Frame* caller) { return caller->function == &function; });
+    if (is_recursive || frames_.size() >= kDeepestCall)
+        return report(instruction, fmt::format("the function '{}' calls itself", module_.name(function.id)));
+    Frame new_frame;
+    for (std::size_t index = 0; index < function.parameters.size(); ++index) {
+        const Id parameter = function.parameters[index];
+        const Id declared = module_.definition(parameter)->type;
+        const bool is_pointer = type(declared).opcode == spv::OpTypePointer;
+        Value given = is_pointer ? pointer(instruction, index + 4) : value(instruction, index + 4);
+        if (given.type != (is_pointer ? type(declared).element : declared))
+            report(instruction, "a call has arguments of the wrong types");
+        given.allocation = -1;  // the caller gives it back
+        if (!is_pointer) given.variable = -1;
+        new_frame.values[parameter] = given;
+    }
+    if (error_) return;
+    charge(Kind::call, 1);
+    const std::uint32_t slots = type(instruction.type).scalars;
+    new_frame.result = {instruction.type, slots == 0 ? 0 : permanent(slots)};
+    new_frame.return_label = new_label();
+    if (slots != 0) frame().values[instruction.result] = new_frame.result;
+    const std::uint32_t after = new_frame.return_label;
+    inline_function(function, std::move(new_frame));
+    if (!error_) begin_block(after);
+}
+
+void Decoder::decode_terminator(const BasicBlock& basic, const Instruction& instruction) {
+    block().edge = length_of(program_.edges);
+    switch (instruction.opcode) {
+        case spv::OpBranch:
+            add_edge(basic, instruction.id(1), instruction);
+            return end_block(Block::End::jump, instruction.line);
+        case spv::OpBranchConditional:
+            return decode_branch(basic, instruction);
+        case spv::OpSwitch:
+            return decode_switch(basic, instruction);
+        case spv::OpKill:
+            return end_block(Block::End::kill, instruction.line);
+        case spv::OpReturnValue: {
+            const Value result = value(instruction, 1);
+            if (result.type != frame().result.type)
+                return report(instruction, "a function returns the wrong type");
+            copy(instruction, type(result).scalars, frame().result.slot, result);
+            [[fallthrough]];
+        }
+        case spv::OpReturn:
+            return jump(frame().return_label, instruction.line);
+        default:
+            return jump(Program::kEnd, instruction.line);  // OpUnreachable
+    }
+}
+
+void Decoder::decode_branch(const BasicBlock& basic, const Instruction& instruction) {
+    const Value condition = value(instruction, 1);
+    if (!is_one(condition, is_boolean))
+        return report(instruction, "a branch has a condition that is not a boolean");
+    block().condition = condition.slot;
+    charge(Kind::branch, 1);
+    add_edge(basic, instruction.id(2), instruction);
+    add_edge(basic, instruction.id(3), instruction);
+    end_block(Block::End::branch, instruction.line);
+}
+
+void Decoder::decode_switch(const BasicBlock& basic, const Instruction& instruction) {
+    const Value selector = value(instruction, 1);
+    if (!is_one(selector, is_integer))
+        return report(instruction, "a switch has a selector that is not an integer");
+    block().condition = selector.slot;
+    block().labels = length_of(program_.words);
+    charge(Kind::branch, 1);
+    add_edge(basic, instruction.id(2), instruction);
+    for (std::size_t word = 3; word + 1 < instruction.words.size(); word += 2) {
+        program_.words.push_back(instruction.words[word]);
+        add_edge(basic, instruction.id(word + 1), instruction);
+    }
+    end_block(Block::End::select, instruction.line);
+}
+
+void Decoder::add_edge(const BasicBlock& from, Id label, const Instruction& instruction) {
+    const auto target = frame().function->block_of_label.find(label);
+    if (target == frame().function->block_of_label.end())
+        return report(instruction, "a branch leads nowhere");
+    Edge edge{frame().labels[label], length_of(program_.copies), 0};
+    add_phi_copies(from, frame().function->blocks[target->second]);
+    edge.copies = length_of(program_.copies) - edge.first_copy;
+    program_.edges.push_back(edge);
+}
+
+/// What those who take this edge bring to the phis of the block. All read before any is written.
+void Decoder::add_phi_copies(const BasicBlock& from, const BasicBlock& to) {
+    std::vector<Operation> writes;
+    for (std::uint32_t at = to.first; at < to.terminator; ++at) {
+        const Instruction& phi = module_.instructions[at];
+        if (phi.opcode == spv::OpLine) continue;
+        if (phi.opcode != spv::OpPhi) break;  // they stand first
+        for (std::size_t word = 3; word + 1 < phi.words.size(); word += 2) {
+            if (phi.id(word + 1) != from.label) continue;
+            const Value brought = value(phi, word);
+            if (brought.type != phi.type) return report_types(phi);
+            const std::uint32_t count = type(phi.type).scalars;
+            const std::uint32_t between = temporary(count);
+            const std::uint32_t row = *find_row(kCopy);
+            program_.copies.push_back({row, count, between, {brought.slot, 0, 0}, 0, 0});
+            writes.push_back({row, count, phi_value(phi).slot, {between, 0, 0}, 0, 0});
+            release(phi.id(word));
+        }
+    }
+    program_.copies.insert(program_.copies.end(), writes.begin(), writes.end());
 }
 
 }  // namespace gobo::evaluate

@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include <fmt/format.h>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include "lab/evaluate/decoder.hpp"
 
@@ -12,21 +13,27 @@ namespace {
 constexpr std::size_t kFirstOperand = 3;          // after the leading word, the type and the result
 constexpr std::size_t kFirstExtendedOperand = 5;  // and after the instruction set and the number
 
-bool is_scalar_or_vector(const Type& type) {
-    return type.shape == Type::Shape::scalar || type.shape == Type::Shape::vector;
-}
-
 bool holds(Scalar scalar, char wanted) {
     switch (std::tolower(wanted)) {
         case 'f':
-            return scalar == Scalar::real;
+            return is_float(scalar);
         case 'i':
             return is_integer(scalar);
-        case 'b':
-            return scalar == Scalar::boolean;
         default:
-            return false;
+            return is_boolean(scalar);
     }
+}
+
+bool is_scalar_or_vector(const Type& type) {
+    return type.opcode == spv::OpTypeFloat || type.opcode == spv::OpTypeInt ||
+           type.opcode == spv::OpTypeBool || type.opcode == spv::OpTypeVector;
+}
+
+/// A vector is one column.
+bool is_float_matrix(const Type& type, std::uint32_t columns, std::uint32_t rows) {
+    const spv::Op opcode = columns == 1 ? spv::OpTypeVector : spv::OpTypeMatrix;
+    return type.opcode == opcode && is_float(type.value.scalar) &&
+           type.value.columns == static_cast<int>(columns) && type.value.rows == static_cast<int>(rows);
 }
 
 }  // namespace
@@ -52,7 +59,8 @@ void Decoder::decode_instruction(const Instruction& instruction) {
         case spv::OpInBoundsAccessChain:
             return decode_access_chain(instruction);
         case spv::OpCopyObject:
-            return share_or_copy(instruction, value(instruction, instruction.word(3)));
+        case spv::OpImage:
+            return share_or_copy(instruction, value(instruction, 3));
         case spv::OpCompositeExtract:
             return decode_extract(instruction);
         case spv::OpCompositeConstruct:
@@ -70,23 +78,15 @@ void Decoder::decode_instruction(const Instruction& instruction) {
         case spv::OpOuterProduct:
         case spv::OpTranspose:
             return decode_product(instruction);
-        case spv::OpMatrixTimesScalar:
-            return decode_matrix_times_scalar(instruction);
-        case spv::OpIAddCarry:
-        case spv::OpISubBorrow:
-        case spv::OpUMulExtended:
-        case spv::OpSMulExtended:
-            return decode_two_results(instruction);
         case spv::OpFunctionCall:
             return decode_call(instruction);
         case spv::OpExtInst:
             return decode_extended(instruction);
         default:
-            break;
+            if (!decode_image(instruction) &&
+                !decode_by_signature(instruction, instruction.opcode, kFirstOperand))
+                report(instruction, "the evaluator does not know " + opcode_name(instruction.opcode));
     }
-    if (decode_image(instruction) || decode_by_signature(instruction, instruction.opcode, kFirstOperand))
-        return;
-    report_unknown(instruction);
 }
 
 /// False where the table has no row for the code.
@@ -95,50 +95,55 @@ bool Decoder::decode_by_signature(const Instruction& instruction, std::uint32_t 
     std::optional<std::uint32_t> row = find_row(code);
     const std::span<const Row> table = instruction_table();
     if (!row || table[*row].signature.empty()) return false;
-    std::vector<Value> operands;
-    for (std::size_t word = first_operand; word < instruction.words.size(); ++word)
-        operands.push_back(value(instruction, instruction.words[word]));
+    const Values operands = values(instruction, first_operand);
     for (; *row < table.size() && table[*row].code == code; ++*row) {
-        std::uint32_t count = 0;
-        if (!fits(table[*row].signature, instruction.type, operands, count)) continue;
-        emit_row(*row, instruction, count, define(instruction), operands);
+        const auto count = components(table[*row].signature, instruction.type, operands);
+        if (!count) continue;
+        emit_row(*row, instruction, *count, define(instruction), operands);
         return true;
     }
-    report(instruction, fmt::format("{} has operands of the wrong types", opcode_name(instruction.opcode)));
+    report_types(instruction);
     return true;
 }
 
-bool Decoder::fits(std::string_view signature, std::uint32_t result, const std::vector<Value>& operands,
-                   std::uint32_t& count) const {
+/// How many components an operation of that signature has; nothing where it does not fit.
+std::optional<std::uint32_t> Decoder::components(std::string_view signature, Id result,
+                                                 const Values& operands) const {
     std::uint32_t demanded = 0;
     if (std::isdigit(static_cast<unsigned char>(signature.back())) != 0) {
         demanded = static_cast<std::uint32_t>(signature.back() - '0');
         signature.remove_suffix(1);
     }
-    if (operands.size() != signature.size() - 2) return false;
-    count = 0;
+    if (operands.size() != signature.size() - 2) return std::nullopt;
+    std::uint32_t count = 0;
     for (std::size_t index = 0; index <= operands.size(); ++index) {
-        const std::uint32_t id = index == 0 ? result : operands[index - 1].type;
+        const Id id = index == 0 ? result : operands[index - 1].type;
         const char wanted = index == 0 ? signature[0] : signature[index + 1];
-        const Type& type = types_[id];
-        if (wanted == '*') {
-            if (id != result || type.slots == 0) return false;
+        const Type& of = type(id);
+        if (wanted == 's') {
+            if (of.opcode != spv::OpTypeStruct || of.scalars != 2 * type(operands[0]).scalars)
+                return std::nullopt;
+            continue;
+        }
+        if (wanted == '*' || wanted == 'm') {
+            if (id != result || of.scalars == 0 || (wanted == 'm' && of.opcode != spv::OpTypeMatrix))
+                return std::nullopt;
         } else {
-            if (!is_scalar_or_vector(type) || !holds(type.scalar, wanted)) return false;
+            if (!is_scalar_or_vector(of) || !holds(of.value.scalar, wanted)) return std::nullopt;
             if (std::isupper(static_cast<unsigned char>(wanted)) != 0) {
-                if (type.slots != 1) return false;
+                if (of.scalars != 1) return std::nullopt;
                 continue;
             }
         }
-        if (count != 0 && count != type.slots) return false;
-        count = type.slots;
+        if (count != 0 && count != of.scalars) return std::nullopt;
+        count = of.scalars;
     }
-    if (count == 0) count = 1;
-    return demanded == 0 || demanded == count;
+    count = std::max(count, 1U);
+    return demanded == 0 || demanded == count ? std::optional(count) : std::nullopt;
 }
 
 void Decoder::decode_extended(const Instruction& instruction) {
-    if (instruction.word(3) != module_.std450 || module_.std450 == 0)
+    if (instruction.id(3) != std450_ || std450_ == Id::none)
         return report(instruction, "the evaluator knows no extended instructions but those of GLSL.std.450");
     const std::uint32_t number = instruction.word(4);
     const std::uint32_t code = kExtended + number;
@@ -147,137 +152,283 @@ void Decoder::decode_extended(const Instruction& instruction) {
         case GLSLstd450MatrixInverse:
             return decode_square(instruction, code);
         case GLSLstd450Modf:
-            return decode_split(instruction, kExtended + GLSLstd450ModfStruct, true);
+            return decode_split(instruction, kExtended + GLSLstd450ModfStruct);
         case GLSLstd450Frexp:
-            return decode_split(instruction, kExtended + GLSLstd450FrexpStruct, true);
-        case GLSLstd450ModfStruct:
-        case GLSLstd450FrexpStruct:
-            return decode_split(instruction, code, false);
+            return decode_split(instruction, kExtended + GLSLstd450FrexpStruct);
         case GLSLstd450InterpolateAtCentroid:
         case GLSLstd450InterpolateAtSample:
         case GLSLstd450InterpolateAtOffset:
             return decode_interpolate(instruction, code);
         default:
-            break;
+            if (!decode_by_signature(instruction, code, kFirstExtendedOperand))
+                report(instruction,
+                       fmt::format("the evaluator does not know instruction {} of GLSL.std.450", number));
     }
-    if (!decode_by_signature(instruction, code, kFirstExtendedOperand))
-        report(instruction,
-               fmt::format("the evaluator does not know instruction {} of GLSL.std.450", number));
 }
 
 /// Products of matrices: of `columns` columns and `rows` rows, each a sum of `terms` products.
 void Decoder::decode_product(const Instruction& instruction) {
-    using Shape = Type::Shape;
     const bool is_transpose = instruction.opcode == spv::OpTranspose;
-    const Value a = value(instruction, instruction.word(3));
-    const Value b = is_transpose ? a : value(instruction, instruction.word(4));
-    const Type& type = types_[instruction.type];
-    const Type& left = types_[a.type];
-    const Type& right = types_[b.type];
-    std::uint32_t columns = type.shape == Shape::matrix ? type.count : 1;
-    std::uint32_t rows = type.shape == Shape::matrix ? types_[type.element].count : type.count;
+    const Value a = value(instruction, 3);
+    const Value b = is_transpose ? a : value(instruction, 4);
+    const Type& result = type(instruction.type);
+    auto columns = static_cast<std::uint32_t>(result.value.columns);
+    auto rows = static_cast<std::uint32_t>(result.value.rows);
     std::uint32_t terms = 1;
-    bool fits = type.scalar == Scalar::real && left.scalar == Scalar::real && right.scalar == Scalar::real;
-    const auto has = [&](const Type& matrix, std::uint32_t of_columns, std::uint32_t of_rows) {
-        return matrix.shape == Shape::matrix && matrix.count == of_columns &&
-               types_[matrix.element].count == of_rows;
-    };
-    const auto is_vector = [](const Type& vector, std::uint32_t of) {
-        return vector.shape == Shape::vector && vector.count == of;
-    };
+    bool fits = is_float_matrix(result, columns, rows);
     switch (instruction.opcode) {
         case spv::OpMatrixTimesVector:
-            terms = left.count;
-            fits = fits && has(left, terms, rows) && is_vector(right, terms) && type.shape == Shape::vector;
+        case spv::OpMatrixTimesMatrix:
+            terms = type(a).count;
+            fits = fits && is_float_matrix(type(a), terms, rows) &&
+                   is_float_matrix(type(b), columns, terms) &&
+                   (columns == 1) == (instruction.opcode == spv::OpMatrixTimesVector);
             break;
         case spv::OpVectorTimesMatrix:
             std::swap(columns, rows);
-            terms = left.count;
-            fits =
-                fits && is_vector(left, terms) && has(right, columns, terms) && type.shape == Shape::vector;
-            break;
-        case spv::OpMatrixTimesMatrix:
-            terms = left.count;
-            fits =
-                fits && has(left, terms, rows) && has(right, columns, terms) && type.shape == Shape::matrix;
+            terms = type(a).count;
+            fits = fits && rows == 1 && is_float_matrix(type(a), 1, terms) &&
+                   is_float_matrix(type(b), columns, terms);
             break;
         case spv::OpOuterProduct:
-            fits = fits && is_vector(left, rows) && is_vector(right, columns) && type.shape == Shape::matrix;
+            fits = fits && is_float_matrix(type(a), 1, rows) && is_float_matrix(type(b), 1, columns);
             break;
         default:
-            fits = fits && has(left, rows, columns) && type.shape == Shape::matrix;
+            fits = fits && is_float_matrix(type(a), rows, columns);
             break;
     }
-    if (!fits)
-        return report(instruction, opcode_name(instruction.opcode) + " has operands of the wrong types");
-    const std::vector<Value> operands = is_transpose ? std::vector<Value>{a} : std::vector<Value>{a, b};
+    if (!fits) return report_types(instruction);
+    const Values operands = is_transpose ? std::vector{a} : std::vector{a, b};
     emit(instruction.opcode, instruction, columns * rows * terms, define(instruction), operands,
          {columns, rows, terms});
     charge(Kind::add, columns * rows * (terms - 1));
 }
 
-void Decoder::decode_matrix_times_scalar(const Instruction& instruction) {
-    const Value matrix = value(instruction, instruction.word(3));
-    const Value factor = value(instruction, instruction.word(4));
-    if (matrix.type != instruction.type || types_[matrix.type].shape != Type::Shape::matrix ||
-        types_[factor.type].slots != 1 || types_[factor.type].scalar != Scalar::real)
-        return report(instruction, "OpMatrixTimesScalar has operands of the wrong types");
-    emit(instruction.opcode, instruction, types_[matrix.type].slots, define(instruction), {matrix, factor});
-}
-
 void Decoder::decode_square(const Instruction& instruction, std::uint32_t code) {
-    const Value matrix = value(instruction, instruction.word(5));
-    const Type& type = types_[matrix.type];
-    const bool is_square = type.shape == Type::Shape::matrix && types_[type.element].count == type.count;
+    const Value matrix = value(instruction, 5);
+    const Type& square = type(matrix);
     const bool gives_matrix = code == kExtended + GLSLstd450MatrixInverse;
-    const bool fits =
-        gives_matrix ? instruction.type == matrix.type
-                     : types_[instruction.type].slots == 1 && types_[instruction.type].scalar == Scalar::real;
-    if (!is_square || !fits) return report(instruction, "a matrix function has operands of the wrong types");
-    emit(code, instruction, type.slots, define(instruction), {matrix}, {type.count, type.count, type.count});
+    const bool fits = gives_matrix ? instruction.type == matrix.type : is_one({instruction.type}, is_float);
+    if (!square.value.is_matrix() || square.value.rows != square.value.columns || !fits)
+        return report(instruction, "a matrix function has operands of the wrong types");
+    emit(code, instruction, square.scalars, define(instruction), {matrix},
+         {square.count, square.count, square.count});
 }
 
-/// A structure of two results, low word or sum first.
-void Decoder::decode_two_results(const Instruction& instruction) {
-    const Value a = value(instruction, instruction.word(3));
-    const Value b = value(instruction, instruction.word(4));
-    const std::uint32_t count = types_[a.type].slots;
-    if (types_[b.type].slots != count || types_[instruction.type].slots != 2 * count ||
-        !is_integer(types_[a.type].scalar) || !is_integer(types_[b.type].scalar))
-        return report(instruction, opcode_name(instruction.opcode) + " has operands of the wrong types");
-    emit(instruction.opcode, instruction, count, define(instruction), {a, b});
-}
-
-/// modf() and frexp(): a structure of two results, or one result and one written through a pointer.
-void Decoder::decode_split(const Instruction& instruction, std::uint32_t code, bool through_pointer) {
-    const Value operand = value(instruction, instruction.word(5));
-    const std::uint32_t count = types_[operand.type].slots;
-    const std::uint32_t results = through_pointer ? count : 2 * count;
-    if (types_[operand.type].scalar != Scalar::real || types_[instruction.type].slots != results)
+/// modf() and frexp() with a second result that is written through a pointer.
+void Decoder::decode_split(const Instruction& instruction, std::uint32_t code) {
+    const Value operand = value(instruction, 5);
+    const Value second = pointer(instruction, 6);
+    const std::uint32_t count = type(operand).scalars;
+    if (!is_float(type(operand).value.scalar) || type(instruction.type).scalars != count ||
+        type(second).scalars != count)
         return report(instruction, "a function with two results has operands of the wrong types");
-    if (!through_pointer) {
-        emit(code, instruction, count, define(instruction), {operand});
-        return;
-    }
-    const Pointer second = pointer(instruction, instruction.word(6));
-    if (types_[second.type].slots != count)
-        return report(instruction, "a function with two results has operands of the wrong types");
-    int scratch = -1;
-    const std::uint32_t both = temporary(2 * count, 0, scratch);
+    const std::uint32_t both = temporary(2 * count);
     emit(code, instruction, count, both, {operand});
-    emit(kKeep, instruction, count, define(instruction), {Value{instruction.type, both}});
-    store(instruction, second, Value{second.type, both + count});
+    copy(instruction, count, define(instruction), {instruction.type, both});
+    store(instruction, second, {second.type, both + count});
 }
 
 void Decoder::decode_interpolate(const Instruction& instruction, std::uint32_t code) {
-    const Pointer input = pointer(instruction, instruction.word(5));
+    Values operands{pointer(instruction, 5)};
     const bool has_offset = code == kExtended + GLSLstd450InterpolateAtOffset;
-    std::vector<Value> operands{{input.type, input.slot, -1, input.variable, input.name}};
-    if (has_offset) operands.push_back(value(instruction, instruction.word(6)));
-    if (input.offset || input.type != instruction.type || types_[input.type].scalar != Scalar::real ||
-        (has_offset && types_[operands[1].type].slots != 2))
+    if (has_offset) operands.push_back(value(instruction, 6));
+    const Type& input = type(operands[0]);
+    if (operands[0].offset != 0 || operands[0].type != instruction.type || !is_float(input.value.scalar) ||
+        (has_offset && type(operands[1]).scalars != 2))
         return report(instruction, "an interpolation function has operands that the evaluator does not know");
-    emit(code, instruction, types_[input.type].slots, define(instruction), operands);
+    emit(code, instruction, input.scalars, define(instruction), operands);
+}
+
+// Variables, loads, stores, and parts of composites. Most loads and extractions cost nothing: their result
+// shares the slots of what they read.
+
+void Decoder::decode_local_variable(const Instruction& instruction) {
+    const auto variable = new_variable(instruction, module_.name(instruction.result), false);
+    if (!variable) return;
+    frame().values[instruction.result] = *variable;
+    if (instruction.words.size() > 4) store(instruction, *variable, value(instruction, 4));
+}
+
+/// The result is the given value: the same slots where that is safe, otherwise a copy.
+void Decoder::share_or_copy(const Instruction& instruction, const Value& value) {
+    const std::uint32_t count = type(value).scalars;
+    if (type(instruction.type).scalars != count) return report_types(instruction);
+    const std::uint32_t code = instruction.opcode == spv::OpLoad ? spv::OpLoad : spv::OpCompositeExtract;
+    if (may_share(instruction, value)) {
+        share(instruction, value);
+        emit(code, instruction, count, value.slot, {value});
+        is_quick_.back() = false;
+    } else {
+        emit(code, instruction, count, define(instruction), {value});
+    }
+}
+
+void Decoder::decode_load(const Instruction& instruction) {
+    Value from = pointer(instruction, 3);
+    if (error_) return;
+    if (from.type != instruction.type) return report(instruction, "OpLoad has a result of the wrong type");
+    const Value offset{Id::none, from.offset};
+    if (is_read_only_[static_cast<std::size_t>(from.variable)]) from.variable = -1;
+    from.is_pointer = false;
+    from.offset = 0;
+    if (offset.slot == 0) return share_or_copy(instruction, from);
+    emit(kGather, instruction, type(from).scalars, define(instruction), {from, offset});
+    frame().values[instruction.result].name = from.name;
+}
+
+void Decoder::decode_store(const Instruction& instruction) {
+    const Value to = pointer(instruction, 1);
+    const Value from = value(instruction, 2);
+    if (error_) return;
+    if (to.type != from.type || is_read_only_[static_cast<std::size_t>(to.variable)])
+        return report_types(instruction);
+    store(instruction, to, from);
+}
+
+void Decoder::store(const Instruction& instruction, const Value& target, const Value& from) {
+    const std::uint32_t count = type(target).scalars;
+    if (type(from).scalars != count && from.type != target.type && from.type != Id::none)
+        return report(instruction, "a store has operands of the wrong types");
+    if (target.offset != 0)
+        emit(kScatter, instruction, count, target.slot, {from, Value{Id::none, target.offset}});
+    else
+        emit(spv::OpStore, instruction, count, target.slot, {from});
+    program_.infos.back().result = slice(target);
+}
+
+/// One level down by an index known now. False (and reported) where there is no such part.
+bool Decoder::step_into(const Instruction& instruction, Id& id, std::uint32_t& slot, std::uint32_t index) {
+    const Id part = part_type(id, index);
+    if (part == Id::none) {
+        report(instruction, fmt::format("index {} is outside of what {} reaches into", index,
+                                        opcode_name(instruction.opcode)));
+        return false;
+    }
+    slot += part_offset(id, index);
+    id = part;
+    return true;
+}
+
+/// "lights[2]", "position.x", "light.color".
+std::string Decoder::part_name(const std::string& whole, Id id, std::uint32_t index) const {
+    const spv::Op opcode = type(id).opcode;
+    if (opcode == spv::OpTypeVector && index < 4) return whole + "." + "xyzw"[index];
+    if (opcode != spv::OpTypeStruct) return fmt::format("{}[{}]", whole, index);
+    std::string member = module_.name(id, static_cast<int>(index));
+    if (member.empty()) member = fmt::format("member{}", index);
+    return whole.empty() ? member : whole + "." + member;
+}
+
+void Decoder::decode_access_chain(const Instruction& instruction) {
+    Value at = pointer(instruction, 3);
+    std::string path = program_.names[at.name];
+    Words words{at.offset == 0 ? 0 : at.offset + 1};
+    Values indices;
+    for (std::size_t word = 4; word < instruction.words.size() && !error_; ++word) {
+        const auto constant = constant_bits_.find(instruction.id(word));
+        if (constant != constant_bits_.end() && constant->second.size() == 1) {
+            path = part_name(path, at.type, constant->second.front());
+            if (!step_into(instruction, at.type, at.slot, constant->second.front())) return;
+            continue;
+        }
+        const Type& whole = type(at);
+        if (whole.opcode == spv::OpTypeStruct)
+            return report(instruction, "a member of a structure is chosen by a variable");
+        const Value dynamic = value(instruction, word);
+        if (!is_one(dynamic, is_integer)) return report(instruction, "an index is not an integer");
+        const std::string& name = program_.names[dynamic.name];
+        path += fmt::format("[{}]", name.empty() ? "..." : name);
+        std::uint32_t first = 0;
+        if (!step_into(instruction, at.type, first, 0)) return;
+        words.insert(words.end(), {dynamic.slot, whole.count, type(at).scalars});
+        indices.push_back(dynamic);
+    }
+    if (error_) return;
+    if (at.type != type(instruction.type).element)
+        return report(instruction, "OpAccessChain has a result of the wrong type");
+    at.name = intern(path);
+    if (!indices.empty()) {
+        // An address outlives its block rarely; slots of its own spare the bookkeeping.
+        at.offset = permanent(1);
+        const std::uint32_t computed = temporary(1);
+        emit(spv::OpAccessChain, instruction, 1, computed, indices, words);
+        program_.infos.back().result = slice(at);
+        copy(instruction, 1, at.offset, {Id::none, computed});
+    }
+    frame().values[instruction.result] = at;
+}
+
+void Decoder::decode_extract(const Instruction& instruction) {
+    Value part = value(instruction, 3);
+    for (std::size_t word = 4; word < instruction.words.size() && !error_; ++word) {
+        const std::uint32_t index = instruction.words[word];
+        if (part.name != 0) part.name = intern(part_name(program_.names[part.name], part.type, index));
+        if (!step_into(instruction, part.type, part.slot, index)) return;
+    }
+    if (!error_) share_or_copy(instruction, part);
+}
+
+void Decoder::decode_construct(const Instruction& instruction) {
+    const Values parts = values(instruction, 3);
+    Words words;
+    std::uint32_t count = 0;
+    for (const Value& part : parts) {
+        words.insert(words.end(), {part.slot, type(part).scalars});
+        count += type(part).scalars;
+    }
+    if (count != type(instruction.type).scalars) return report_types(instruction);
+    emit(instruction.opcode, instruction, count, define(instruction), parts, std::move(words));
+}
+
+void Decoder::decode_insert(const Instruction& instruction) {
+    const Value part = value(instruction, 3);
+    const Value whole = value(instruction, 4);
+    Id id = whole.type;
+    std::uint32_t offset = 0;
+    for (std::size_t word = 5; word < instruction.words.size() && !error_; ++word)
+        if (!step_into(instruction, id, offset, instruction.words[word])) return;
+    if (id != part.type || whole.type != instruction.type) return report_types(instruction);
+    emit(instruction.opcode, instruction, type(whole).scalars, define(instruction), {part, whole},
+         {offset, type(part).scalars});
+}
+
+void Decoder::decode_shuffle(const Instruction& instruction) {
+    const Value a = value(instruction, 3);
+    const Value b = value(instruction, 4);
+    const std::uint32_t split = type(a).scalars;
+    const std::uint32_t count = type(instruction.type).scalars;
+    Words words;
+    bool is_run = true;  // of consecutive components of a
+    for (std::size_t word = 5; word < instruction.words.size(); ++word) {
+        // 0xffffffff asks for an undefined component.
+        const std::uint32_t index = instruction.words[word] == 0xffffffffU ? 0 : instruction.words[word];
+        if (index >= split + type(b).scalars)
+            return report(instruction, "OpVectorShuffle reaches outside its operands");
+        words.push_back(index < split ? a.slot + index : b.slot + index - split);
+        is_run = is_run && index < split && words.back() == words.front() + words.size() - 1;
+    }
+    if (words.size() != count || type(a).opcode != spv::OpTypeVector || count == 0)
+        return report_types(instruction);
+    const Value part{instruction.type, words.front(), a.allocation, a.variable};
+    const bool is_shared = is_run && may_share(instruction, part);
+    if (is_shared) share(instruction, part);
+    emit(instruction.opcode, instruction, count, is_shared ? part.slot : define(instruction), {a, b},
+         std::move(words));
+    if (is_shared) is_quick_.back() = false;
+}
+
+/// A component of a vector chosen by a variable: read, or replaced.
+void Decoder::decode_dynamic_component(const Instruction& instruction) {
+    const Values operands = values(instruction, 3);
+    const bool is_extract = instruction.opcode == spv::OpVectorExtractDynamic;
+    if (operands.size() != (is_extract ? 2U : 3U) || type(operands[0]).opcode != spv::OpTypeVector ||
+        !is_integer(type(operands.back()).value.scalar))
+        return report_types(instruction);
+    const std::uint32_t extent = type(operands[0]).count;
+    const std::uint32_t count = is_extract ? 1 : extent;
+    if (type(instruction.type).scalars != count) return report_types(instruction);
+    emit(instruction.opcode, instruction, count, define(instruction), operands, {extent});
 }
 
 }  // namespace gobo::evaluate

@@ -1,4 +1,6 @@
 // Constants, variables outside functions, and the names of inputs, outputs and uniforms.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "lab/evaluate/decoder.hpp"
@@ -8,58 +10,31 @@ namespace {
 
 /// The GLSL name of a built-in variable; empty for one that evaluation has no use for.
 std::string builtin_name(std::uint32_t builtin) {
-    switch (builtin) {
-        case spv::BuiltInPosition:
-            return "gl_Position";
-        case spv::BuiltInPointSize:
-            return "gl_PointSize";
-        case spv::BuiltInClipDistance:
-            return "gl_ClipDistance";
-        case spv::BuiltInCullDistance:
-            return "gl_CullDistance";
-        case spv::BuiltInVertexId:
-            return "gl_VertexID";
-        case spv::BuiltInInstanceId:
-            return "gl_InstanceID";
-        case spv::BuiltInVertexIndex:
-            return "gl_VertexIndex";
-        case spv::BuiltInInstanceIndex:
-            return "gl_InstanceIndex";
-        case spv::BuiltInPrimitiveId:
-            return "gl_PrimitiveID";
-        case spv::BuiltInFragCoord:
-            return "gl_FragCoord";
-        case spv::BuiltInPointCoord:
-            return "gl_PointCoord";
-        case spv::BuiltInFrontFacing:
-            return "gl_FrontFacing";
-        case spv::BuiltInSampleId:
-            return "gl_SampleID";
-        case spv::BuiltInSamplePosition:
-            return "gl_SamplePosition";
-        case spv::BuiltInSampleMask:
-            return "gl_SampleMask";
-        case spv::BuiltInFragDepth:
-            return "gl_FragDepth";
-        case spv::BuiltInHelperInvocation:
-            return "gl_HelperInvocation";
-        case spv::BuiltInLayer:
-            return "gl_Layer";
-        case spv::BuiltInViewportIndex:
-            return "gl_ViewportIndex";
-        case spv::BuiltInBaseVertex:
-            return "gl_BaseVertex";
-        case spv::BuiltInBaseInstance:
-            return "gl_BaseInstance";
-        case spv::BuiltInDrawIndex:
-            return "gl_DrawID";
-        default:
-            return {};
-    }
-}
-
-bool is_scope(const Instruction& instruction, spv::StorageClass storage) {
-    return instruction.word(3) == static_cast<std::uint32_t>(storage);
+    static constexpr std::pair<spv::BuiltIn, const char*> kNames[] = {
+        {spv::BuiltInPosition, "gl_Position"},
+        {spv::BuiltInPointSize, "gl_PointSize"},
+        {spv::BuiltInClipDistance, "gl_ClipDistance"},
+        {spv::BuiltInCullDistance, "gl_CullDistance"},
+        {spv::BuiltInVertexId, "gl_VertexID"},
+        {spv::BuiltInInstanceId, "gl_InstanceID"},
+        {spv::BuiltInVertexIndex, "gl_VertexIndex"},
+        {spv::BuiltInInstanceIndex, "gl_InstanceIndex"},
+        {spv::BuiltInPrimitiveId, "gl_PrimitiveID"},
+        {spv::BuiltInFragCoord, "gl_FragCoord"},
+        {spv::BuiltInPointCoord, "gl_PointCoord"},
+        {spv::BuiltInFrontFacing, "gl_FrontFacing"},
+        {spv::BuiltInSampleId, "gl_SampleID"},
+        {spv::BuiltInSamplePosition, "gl_SamplePosition"},
+        {spv::BuiltInSampleMask, "gl_SampleMask"},
+        {spv::BuiltInFragDepth, "gl_FragDepth"},
+        {spv::BuiltInHelperInvocation, "gl_HelperInvocation"},
+        {spv::BuiltInLayer, "gl_Layer"},
+        {spv::BuiltInViewportIndex, "gl_ViewportIndex"},
+        {spv::BuiltInBaseVertex, "gl_BaseVertex"},
+        {spv::BuiltInBaseInstance, "gl_BaseInstance"},
+        {spv::BuiltInDrawIndex, "gl_DrawID"}};
+    const auto* found = std::ranges::find_if(kNames, [&](const auto& row) { return row.first == builtin; });
+    return found == std::end(kNames) ? std::string() : found->second;
 }
 
 }  // namespace
@@ -67,136 +42,120 @@ bool is_scope(const Instruction& instruction, spv::StorageClass storage) {
 void Decoder::decode_globals() {
     for (const Instruction& instruction : module_.instructions) {
         if (error_ || instruction.opcode == spv::OpFunction) return;
-        switch (instruction.opcode) {
-            case spv::OpConstant:
-            case spv::OpConstantTrue:
-            case spv::OpConstantFalse:
-            case spv::OpConstantComposite:
-            case spv::OpConstantNull:
-            case spv::OpSpecConstant:
-            case spv::OpSpecConstantTrue:
-            case spv::OpSpecConstantFalse:
-            case spv::OpSpecConstantComposite:
-            case spv::OpUndef:
-                decode_constant(instruction);
-                break;
-            case spv::OpSpecConstantOp:
-                report_unknown(instruction);
-                break;
-            case spv::OpVariable:
-                decode_variable(instruction);
-                break;
-            default:
-                break;
-        }
+        if (instruction.opcode == spv::OpVariable) decode_variable(instruction);
+        if (instruction.opcode == spv::OpSpecConstantOp)
+            report(instruction, "the evaluator does not know OpSpecConstantOp");
+        if (instruction.opcode == spv::OpExtInstImport &&
+            spirv::literal_text(instruction.words.subspan(2)) == "GLSL.std.450")
+            std450_ = instruction.result;
+        if (is_one_of(instruction.opcode,
+                      {spv::OpConstant, spv::OpConstantTrue, spv::OpConstantFalse, spv::OpConstantComposite,
+                       spv::OpConstantNull, spv::OpSpecConstant, spv::OpSpecConstantTrue,
+                       spv::OpSpecConstantFalse, spv::OpSpecConstantComposite, spv::OpUndef}))
+            decode_constant(instruction);
     }
 }
 
 /// The 32 bits of each slot of a constant; nothing where it is malformed. What is undefined is 0.
-std::optional<std::vector<std::uint32_t>> Decoder::constant_bits(const Instruction& instruction) {
-    const std::uint32_t slots = types_[instruction.type].slots;
-    switch (instruction.opcode) {
-        case spv::OpConstant:
-        case spv::OpSpecConstant:
-            return std::vector<std::uint32_t>{instruction.word(3)};
-        case spv::OpConstantTrue:
-        case spv::OpSpecConstantTrue:
-            return std::vector<std::uint32_t>{1};
-        case spv::OpConstantFalse:
-        case spv::OpSpecConstantFalse:
-            return std::vector<std::uint32_t>{0};
-        case spv::OpConstantNull:
-        case spv::OpUndef:
-            return std::vector<std::uint32_t>(slots, 0);
-        default:
-            break;
-    }
-    std::vector<std::uint32_t> bits;
-    for (std::size_t word = 3; word < instruction.words.size(); ++word) {
-        const auto part = constant_bits_.find(instruction.words[word]);
+std::optional<Words> Decoder::constant_bits(const Instruction& instruction) const {
+    const std::uint32_t slots = type(instruction.type).scalars;
+    const auto is = [&](std::initializer_list<spv::Op> list) { return is_one_of(instruction.opcode, list); };
+    if (is({spv::OpConstant, spv::OpSpecConstant})) return std::vector{instruction.word(3)};
+    if (is({spv::OpConstantTrue, spv::OpSpecConstantTrue})) return std::vector{1U};
+    if (is({spv::OpConstantFalse, spv::OpSpecConstantFalse})) return std::vector{0U};
+    if (is({spv::OpConstantNull, spv::OpUndef})) return Words(slots, 0);
+    Words bits;
+    for (std::size_t word = 3; word < instruction.words.size() && bits.size() <= slots; ++word) {
+        const auto part = constant_bits_.find(instruction.id(word));
         if (part == constant_bits_.end()) return std::nullopt;
         bits.insert(bits.end(), part->second.begin(), part->second.end());
-        if (bits.size() > slots) return std::nullopt;
     }
     return bits;
 }
 
 void Decoder::decode_constant(const Instruction& instruction) {
-    const std::uint32_t slots = types_[instruction.type].slots;
-    std::optional<std::vector<std::uint32_t>> bits = constant_bits(instruction);
+    const std::uint32_t slots = type(instruction.type).scalars;
+    std::optional<Words> bits = constant_bits(instruction);
     if (!bits || slots == 0 || bits->size() != slots) return report(instruction, "a constant is malformed");
     const std::uint32_t slot = permanent(slots);
-    const std::vector<Scalar> layout = types_.layout(instruction.type);
-    for (std::uint32_t index = 0; index < slots; ++index)
-        program_.constants.push_back({slot + index, layout[index], (*bits)[index]});
-    constants_[instruction.result] = {instruction.type, slot, -1, -1,
-                                      intern(module_.name_of(instruction.result))};
+    add_constants(instruction.type, slot, *bits);
+    globals_[instruction.result] = {instruction.type, slot, -1, -1, intern(module_.name(instruction.result))};
     constant_bits_[instruction.result] = std::move(*bits);
 }
 
+/// Fills the slots of a value of that type.
+void Decoder::add_constants(Id id, std::uint32_t slot, std::span<const std::uint32_t> bits) {
+    const Type& of = type(id);
+    if (!of.is_array() && of.opcode != spv::OpTypeStruct) {
+        for (const std::uint32_t value : bits) program_.constants.push_back({slot++, of.value.scalar, value});
+        return;
+    }
+    for (std::uint32_t index = 0; index < of.count; ++index) {
+        const Id part = part_type(id, index);
+        const std::uint32_t offset = part_offset(id, index);
+        add_constants(part, slot + offset, bits.subspan(offset, type(part).scalars));
+    }
+}
+
+/// Slots for a variable, which begins as 0 unless it is only read; nothing (and reported) where its type is
+/// unknown.
+std::optional<Value> Decoder::new_variable(const Instruction& instruction, const std::string& name,
+                                           bool is_read_only) {
+    const Id id = type(instruction.type).element;
+    const std::uint32_t slots = type(id).scalars;
+    if (slots == 0) {
+        report(instruction,
+               fmt::format("the variable '{}' has a type that the evaluator does not know", name));
+        return std::nullopt;
+    }
+    const auto index = static_cast<int>(is_read_only_.size());
+    is_read_only_.push_back(is_read_only);
+    const Value variable{id, permanent(slots), -1, index, intern(name), true};
+    if (!is_read_only) program_.variables.emplace_back(variable.slot, slots);
+    return variable;
+}
+
 void Decoder::decode_variable(const Instruction& instruction) {
-    const Type& pointer = types_[instruction.type];
-    const Type& type = types_[pointer.element];
-    if (pointer.shape != Type::Shape::pointer || type.slots == 0)
-        return report(instruction,
-                      fmt::format("the variable '{}' has a type that the evaluator does not know",
-                                  module_.name_of(instruction.result)));
-    const std::uint32_t slot = permanent(type.slots);
-    const bool is_written = is_scope(instruction, spv::StorageClassOutput) ||
-                            is_scope(instruction, spv::StorageClassPrivate) ||
-                            is_scope(instruction, spv::StorageClassFunction);
-    std::string path = module_.name_of(instruction.result);
-    if (path.empty()) path = module_.name_of(pointer.element);
-    if (path == "gl_PerVertex") path.clear();
-    globals_[instruction.result] = {pointer.element, slot,         static_cast<int>(variables_.size()),
-                                    std::nullopt,    intern(path), path};
-    variables_.push_back({!is_written});
-    if (is_written)
-        program_.variables.emplace_back(slot, type.slots);
-    else
-        set_default(instruction, pointer.element, slot);
-    name_interface(instruction, pointer, slot);
+    std::string name = module_.name(instruction.result);
+    if (name.empty()) name = module_.name(type(instruction.type).element);
+    if (name == "gl_PerVertex") name.clear();
+    const auto storage = instruction.as<spv::StorageClass>(3);
+    const bool is_written = storage == spv::StorageClassOutput || storage == spv::StorageClassPrivate ||
+                            storage == spv::StorageClassFunction;
+    const auto variable = new_variable(instruction, name, !is_written);
+    if (!variable) return;
+    globals_[instruction.result] = *variable;
+    // A uniform that is declared with a value has it unless the application sets another.
+    const auto bits = constant_bits_.find(instruction.id(4));
+    if (!is_written && bits != constant_bits_.end() && bits->second.size() == type(*variable).scalars)
+        add_constants(variable->type, variable->slot, bits->second);
+    name_interface(instruction, variable->type, variable->slot);
 }
 
-/// A uniform that is declared with a value has it unless the application sets another.
-void Decoder::set_default(const Instruction& variable, std::uint32_t type, std::uint32_t slot) {
-    const auto bits = constant_bits_.find(variable.word(4));
-    if (bits == constant_bits_.end() || bits->second.size() != types_[type].slots) return;
-    const std::vector<Scalar> layout = types_.layout(type);
-    for (std::uint32_t index = 0; index < types_[type].slots; ++index)
-        program_.constants.push_back({slot + index, layout[index], bits->second[index]});
-}
-
-void Decoder::name_interface(const Instruction& variable, const Type& pointer, std::uint32_t slot) {
-    const Decorations& decorations = module_.decorations_of(variable.result);
-    std::string name = module_.name_of(variable.result);
-    if (decorations.builtin) name = builtin_name(*decorations.builtin);
-    const Type& type = types_[pointer.element];
-    const bool is_block = type.shape == Type::Shape::structure &&
-                          module_.decorations_of(pointer.element).builtin == std::nullopt;
-    int location = decorations.location ? static_cast<int>(*decorations.location) : -1;
-    Layout layout;
+void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t slot) {
+    const Id named = variable.result;
+    std::string name = module_.name(named);
+    if (const auto builtin = module_.decoration(named, spv::DecorationBuiltIn)) name = builtin_name(*builtin);
+    int number = static_cast<int>(module_.decoration(named, spv::DecorationLocation).value_or(~0U));
+    Location at{slot};
     switch (variable.word(3)) {
         case spv::StorageClassInput:
-            add_ports(program_.inputs, name, pointer.element, slot, location, layout);
-            break;
+            return add_ports(program_.inputs, name, id, number, at);
         case spv::StorageClassOutput:
-            add_ports(program_.outputs, name, pointer.element, slot, location, layout);
-            break;
+            return add_ports(program_.outputs, name, id, number, at);
         case spv::StorageClassUniform:
         case spv::StorageClassPushConstant:
             // OpenGL names members of a block by the block, not by its instance.
-            if (is_block) name = module_.name_of(pointer.element);
-            layout.block = static_cast<int>(program_.uniform_blocks.size());
+            if (type(id).opcode == spv::OpTypeStruct && !module_.decoration(id, spv::DecorationBuiltIn))
+                name = module_.name(id);
+            at.block = static_cast<int>(program_.uniform_blocks.size());
             program_.uniform_blocks.push_back({name, 0});
-            add_ports(program_.uniforms, name, pointer.element, slot, location, layout);
-            break;
+            [[fallthrough]];
         case spv::StorageClassUniformConstant:
-            add_ports(program_.uniforms, name, pointer.element, slot, location, layout);
-            break;
+            return add_ports(program_.uniforms, name, id, number, at);
         case spv::StorageClassPrivate:
         case spv::StorageClassFunction:
-            break;
+            return;
         default:
             report(
                 variable,
@@ -204,68 +163,55 @@ void Decoder::name_interface(const Instruction& variable, const Type& pointer, s
     }
 }
 
-void Decoder::add_ports(std::vector<Port>& ports, const std::string& name, std::uint32_t type,
-                        std::uint32_t slot, int& location, const Layout& layout) {
-    const Type& described = types_[type];
-    if (described.shape == Type::Shape::structure)
-        return add_member_ports(ports, name, type, slot, location, layout);
-    if (described.shape != Type::Shape::array) return add_leaf(ports, name, type, slot, location, layout);
-    const std::uint32_t stride = module_.decorations_of(type).array_stride.value_or(0);
-    for (std::uint32_t index = 0; index < described.count; ++index) {
-        Layout element = layout;
-        element.offset += index * stride;
-        add_ports(ports, fmt::format("{}[{}]", name, index), described.element,
-                  slot + types_.offset(type, index), location, element);
-    }
-}
-
-void Decoder::add_member_ports(std::vector<Port>& ports, const std::string& name, std::uint32_t type,
-                               std::uint32_t slot, int& location, const Layout& layout) {
-    for (std::uint32_t member = 0; member < types_[type].count; ++member) {
-        const Decorations& decorations = module_.decorations_of(type, member);
-        if (decorations.location) location = static_cast<int>(*decorations.location);
-        Layout inner = layout;
-        inner.offset += decorations.offset.value_or(0);
-        inner.matrix_stride = decorations.matrix_stride.value_or(0);
-        inner.is_row_major = decorations.row_major;
-        const std::string full = decorations.builtin
-                                     ? builtin_name(*decorations.builtin)
-                                     : fmt::format("{}.{}", name, module_.member_name(type, member));
-        add_ports(ports, full, types_[type].members[member], slot + types_.offset(type, member), location,
-                  inner);
+/// `number` is the location, and moves on behind what is added.
+void Decoder::add_ports(std::vector<Port>& ports, const std::string& name, Id id, int& number,
+                        const Location& at) {
+    const Type& of = type(id);
+    if (!of.is_array() && of.opcode != spv::OpTypeStruct) return add_leaf(ports, name, id, number, at);
+    for (std::uint32_t index = 0; index < of.count; ++index) {
+        Location inner = at;
+        inner.slot += part_offset(id, index);
+        std::string full;
+        if (of.is_array()) {
+            inner.offset += index * module_.decoration(id, spv::DecorationArrayStride).value_or(0);
+            full = fmt::format("{}[{}]", name, index);
+        } else {
+            const auto decoration = [&](spv::Decoration kind) {
+                return module_.decoration(id, kind, static_cast<int>(index));
+            };
+            number = static_cast<int>(
+                decoration(spv::DecorationLocation).value_or(static_cast<std::uint32_t>(number)));
+            inner.offset += decoration(spv::DecorationOffset).value_or(0);
+            inner.matrix_stride = decoration(spv::DecorationMatrixStride).value_or(0);
+            inner.is_row_major = decoration(spv::DecorationRowMajor).has_value();
+            const auto builtin = decoration(spv::DecorationBuiltIn);
+            full = builtin ? builtin_name(*builtin) : part_name(name, id, index);
+        }
+        add_ports(ports, full, part_type(id, index), number, inner);
     }
 }
 
 /// A scalar, vector, matrix or image.
-void Decoder::add_leaf(std::vector<Port>& ports, const std::string& name, std::uint32_t type,
-                       std::uint32_t slot, int& location, const Layout& layout) {
-    const Type& described = types_[type];
-    if (described.shape == Type::Shape::image) {
-        const auto index = static_cast<std::uint32_t>(program_.images.size());
-        program_.constants.push_back({slot, Scalar::image, index});
-        program_.images.push_back({name, described.image, slot});
+void Decoder::add_leaf(std::vector<Port>& ports, const std::string& name, Id id, int& number,
+                       const Location& at) {
+    const Type& of = type(id);
+    if (of.is_image()) {
+        program_.constants.push_back({at.slot, of.value.scalar, length_of(program_.images)});
+        program_.images.push_back({name, of.image, at.slot});
         return;
     }
-    Port port;
-    port.name = name;
-    port.type = types_.glsl_name(type);
-    port.location = location;
-    port.slot = slot;
-    port.components = described.slots;
-    port.scalar = described.scalar;
-    port.block = layout.block;
-    const bool is_matrix = described.shape == Type::Shape::matrix;
-    const std::uint32_t rows = is_matrix ? types_[described.element].count : described.count;
-    for (std::uint32_t component = 0; component < described.slots && layout.block >= 0; ++component) {
+    Port port{name, of.value.name(), number, at.slot, of.scalars, of.value.scalar, at.block, {}};
+    const auto rows = static_cast<std::uint32_t>(of.value.rows);
+    for (std::uint32_t component = 0; component < of.scalars && at.block >= 0; ++component) {
         const std::uint32_t column = component / rows;
         const std::uint32_t row = component % rows;
-        const std::uint32_t offset = layout.is_row_major ? row * layout.matrix_stride + column * 4
-                                                         : column * layout.matrix_stride + row * 4;
-        port.offsets.push_back(layout.offset + offset);
-        UniformBlock& block = program_.uniform_blocks[static_cast<std::size_t>(layout.block)];
-        block.size = std::max(block.size, layout.offset + offset + 4);
+        const std::uint32_t offset = at.offset + (at.is_row_major ? row * at.matrix_stride + column * 4
+                                                                  : column * at.matrix_stride + row * 4);
+        port.offsets.push_back(offset);
+        UniformBlock& block = program_.uniform_blocks[static_cast<std::size_t>(at.block)];
+        block.size = std::max(block.size, offset + 4);
     }
-    if (location >= 0) location += static_cast<int>(is_matrix ? described.count : 1);
+    if (number >= 0) number += of.value.columns;
     ports.push_back(std::move(port));
 }
 
@@ -276,9 +222,9 @@ void Decoder::initialise_globals() {
     for (const Instruction& instruction : module_.instructions) {
         if (error_ || instruction.opcode == spv::OpFunction) break;
         if (instruction.opcode != spv::OpVariable || instruction.words.size() < 5) continue;
-        const Pointer& variable = globals_[instruction.result];
-        if (!variables_[static_cast<std::size_t>(variable.variable)].is_read_only)
-            store(instruction, variable, value(instruction, instruction.word(4)));
+        const Value variable = globals_[instruction.result];
+        if (!is_read_only_[static_cast<std::size_t>(variable.variable)])
+            store(instruction, variable, value(instruction, 4));
     }
     frames_.pop_back();
 }

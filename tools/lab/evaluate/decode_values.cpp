@@ -1,5 +1,8 @@
 // Slots of values: how long they live, when two values may share them.
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include "lab/evaluate/decoder.hpp"
 
@@ -10,6 +13,29 @@ namespace {
 constexpr std::uint32_t kLookAhead = 4096;
 
 }  // namespace
+
+/// The value is one scalar of a fitting kind.
+bool Decoder::is_one(const Value& value, bool (*fits)(Scalar)) const {
+    return type(value).scalars == 1 && fits(type(value).value.scalar);
+}
+
+/// The type of element or member `index`, or none where there is no such part.
+Id Decoder::part_type(Id id, std::uint32_t index) const {
+    const Type& whole = type(id);
+    const bool has_parts =
+        is_one_of(whole.opcode, {spv::OpTypeVector, spv::OpTypeMatrix, spv::OpTypeArray, spv::OpTypeStruct});
+    if (index >= whole.count || !has_parts) return Id::none;
+    return whole.opcode == spv::OpTypeStruct ? whole.members[index] : whole.element;
+}
+
+/// The first slot of element or member `index` inside the value.
+std::uint32_t Decoder::part_offset(Id id, std::uint32_t index) const {
+    const Type& whole = type(id);
+    if (whole.opcode != spv::OpTypeStruct) return index * type(whole.element).scalars;
+    std::uint32_t slots = 0;
+    for (std::uint32_t member = 0; member < index; ++member) slots += type(whole.members[member]).scalars;
+    return slots;
+}
 
 /// Slots that nothing else ever uses.
 std::uint32_t Decoder::permanent(std::uint32_t count) {
@@ -22,9 +48,9 @@ std::uint32_t Decoder::permanent(std::uint32_t count) {
     return slot;
 }
 
-/// Slots for a value of that many uses, given back after the last one.
-std::uint32_t Decoder::temporary(std::uint32_t count, std::uint32_t uses, int& allocation) {
-    std::vector<std::uint32_t>& free = free_slots_[count];
+/// Slots for a value of that many uses, given back after the last one, or after this instruction.
+std::uint32_t Decoder::temporary(std::uint32_t count, std::uint32_t uses, int* allocation) {
+    Words& free = free_slots_[count];
     std::uint32_t slot = 0;
     if (free.empty()) {
         slot = permanent(count);
@@ -32,46 +58,50 @@ std::uint32_t Decoder::temporary(std::uint32_t count, std::uint32_t uses, int& a
         slot = free.back();
         free.pop_back();
     }
-    allocation = static_cast<int>(allocations_.size());
+    const int index = static_cast<int>(allocations_.size());
     allocations_.push_back({slot, count, uses});
-    if (uses == 0) to_free_.push_back(allocation);
+    if (uses == 0) to_free_.push_back(index);
+    if (allocation != nullptr) *allocation = index;
     return slot;
 }
 
-void Decoder::release(std::uint32_t id) {
+void Decoder::release_operands(const Instruction& instruction) {
+    for (const std::uint32_t id : value_operands(instruction)) release(Id{id});
+}
+
+void Decoder::release(Id id) {
     const auto found = frame().values.find(id);
     if (found == frame().values.end() || found->second.allocation < 0) return;
     Allocation& allocation = allocations_[static_cast<std::size_t>(found->second.allocation)];
     if (allocation.remaining > 0 && --allocation.remaining == 0) to_free_.push_back(found->second.allocation);
 }
 
-void Decoder::free_allocation(int index) {
-    Allocation& allocation = allocations_[static_cast<std::size_t>(index)];
-    if (allocation.is_free || allocation.remaining > 0) return;
-    allocation.is_free = true;
-    free_slots_[allocation.count].push_back(allocation.slot);
+void Decoder::free_released() {
+    for (const int index : to_free_) {
+        Allocation& allocation = allocations_[static_cast<std::size_t>(index)];
+        if (allocation.is_free || allocation.remaining > 0) continue;
+        allocation.is_free = true;
+        free_slots_[allocation.count].push_back(allocation.slot);
+    }
+    to_free_.clear();
 }
 
 /// Where the instruction shall write its result. Operations write all lanes; a result that is used outside
 /// its block is copied by those lanes only that are in it, since others may have left a loop with an older
 /// value.
 std::uint32_t Decoder::define(const Instruction& instruction) {
-    const std::uint32_t count = types_[instruction.type].slots;
+    const std::uint32_t count = type(instruction.type).scalars;
     const Uses& uses = frame().uses[instruction.result];
     Value& value = frame().values[instruction.result];
-    value = {instruction.type, 0, -1, -1, intern(module_.name_of(instruction.result))};
+    value = {instruction.type, 0, -1, -1, intern(module_.name(instruction.result))};
     if (count == 0) {
-        report(instruction, fmt::format("{} has a result without a value", opcode_name(instruction.opcode)));
+        report(instruction, opcode_name(instruction.opcode) + " has a result without a value");
         return 0;
     }
-    if (uses.is_local) {
-        value.slot = temporary(count, uses.count, value.allocation);
-        return value.slot;
-    }
+    if (uses.is_local) return value.slot = temporary(count, uses.count, &value.allocation);
     value.slot = permanent(count);
-    int scratch = -1;
-    kept_ = Kept{value.slot, temporary(count, 0, scratch), count};
-    return kept_->temporary;
+    kept_ = temporary(count);
+    return *kept_;
 }
 
 /// The result is part of a value that exists already.
@@ -91,100 +121,83 @@ bool Decoder::may_share(const Instruction& instruction, const Value& value) {
 
 /// Whether an instruction after `from` up to `to`, all of one block, may write the variable. The last one
 /// reads before it writes if it is a store.
-bool Decoder::is_written(int variable, std::uint32_t from, std::uint32_t to) {
+bool Decoder::is_written(int variable, std::uint32_t from, std::uint32_t to) const {
     if (to > from + kLookAhead) return true;
     for (std::uint32_t at = from; at <= to && at < module_.instructions.size(); ++at) {
         const Instruction& instruction = module_.instructions[at];
-        switch (instruction.opcode) {
-            case spv::OpStore: {
-                const int written = variable_of(instruction.word(1));
-                if (at != to && (written == variable || written < 0)) return true;
-                break;
-            }
-            case spv::OpFunctionCall:
-            case spv::OpCopyMemory:
-                return true;
-            case spv::OpExtInst: {
-                const auto number = static_cast<GLSLstd450>(instruction.word(4));
-                if (number == GLSLstd450Modf || number == GLSLstd450Frexp) return true;
-                break;
-            }
-            default:
-                break;
-        }
+        if (is_one_of(instruction.opcode, {spv::OpFunctionCall, spv::OpCopyMemory})) return true;
+        if (instruction.opcode == spv::OpExtInst &&
+            (instruction.word(4) == GLSLstd450Modf || instruction.word(4) == GLSLstd450Frexp))
+            return true;
+        if (instruction.opcode != spv::OpStore || at == to) continue;
+        const int written = variable_of(instruction.id(1));
+        if (written == variable || written < 0) return true;
     }
     return false;
 }
 
 /// The variable that a pointer leads into, -1 where that cannot be told yet.
-int Decoder::variable_of(std::uint32_t pointer) const {
+int Decoder::variable_of(Id pointer) const {
     for (std::uint32_t level = 0; level < 64; ++level) {
-        const auto& local = frames_.back()->pointers;
-        if (const auto found = local.find(pointer); found != local.end()) return found->second.variable;
-        if (const auto found = globals_.find(pointer); found != globals_.end()) return found->second.variable;
-        const Instruction* definition = module_.definition(pointer);
+        if (const Value* const found = find(pointer, true)) return found->variable;
+        const Instruction* const definition = module_.definition(pointer);
         if (definition == nullptr) return -1;
-        pointer = definition->word(3);
+        pointer = definition->id(3);
     }
     return -1;
 }
 
 /// Copies a result that outlives its block, and gives back what was used for the last time.
 void Decoder::finish_instruction(const Instruction& instruction) {
-    for_each_value_operand(instruction, [&](std::uint32_t id) { release(id); });
+    release_operands(instruction);
     if (kept_) {
-        Value temporary_value{instruction.type, kept_->temporary};
-        emit(kKeep, instruction, kept_->count, kept_->slot, {temporary_value});
+        copy(instruction, type(instruction.type).scalars, frame().values[instruction.result].slot,
+             {instruction.type, *kept_});
         kept_.reset();
     }
-    for (const int allocation : to_free_) free_allocation(allocation);
-    to_free_.clear();
+    free_released();
 }
 
-Value Decoder::value(const Instruction& instruction, std::uint32_t id) {
-    if (!frames_.empty()) {
-        const auto found = frame().values.find(id);
-        if (found != frame().values.end()) return found->second;
-    }
-    const auto constant = constants_.find(id);
-    if (constant != constants_.end()) return constant->second;
-    report(instruction,
-           fmt::format("{} uses id {}, which has no value here", opcode_name(instruction.opcode), id));
+const Value* Decoder::find(Id id, bool is_pointer) const {
+    const auto among = [&](const std::unordered_map<Id, Value>& known) -> const Value* {
+        const auto found = known.find(id);
+        return found != known.end() && found->second.is_pointer == is_pointer ? &found->second : nullptr;
+    };
+    const Value* const local = frames_.empty() ? nullptr : among(frames_.back()->values);
+    return local != nullptr ? local : among(globals_);
+}
+
+/// The value that the word of an instruction names.
+Value Decoder::value(const Instruction& instruction, std::size_t word) {
+    if (const Value* const found = find(instruction.id(word), false)) return *found;
+    report(instruction, fmt::format("{} uses id {}, which has no value here", opcode_name(instruction.opcode),
+                                    instruction.word(word)));
     return {};
 }
 
-Pointer Decoder::pointer(const Instruction& instruction, std::uint32_t id) {
-    const auto local = frame().pointers.find(id);
-    if (local != frame().pointers.end()) return local->second;
-    const auto global = globals_.find(id);
-    if (global != globals_.end()) return global->second;
-    report(instruction,
-           fmt::format("{} uses id {}, which is no variable", opcode_name(instruction.opcode), id));
-    return {};
+Values Decoder::values(const Instruction& instruction, std::size_t first_word) {
+    Values all;
+    for (std::size_t word = first_word; word < instruction.words.size(); ++word)
+        all.push_back(value(instruction, word));
+    return all;
 }
 
-std::optional<std::uint32_t> Decoder::constant_index(std::uint32_t id) const {
-    const auto found = constant_bits_.find(id);
-    if (found == constant_bits_.end() || found->second.size() != 1) return std::nullopt;
-    return found->second.front();
+Value Decoder::pointer(const Instruction& instruction, std::size_t word) {
+    if (const Value* const found = find(instruction.id(word), true)) return *found;
+    report(instruction, fmt::format("{} uses id {}, which is not a variable", opcode_name(instruction.opcode),
+                                    instruction.word(word)));
+    return {};
 }
 
 std::uint32_t Decoder::intern(const std::string& name) {
     if (name.empty()) return 0;
-    const auto [found, is_new] =
-        name_indices_.try_emplace(name, static_cast<std::uint32_t>(program_.names.size()));
+    const auto [found, is_new] = name_indices_.try_emplace(name, length_of(program_.names));
     if (is_new) program_.names.push_back(name);
     return found->second;
 }
 
 Slice Decoder::slice(const Value& value) const {
-    const Type& type = types_[value.type];
-    Scalar scalar = type.scalar;
-    if (type.shape == Type::Shape::array || type.shape == Type::Shape::structure) {
-        const std::vector<Scalar> layout = types_.layout(value.type);
-        if (!layout.empty()) scalar = layout.front();
-    }
-    return {value.slot, type.slots, scalar, value.name};
+    return {value.slot, type(value).scalars, type(value).value.scalar, value.name};
 }
 
 void Decoder::charge(Kind kind, std::uint32_t count) {
@@ -197,45 +210,41 @@ void Decoder::charge(Kind kind, std::uint32_t count) {
     block().costs.emplace_back(kind, count);
 }
 
-Operation& Decoder::emit(std::uint32_t code, const Instruction& instruction, std::uint32_t count,
-                         std::uint32_t result, const std::vector<Value>& operands,
-                         std::vector<std::uint32_t> words) {
-    return emit_row(*find_row(code), instruction, count, result, operands, std::move(words));
+/// Of the active lanes.
+void Decoder::copy(const Instruction& instruction, std::uint32_t count, std::uint32_t to, const Value& from) {
+    emit(kCopy, instruction, count, to, {from});
+}
+
+void Decoder::emit(std::uint32_t code, const Instruction& instruction, std::uint32_t count,
+                   std::uint32_t result, const Values& operands, Words words) {
+    emit_row(*find_row(code), instruction, count, result, operands, std::move(words));
 }
 
 /// Appends an operation to the block; it counts as `count` of its row's kind. Operands beyond the third stand
 /// in the words, from the third on.
-Operation& Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::uint32_t count,
-                             std::uint32_t result, const std::vector<Value>& operands,
-                             std::vector<std::uint32_t> words) {
+void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::uint32_t count,
+                       std::uint32_t result, const Values& operands, Words words) {
     if (program_.operations.size() >= kLargestProgram)
         report(instruction, "the stage is too long to evaluate");
-    Operation operation;
-    operation.row = row;
-    operation.count = count;
-    operation.result = result;
+    Operation operation{row, count, result, {}, length_of(program_.words), 0};
     for (std::size_t index = 0; index < operands.size() && index < operation.operands.size(); ++index)
         operation.operands[index] = operands[index].slot;
     if (words.empty() && operands.size() > operation.operands.size())
         for (std::size_t index = 2; index < operands.size(); ++index) words.push_back(operands[index].slot);
-    operation.extra = static_cast<std::uint32_t>(program_.words.size());
-    operation.extras = static_cast<std::uint32_t>(words.size());
+    operation.extras = length_of(words);
     program_.words.insert(program_.words.end(), words.begin(), words.end());
 
-    OperationInfo info;
-    info.place = instruction.place;
-    info.is_precise = module_.decorations_of(instruction.result).no_contraction;
-    info.result = {result, types_[instruction.type].slots, types_[instruction.type].scalar, 0};
-    if (instruction.type != 0)
-        info.result = slice({instruction.type, result, -1, -1, intern(module_.name_of(instruction.result))});
+    OperationInfo info{instruction.line, {result, 0}, {}, false};
+    info.is_precise = module_.decoration(instruction.result, spv::DecorationNoContraction).has_value();
+    if (instruction.type != Id::none)
+        info.result = slice({instruction.type, result, -1, -1, intern(module_.name(instruction.result))});
     for (const Value& operand : operands) info.operands.push_back(slice(operand));
 
     const Row& known = instruction_table()[row];
-    if (!known.name.empty()) charge(known.kind, known.kind == Kind::image ? 1 : count);
+    if (!known.is_bookkeeping) charge(known.kind, known.kind == Kind::image ? 1 : count);
     program_.operations.push_back(operation);
     program_.infos.push_back(std::move(info));
     is_quick_.push_back(true);
-    return program_.operations.back();
 }
 
 }  // namespace gobo::evaluate

@@ -3,23 +3,61 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "lab/evaluate/instruction_table.hpp"
 
 namespace gobo::evaluate {
 namespace {
 
-/// The difference of a component; NaN where one arithmetic gives a number and the other none.
-double difference(double a, double b) {
-    if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
-    return std::fabs(a - b);
+using Json = nlohmann::ordered_json;
+
+template <class T>
+TracedValue value_of(const Step<T>& step, const Slice& slice, std::size_t lane) {
+    TracedValue value{step.program.names[slice.name], {}};
+    for (std::uint32_t component = 0; component < slice.count; ++component)
+        value.components.push_back(step.value(slice, component, lane));
+    return value;
 }
 
+std::string value_text(const TracedValue& value) {
+    if (value.components.empty()) return value.name;
+    const std::string numbers = to_text(value.components);
+    return value.name.empty() ? numbers : fmt::format("{}={}", value.name, numbers);
+}
+
+/// With the source line behind each place, where it is known.
+std::string trace_text(const std::vector<TraceStep>& steps, const SourceLine& source_line) {
+    std::string text;
+    const Place* place = nullptr;
+    for (const TraceStep& step : steps) {
+        if (place == nullptr || step.place != *place) {
+            place = &step.place;
+            const std::string source(trim(source_line(step.place)));
+            text += place->file.empty() ? std::string("(no line)")
+                                        : fmt::format("{}:{}", place->file, place->line);
+            text += source.empty() ? "\n" : ": " + source + "\n";
+        }
+        std::vector<std::string> operands;
+        for (const TracedValue& operand : step.operands) operands.push_back(value_text(operand));
+        text += fmt::format("    {}", step.operation);
+        if (!operands.empty()) text += fmt::format(" {}", fmt::join(operands, ", "));
+        const std::string result = value_text(step.result);
+        text += result.empty() ? "\n" : " -> " + result + "\n";
+    }
+    return text;
+}
+
+/// Of each component; NaN where one arithmetic gives a number and the other none.
 std::vector<double> differences(const EvalOutput& output) {
     std::vector<double> all;
-    for (std::size_t i = 0; i < output.in_float.size(); ++i)
-        all.push_back(difference(output.in_float[i], output.in_double[i]));
+    for (std::size_t i = 0; i < output.in_float.size(); ++i) {
+        const double a = output.in_float[i];
+        const double b = output.in_double[i];
+        all.push_back(a == b || (std::isnan(a) && std::isnan(b)) ? 0 : std::fabs(a - b));
+    }
     return all;
 }
 
@@ -28,7 +66,7 @@ std::string columns(const char* label, const std::vector<double>& numbers, const
     std::string line = fmt::format("  {:<12}", label);
     for (const double number : numbers)
         line += fmt::format("{:<25}", fmt::format(fmt::runtime(format), number));
-    return std::string(line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
+    return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
 std::string outputs_text(const EvalReport& report) {
@@ -40,43 +78,15 @@ std::string outputs_text(const EvalReport& report) {
         text += columns("fp64", output.in_double, "{:.17g}");
         text += columns("difference", differences(output), "{:.2g}");
     }
-    if (report.is_discarded_in_float && report.is_discarded_in_double)
-        text += "discarded\n";
-    else if (report.is_discarded_in_float)
-        text += "discarded in fp32 only\n";
-    else if (report.is_discarded_in_double)
-        text += "discarded in fp64 only\n";
+    const bool in_float = report.is_discarded_in_float;
+    if (in_float && report.is_discarded_in_double) return text + "discarded\n";
+    if (in_float || report.is_discarded_in_double)
+        text += fmt::format("discarded in {} only\n", in_float ? "fp32" : "fp64");
     return text;
 }
 
-std::string counts_text(const Counts& counts) {
-    std::vector<std::string> parts;
-    for (std::size_t kind = 0; kind < kKinds; ++kind)
-        if (counts[kind] != 0) parts.push_back(fmt::format("{} {}", kKindNames[kind], counts[kind]));
-    return fmt::format("operations: {}\n", join(parts, ", "));
-}
-
-std::string trace_text(const std::vector<TraceStep>& steps, const SourceLine& source_line) {
-    std::string text;
-    std::vector<TraceStep> same_place;
-    const auto flush = [&] {
-        if (same_place.empty()) return;
-        std::string lines = to_text(same_place);
-        const std::string source(trim(source_line(same_place.front().place)));
-        if (!source.empty()) lines.insert(lines.find('\n'), ": " + source);
-        text += lines;
-        same_place.clear();
-    };
-    for (const TraceStep& step : steps) {
-        if (!same_place.empty() && same_place.front().place != step.place) flush();
-        same_place.push_back(step);
-    }
-    flush();
-    return text;
-}
-
-nlohmann::ordered_json numbers_json(const std::vector<double>& numbers) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json numbers_json(const std::vector<double>& numbers) {
+    Json list = Json::array();
     for (const double number : numbers) {
         if (std::isfinite(number))
             list.push_back(number);
@@ -86,17 +96,17 @@ nlohmann::ordered_json numbers_json(const std::vector<double>& numbers) {
     return list;
 }
 
-nlohmann::ordered_json value_json(const TracedValue& value) {
-    nlohmann::ordered_json json;
+Json value_json(const TracedValue& value) {
+    Json json;
     if (!value.name.empty()) json["name"] = value.name;
     json["value"] = numbers_json(value.components);
     return json;
 }
 
-nlohmann::ordered_json trace_json(const std::vector<TraceStep>& steps) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json trace_json(const std::vector<TraceStep>& steps) {
+    Json list = Json::array();
     for (const TraceStep& step : steps) {
-        nlohmann::ordered_json operands = nlohmann::ordered_json::array();
+        Json operands = Json::array();
         for (const TracedValue& operand : step.operands) operands.push_back(value_json(operand));
         list.push_back({{"file", step.place.file},
                         {"line", step.place.line},
@@ -109,21 +119,66 @@ nlohmann::ordered_json trace_json(const std::vector<TraceStep>& steps) {
 
 }  // namespace
 
+template <class T>
+void Trace<T>::after(const Step<T>& step) {
+    if (invocation_ < step.first_invocation || invocation_ >= step.first_invocation + kLanes) return;
+    const std::size_t lane = invocation_ - step.first_invocation;
+    if ((step.lanes >> lane & 1U) == 0) return;
+    const OperationInfo& info = step.info();
+    const Row& row = step.row();
+    TraceStep traced{step.place(), std::string(row.name), value_of(step, info.result, lane), {}};
+    if (row.kind == Kind::store) {
+        // Through an address the variable's own slots are not what was written.
+        traced.result.components = value_of(step, info.operands.front(), lane).components;
+    } else if (row.kind == Kind::load) {
+        traced.result.name = step.program.names[info.operands.front().name];
+    } else {
+        for (const Slice& operand : info.operands) traced.operands.push_back(value_of(step, operand, lane));
+        if (row.code == spv::OpAccessChain) traced.result.components.clear();
+    }
+    steps_.push_back(std::move(traced));
+}
+
+template <class T>
+void Trace<T>::clamped(const Step<T>& step, std::size_t lane, std::int64_t index, std::uint32_t extent) {
+    if (step.first_invocation + lane != invocation_) return;
+    steps_.push_back({step.place(),
+                      fmt::format("index {} is outside [0, {}) and is clamped", index, extent),
+                      {step.program.names[step.info().result.name], {}},
+                      {}});
+}
+
+template class Trace<float>;
+template class Trace<double>;
+
+std::string to_text(const std::vector<double>& components) {
+    std::vector<std::string> numbers;
+    for (const double component : components) {
+        const auto rounded = static_cast<float>(component);
+        const bool is_float = static_cast<double>(rounded) == component;
+        numbers.push_back(is_float ? fmt::format("{}", rounded) : fmt::format("{}", component));
+    }
+    if (numbers.size() == 1) return numbers.front();
+    return fmt::format("({})", fmt::join(numbers, ", "));
+}
+
+std::string to_text(const std::vector<TraceStep>& steps) {
+    return trace_text(steps, [](const Place&) { return std::string(); });
+}
+
 Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations, bool with_trace) {
     Options options;
     options.count = true;
     Trace<float> trace;
-    Result<Outputs> in_float = run<float>(program, invocations, options, with_trace ? &trace : nullptr);
-    if (!in_float) return tl::unexpected(in_float.error());
-    Result<Outputs> in_double = run<double>(program, invocations);
-    if (!in_double) return tl::unexpected(in_double.error());
+    GOBO_TRY(Outputs in_float, run<float>(program, invocations, options, with_trace ? &trace : nullptr));
+    GOBO_TRY(Outputs in_double, run<double>(program, invocations));
     EvalReport report;
     for (const Port& port : program.outputs)
         report.outputs.push_back(
-            {port.name, port.type, in_float->values[port.name], in_double->values[port.name]});
-    report.is_discarded_in_float = in_float->discarded.front();
-    report.is_discarded_in_double = in_double->discarded.front();
-    report.counts = in_float->counts.front();
+            {port.name, port.type, in_float.values[port.name], in_double.values[port.name]});
+    report.is_discarded_in_float = in_float.discarded.front();
+    report.is_discarded_in_double = in_double.discarded.front();
+    report.counts = in_float.counts.front();
     report.trace = trace.steps();
     return report;
 }
@@ -131,12 +186,16 @@ Result<EvalReport> evaluate_once(const Program& program, const Invocations& invo
 std::string to_text(const EvalReport& report, const SourceLine& source_line) {
     std::string text = trace_text(report.trace, source_line);
     if (!text.empty()) text += "\n";
-    return text + outputs_text(report) + counts_text(report.counts);
+    std::vector<std::string> counts;
+    for (std::size_t kind = 0; kind < kKinds; ++kind)
+        if (report.counts[kind] != 0)
+            counts.push_back(fmt::format("{} {}", kKindNames[kind], report.counts[kind]));
+    return text + outputs_text(report) + fmt::format("operations: {}\n", join(counts, ", "));
 }
 
-nlohmann::ordered_json to_json(const EvalReport& report) {
-    nlohmann::ordered_json json;
-    json["outputs"] = nlohmann::ordered_json::array();
+Json to_json(const EvalReport& report) {
+    Json json;
+    json["outputs"] = Json::array();
     for (const EvalOutput& output : report.outputs)
         json["outputs"].push_back({{"name", output.name},
                                    {"type", output.type},
@@ -144,7 +203,7 @@ nlohmann::ordered_json to_json(const EvalReport& report) {
                                    {"fp64", numbers_json(output.in_double)},
                                    {"difference", numbers_json(differences(output))}});
     json["discarded"] = {{"fp32", report.is_discarded_in_float}, {"fp64", report.is_discarded_in_double}};
-    json["counts"] = nlohmann::ordered_json::object();
+    json["counts"] = Json::object();
     for (std::size_t kind = 0; kind < kKinds; ++kind)
         if (report.counts[kind] != 0) json["counts"][std::string(kKindNames[kind])] = report.counts[kind];
     if (!report.trace.empty()) json["trace"] = trace_json(report.trace);

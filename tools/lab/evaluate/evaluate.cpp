@@ -1,17 +1,145 @@
 #include "lab/evaluate/evaluate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include <fmt/format.h>
 
-#include "lab/evaluate/bindings.hpp"
-#include "lab/evaluate/denormals.hpp"
-#include "lab/evaluate/loops.hpp"
+#include "core/text.hpp"
+#include "lab/evaluate/functions.hpp"
+#include "lab/evaluate/instruction_table.hpp"
 #include "lab/evaluate/scheduler.hpp"
 
 namespace gobo::evaluate {
 namespace {
+
+#if defined(__SSE2__)
+constexpr bool kCanFlush = true;
+constexpr std::uint64_t kFlush = 0x8040;  // flush to zero, denormals are zero
+std::uint64_t control() {
+    return _mm_getcsr();
+}
+void set_control(std::uint64_t bits) {
+    _mm_setcsr(static_cast<unsigned>(bits));
+}
+#elif defined(__aarch64__)
+constexpr bool kCanFlush = true;
+constexpr std::uint64_t kFlush = 1U << 24U;  // FPCR.FZ
+std::uint64_t control() {
+    std::uint64_t bits = 0;
+    asm volatile("mrs %0, fpcr" : "=r"(bits));
+    return bits;
+}
+void set_control(std::uint64_t bits) {
+    asm volatile("msr fpcr, %0" : : "r"(bits));
+}
+#else
+constexpr bool kCanFlush = false;
+constexpr std::uint64_t kFlush = 0;
+std::uint64_t control() {
+    return 0;
+}
+void set_control(std::uint64_t /*bits*/) {}
+#endif
+
+/// While it lives, this thread takes denormal operands and results as 0 if `flush`, and keeps them otherwise.
+class DenormalMode {
+  public:
+    explicit DenormalMode(bool flush) : saved_(control()) {
+        set_control(flush ? saved_ | kFlush : saved_ & ~kFlush);
+    }
+    DenormalMode(const DenormalMode&) = delete;
+    DenormalMode& operator=(const DenormalMode&) = delete;
+    ~DenormalMode() { set_control(saved_); }
+
+  private:
+    std::uint64_t saved_;
+};
+
+/// The values of one input or uniform.
+struct Binding {
+    const Port* port = nullptr;
+    std::vector<double> values;
+    bool is_per_invocation = false;  ///< otherwise the same for all
+};
+
+double read_scalar(Scalar scalar, const std::byte* bytes) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes, sizeof bits);
+    if (scalar == Scalar::int32) return static_cast<std::int32_t>(bits);
+    if (scalar != Scalar::float32) return bits;
+    float real = 0;
+    std::memcpy(&real, &bits, sizeof real);
+    return static_cast<double>(real);
+}
+
+/// Members that lie beyond the end of the bytes stay 0: a buffer for fewer array elements is enough.
+void bind_block(const Program& program, std::size_t block, const std::vector<std::byte>& bytes,
+                std::vector<Binding>& bindings) {
+    for (const Port& port : program.uniforms) {
+        if (port.block != static_cast<int>(block)) continue;
+        Binding binding{&port, {}, false};
+        for (const std::uint32_t offset : port.offsets) {
+            const bool is_inside = std::size_t{offset} + 4 <= bytes.size();
+            binding.values.push_back(is_inside ? read_scalar(port.scalar, bytes.data() + offset) : 0.0);
+        }
+        bindings.push_back(std::move(binding));
+    }
+}
+
+/// Bindings in the order in which they overrule one another. Errors: names that the stage does not have, and
+/// wrong numbers of values.
+Result<std::vector<Binding>> bind(const Program& program, const Invocations& invocations) {
+    std::vector<Binding> bindings;
+    for (const auto& [name, bytes] : invocations.blocks) {
+        const auto& blocks = program.uniform_blocks;
+        const auto found = std::ranges::find(blocks, name, &UniformBlock::name);
+        if (found == blocks.end())
+            return fail(Fault::input, fmt::format("the stage has no uniform block '{}'", name),
+                        suggestion(name, names_of(blocks)));
+        bind_block(program, static_cast<std::size_t>(found - blocks.begin()), bytes, bindings);
+    }
+    for (const auto& [name, values] : invocations.values) {
+        const Port* port = find_port(program.inputs, name);
+        if (port == nullptr) port = find_port(program.uniforms, name);
+        if (port == nullptr)
+            return fail(Fault::input, fmt::format("the stage has no input or uniform '{}'", name),
+                        suggestion(name, names_of(program.inputs, program.uniforms)));
+        const std::size_t for_each = port->components * invocations.count;
+        if (values.size() != port->components && values.size() != for_each)
+            return fail(
+                Fault::input,
+                fmt::format("'{}' is a {}: it takes {} numbers, or {} for {} invocations, not {}", name,
+                            port->type, port->components, for_each, invocations.count, values.size()));
+        bindings.push_back({port, values, values.size() == for_each && invocations.count > 1});
+    }
+    return bindings;
+}
+
+/// The double that the shortest decimal of a float stands for: 0.1f is 0.1.
+double shortest_decimal(float value) {
+    if (!std::isfinite(value)) return static_cast<double>(value);
+    std::array<char, 64> text{};
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), value);
+    double decimal = 0;
+    std::from_chars(text.data(), written.ptr, decimal);
+    return decimal;
+}
+
+/// What the lane of a row holds.
+template <class T>
+double number_in(const T* row, Scalar scalar, std::size_t lane) {
+    if (scalar == Scalar::float32) return static_cast<double>(row[lane]);
+    const Int<T> integer = reinterpret_cast<const Int<T>*>(row)[lane];
+    return scalar == Scalar::uint32 ? to_unsigned(integer) : to_signed(integer);
+}
 
 /// One call of run(): fills rows from values, runs batch after batch, reads rows back.
 template <class T>
@@ -22,8 +150,8 @@ class Evaluation {
         : program_(program),
           invocations_(invocations),
           options_(options),
-          machine_(program, invocations.images),
-          scheduler_(program, machine_, options, observer) {}
+          registers_(program, invocations.images),
+          scheduler_(program, registers_, options, observer) {}
 
     Result<Outputs> run(const std::vector<Binding>& bindings) {
         prepare();
@@ -36,7 +164,7 @@ class Evaluation {
             for (const Binding& binding : bindings)
                 if (binding.is_per_invocation) fill(binding, first);
             if (const std::optional<Diagnostic> error = scheduler_.run()) return fail(*error);
-            if (machine_.missing_image() >= 0) return fail(missing_image());
+            if (registers_.missing_image() >= 0) return fail(missing_image());
             read_batch(first);
         }
         return std::move(outputs_);
@@ -53,64 +181,49 @@ class Evaluation {
 
     void fill_constants() {
         for (const ConstantSlot& constant : program_.constants) {
-            if (constant.scalar != Scalar::real) {
-                std::fill_n(machine_.wholes(constant.slot), kLanes, to_signed(constant.bits));
+            if (constant.scalar != Scalar::float32) {
+                std::fill_n(registers_.ints(constant.slot), kLanes, to_signed(constant.bits));
                 continue;
             }
             const float value = std::bit_cast<float>(constant.bits);
             const T in_arithmetic =
                 sizeof(T) == 4 ? static_cast<T>(value) : static_cast<T>(shortest_decimal(value));
-            std::fill_n(machine_.reals(constant.slot), kLanes, in_arithmetic);
+            std::fill_n(registers_.floats(constant.slot), kLanes, in_arithmetic);
         }
     }
 
     void begin_batch(std::size_t first) {
         for (const auto& [slot, count] : program_.variables)
-            std::fill_n(machine_.wholes(slot), count * kLanes, Whole<T>{0});
-        machine_.first_invocation = first;
-        machine_.real = 0;
-        for (std::size_t lane = 0; lane < kLanes && first + lane < invocations_.count; ++lane) {
-            const bool is_helper =
-                first + lane < invocations_.helpers.size() && invocations_.helpers[first + lane];
-            if (!is_helper) machine_.real |= LaneMask{1} << lane;
-        }
+            std::fill_n(registers_.ints(slot), count * kLanes, Int<T>{0});
+        registers_.first_invocation = first;
+        registers_.callers_lanes = lanes_where([&](std::size_t lane) {
+            const std::size_t at = first + lane;
+            return at < invocations_.count &&
+                   (at >= invocations_.helpers.size() || !invocations_.helpers[at]);
+        });
     }
 
     /// Lanes beyond the last invocation repeat it, so that they part from no others.
     void fill(const Binding& binding, std::size_t first) {
-        const std::size_t last = invocations_.count - 1;
+        const Scalar scalar = binding.port->scalar;
+        const std::size_t stride = binding.is_per_invocation ? invocations_.count : 1;
+        const std::size_t last = binding.is_per_invocation ? invocations_.count - 1 : 0;
         for (std::uint32_t component = 0; component < binding.port->components; ++component) {
+            const double* values = binding.values.data() + component * stride;
+            T* floats = registers_.floats(binding.port->slot + component);
+            Int<T>* ints = registers_.ints(binding.port->slot + component);
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                const std::size_t at = binding.is_per_invocation
-                                           ? component * invocations_.count + std::min(first + lane, last)
-                                           : component;
-                set_cell(*binding.port, component, lane, binding.values[at]);
+                const double value = values[std::min(first + lane, last)];
+                // Clamped before it is converted: what does not fit would be undefined.
+                if (scalar == Scalar::float32)
+                    floats[lane] = static_cast<T>(value);
+                else if (scalar == Scalar::boolean)
+                    ints[lane] = value != 0 ? 1 : 0;
+                else
+                    ints[lane] =
+                        to_signed(static_cast<std::int64_t>(std::clamp(value, -2147483648.0, 4294967295.0)));
             }
         }
-    }
-
-    void set_cell(const Port& port, std::uint32_t component, std::size_t lane, double value) {
-        const std::uint32_t slot = port.slot + component;
-        switch (port.scalar) {
-            case Scalar::real:
-                machine_.reals(slot)[lane] = static_cast<T>(value);
-                break;
-            case Scalar::boolean:
-                machine_.wholes(slot)[lane] = value != 0 ? 1 : 0;
-                break;
-            default: {
-                // Clamped first: a conversion of what does not fit would be undefined.
-                const double fitting = std::clamp(value, -2147483648.0, 4294967295.0);
-                machine_.wholes(slot)[lane] = to_signed(static_cast<std::int64_t>(fitting));
-            }
-        }
-    }
-
-    [[nodiscard]] double cell(const Port& port, std::uint32_t component, std::size_t lane) {
-        const std::uint32_t slot = port.slot + component;
-        if (port.scalar == Scalar::real) return static_cast<double>(machine_.reals(slot)[lane]);
-        if (port.scalar == Scalar::unsigned_integer) return to_unsigned(machine_.wholes(slot)[lane]);
-        return to_signed(machine_.wholes(slot)[lane]);
     }
 
     void read_batch(std::size_t first) {
@@ -119,17 +232,18 @@ class Evaluation {
             std::vector<double>& values = outputs_.values[port.name];
             for (std::uint32_t component = 0; component < port.components; ++component)
                 for (std::size_t lane = 0; lane < lanes; ++lane)
-                    values[component * invocations_.count + first + lane] = cell(port, component, lane);
+                    values[component * invocations_.count + first + lane] =
+                        number_in(registers_.floats(port.slot + component), port.scalar, lane);
         }
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            outputs_.discarded[first + lane] = (scheduler_.discarded() >> lane & 1U) != 0;
-            if (options_.count && (machine_.real >> lane & 1U) != 0)
+            outputs_.discarded[first + lane] = has_lane(scheduler_.discarded(), lane);
+            if (options_.count && has_lane(registers_.callers_lanes, lane))
                 scheduler_.add_counts(lane, outputs_.counts[first + lane]);
         }
     }
 
     [[nodiscard]] Diagnostic missing_image() {
-        const auto index = static_cast<std::size_t>(machine_.missing_image());
+        const auto index = static_cast<std::size_t>(registers_.missing_image());
         const std::string name = index < program_.images.size() ? program_.images[index].name : "?";
         return error_at({},
                         fmt::format("the stage reads the sampler '{}', for which no image is given", name));
@@ -138,7 +252,7 @@ class Evaluation {
     const Program& program_;
     const Invocations& invocations_;
     const Options& options_;
-    Machine<T> machine_;
+    Registers<T> registers_;
     Scheduler<T> scheduler_;
     Outputs outputs_;
 };
@@ -148,28 +262,29 @@ class Evaluation {
 template <class T>
 Result<Outputs> run(const Program& program, const Invocations& invocations, const Options& options,
                     Observer<T>* observer) {
-    if (options.flush_denormals && !DenormalMode::is_supported())
-        return fail(Fault::usage, "this machine cannot flush denormal numbers");
-    const Result<std::vector<Binding>> bindings = bind(program, invocations);
-    if (!bindings) return tl::unexpected(bindings.error());
+    if (options.flush_denormals && !kCanFlush)
+        return fail(Fault::usage, "this processor cannot flush denormal numbers");
+    GOBO_TRY(const std::vector<Binding> bindings, bind(program, invocations));
     const DenormalMode mode(options.flush_denormals && sizeof(T) == 4);
-    return Evaluation<T>(program, invocations, options, observer).run(*bindings);
+    return Evaluation<T>(program, invocations, options, observer).run(bindings);
 }
 
 template Result<Outputs> run<float>(const Program&, const Invocations&, const Options&, Observer<float>*);
 template Result<Outputs> run<double>(const Program&, const Invocations&, const Options&, Observer<double>*);
 
 template <class T>
+const Row& Step<T>::row() const {
+    return row_of(program.operations[operation]);
+}
+
+template <class T>
 std::string_view Step<T>::name() const {
-    return instruction_table()[program.operations[operation].row].name;
+    return row().name;
 }
 
 template <class T>
 double Step<T>::value(const Slice& slice, std::uint32_t component, std::size_t lane) const {
-    const T* row = rows + (std::size_t{slice.slot} + component) * kLanes;
-    if (slice.scalar == Scalar::real) return static_cast<double>(row[lane]);
-    const Whole<T> whole = reinterpret_cast<const Whole<T>*>(row)[lane];
-    return slice.scalar == Scalar::unsigned_integer ? to_unsigned(whole) : to_signed(whole);
+    return number_in(rows + (std::size_t{slice.slot} + component) * kLanes, slice.scalar, lane);
 }
 
 template struct Step<float>;

@@ -15,6 +15,8 @@
 
 namespace gobo::evaluate {
 
+struct Row;
+
 /// Invocations that run at a time.
 inline constexpr std::size_t kLanes = 64;
 
@@ -69,15 +71,15 @@ struct Invocations {
     Images images;
 };
 
-/// Which errors a machine makes beside those of rounding.
+/// Which errors arithmetic makes beside those of rounding.
 enum class Errors {
     none,
     largest_up,    ///< pow, exp, exp2, log, log2, inversesqrt too large by all that the specification allows
     largest_down,  ///< too small by as much
 };
 
-/// Which of the sums that the real numbers cannot tell apart a machine computes. Operations that the shader
-/// marks `precise` (NoContraction) are computed as written on every machine.
+/// Which of the sums that the real numbers cannot tell apart is computed. Operations that the shader marks
+/// `precise` (NoContraction) are always computed as written.
 enum class Sums {
     as_written,
     fused,      ///< a * b + c is rounded once, in functions such as dot() and mix() too
@@ -121,10 +123,12 @@ struct Step {
     std::uint32_t operation;       ///< index into Program::operations
     std::uint64_t lanes;           ///< bit i: lane i runs it (padding and helper lanes left out)
     std::size_t first_invocation;  ///< of lane 0
-    const T* rows;                 ///< lane l of slot s, where it holds reals, is rows[s * kLanes + l]
+    const T* rows;                 ///< lane l of slot s, where it holds floats, is rows[s * kLanes + l]
 
     [[nodiscard]] const OperationInfo& info() const { return program.infos[operation]; }
     [[nodiscard]] const Place& place() const { return program.place_of(operation); }
+    /// Of the instruction table.
+    [[nodiscard]] const Row& row() const;
     /// "FMul", "Pow", "Load".
     [[nodiscard]] std::string_view name() const;
     /// The value of a component of a slice in a lane, whatever it holds.

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gobo::evaluate {
 namespace {
 
 using What = ImageRequest::What;
+using Color = std::array<double, 4>;
 
-std::array<double, 4> all_of(double value) {
+Color all_of(double value) {
     return {value, value, value, value};
 }
 
@@ -22,27 +24,166 @@ double depth_at(const DepthTexels& texels, double x, double y, double layer) {
     return texels.depths[row * static_cast<std::size_t>(texels.width) + index(x, texels.width)];
 }
 
-double compared(const DepthTexels& texels, const ImageRequest& request, double x, double y) {
-    return request.reference <= depth_at(texels, x, y, request.coordinates[2]) ? 1 : 0;
+/// A sum of texels, each by its weight.
+class Blend {
+  public:
+    void add(const std::array<float, 4>& color, double weight) {
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            const auto value = static_cast<double>(color[channel]);
+            sum_[channel] += weight * value;
+            plain_[channel] += value;
+        }
+        ++count_;
+    }
+    /// A texel that does not exist: the mean of those that do stands for it.
+    void add_missing(double weight) { missing_ = weight; }
+
+    [[nodiscard]] Color color() const {
+        Color color = sum_;
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            color[channel] += missing_ * plain_[channel] / count_;
+        return color;
+    }
+
+  private:
+    Color sum_{};
+    Color plain_{};
+    int count_ = 0;
+    double missing_ = 0;
+};
+
+/// The texels on either side of a place along one axis.
+struct Around {
+    explicit Around(double place) : low(std::floor(place - 0.5)), weight(place - 0.5 - low) {}
+    double low;
+    double weight;  ///< of the upper one
+};
+
+/// Calls `add(column, row, weight)` for the four texels around a place in texels (OpenGL 4.5, 8.14.3).
+template <class Add>
+void for_each_around(double x, double y, const Add& add) {
+    const Around across(x);
+    const Around up(y);
+    add(across.low, up.low, (1 - across.weight) * (1 - up.weight));
+    add(across.low + 1, up.low, across.weight * (1 - up.weight));
+    add(across.low, up.low + 1, (1 - across.weight) * up.weight);
+    add(across.low + 1, up.low + 1, across.weight * up.weight);
 }
 
-/// OpenGL 4.5, 8.14.3: the texels at floor(u - 1/2) and the next, weighted by what is left.
-double filtered(const DepthTexels& texels, const ImageRequest& request) {
-    const double u = request.coordinates[0] * texels.width - 0.5;
-    const double v = request.coordinates[1] * texels.height - 0.5;
-    const double left = std::floor(u);
-    const double lower = std::floor(v);
-    const double alpha = u - left;
-    const double beta = v - lower;
-    return (1 - alpha) * (1 - beta) * compared(texels, request, left, lower) +
-           alpha * (1 - beta) * compared(texels, request, left + 1, lower) +
-           (1 - alpha) * beta * compared(texels, request, left, lower + 1) +
-           alpha * beta * compared(texels, request, left + 1, lower + 1);
+std::size_t repeated(double index, int count) {
+    return static_cast<std::size_t>(index - std::floor(index / count) * count);
+}
+
+/// A face: the axis on which it lies, and the axes along which s and t grow (OpenGL 4.5, table 8.19).
+struct Face {
+    std::array<double, 3> axis, s, t;
+};
+constexpr std::array<Face, 6> kFaces = {{{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+                                         {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                                         {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+                                         {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+                                         {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
+                                         {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}}};
+
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Where a direction meets the cube: the face, and the place on it in texels.
+struct OnCube {
+    std::size_t face = 0;
+    double x = 0;
+    double y = 0;
+};
+
+OnCube on_cube(const std::array<double, 3>& direction, int side) {
+    OnCube place;
+    for (std::size_t face = 1; face < kFaces.size(); ++face)
+        if (dot(direction, kFaces[face].axis) > dot(direction, kFaces[place.face].axis)) place.face = face;
+    const Face& face = kFaces[place.face];
+    const double ahead = dot(direction, face.axis);
+    place.x = 0.5 * (dot(direction, face.s) / ahead + 1) * side;
+    place.y = 0.5 * (dot(direction, face.t) / ahead + 1) * side;
+    return place;
+}
+
+std::size_t cube_index(const OnCube& place, int side) {
+    const auto at = [&](double coordinate) {
+        return static_cast<std::size_t>(std::clamp(std::floor(coordinate), 0.0, side - 1.0));
+    };
+    const auto width = static_cast<std::size_t>(side);
+    return (place.face * width + at(place.y)) * width + at(place.x);
+}
+
+/// The texel beyond the edge of a face: its centre, in the face's plane, seen from the middle of the cube
+/// lies in the texel of the next face that touches it.
+std::size_t across_edge(std::size_t face, double column, double row, int side) {
+    const double s = 2 * (column + 0.5) / side - 1;
+    const double t = 2 * (row + 0.5) / side - 1;
+    std::array<double, 3> direction{};
+    for (std::size_t i = 0; i < 3; ++i)
+        direction[i] = kFaces[face].axis[i] + s * kFaces[face].s[i] + t * kFaces[face].t[i];
+    return cube_index(on_cube(direction, side), side);
+}
+
+constexpr std::array<const char*, 3> kAlong = {".along_x", ".along_y", ".along_z"};
+
+bool changes(const EvenColor& even) {
+    return std::any_of(even.along.begin(), even.along.end(), [](const Color& slope) {
+        return std::any_of(slope.begin(), slope.end(), [](double number) { return number != 0; });
+    });
+}
+
+bool is_cube(const spirv::Image& type) {
+    return type.dimension == spv::DimCube && !type.depth;
+}
+
+Color answer_evenly(const EvenColor& even, const ImageRequest& request, bool is_cube) {
+    if (request.what != What::sample || request.compares || !changes(even))
+        return answer(even.color, request);
+    const auto& at = request.coordinates;
+    const double length = is_cube ? std::hypot(at[0], at[1], at[2]) : 1;
+    Color color = even.color;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            color[channel] += even.along[axis][channel] * at[axis] / length;
+    return color;
+}
+
+/// The six directions of a cube map's axes.
+EvenColor along_axes(const Image& image, ImageRequest request) {
+    EvenColor even;
+    request.dimensions = 3;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        request.coordinates = {};
+        request.coordinates[axis] = 1;
+        const Color there = image(request);
+        request.coordinates[axis] = -1;
+        const Color back = image(request);
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            even.color[channel] = 0.5 * (there[channel] + back[channel]);
+            even.along[axis][channel] = 0.5 * (there[channel] - back[channel]);
+        }
+    }
+    return even;
+}
+
+DepthTexels texel_by_texel(const Image& image, ImageRequest request, const Color& size) {
+    DepthTexels texels{static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]), {}};
+    request.what = What::fetch;
+    for (int layer = 0; layer < texels.layers; ++layer)
+        for (int y = 0; y < texels.height; ++y)
+            for (int x = 0; x < texels.width; ++x) {
+                request.coordinates = {static_cast<double>(x), static_cast<double>(y),
+                                       static_cast<double>(layer), 0};
+                texels.depths.push_back(image(request)[0]);
+            }
+    return texels;
 }
 
 }  // namespace
 
-std::array<double, 4> answer(const std::array<double, 4>& color, const ImageRequest& request, double side) {
+Color answer(const Color& color, const ImageRequest& request, double side) {
     if (request.what == What::size) return all_of(side);
     if (request.what == What::levels) return {std::log2(side) + 1, 0, 0, 0};
     if (request.compares) return all_of(request.reference <= color[0] ? 1 : 0);
@@ -50,13 +191,97 @@ std::array<double, 4> answer(const std::array<double, 4>& color, const ImageRequ
     return color;
 }
 
-std::array<double, 4> answer(const DepthTexels& texels, const ImageRequest& request) {
+Color answer(const DepthTexels& texels, const ImageRequest& request) {
     if (request.what == What::size)
         return {static_cast<double>(texels.width), static_cast<double>(texels.height),
                 static_cast<double>(texels.layers), 1};
     if (request.what == What::levels) return {1, 0, 0, 0};
-    if (request.compares) return all_of(filtered(texels, request));
-    return all_of(depth_at(texels, request.coordinates[0], request.coordinates[1], request.coordinates[2]));
+    const auto& place = request.coordinates;
+    if (!request.compares) return all_of(depth_at(texels, place[0], place[1], place[2]));
+    double passed = 0;
+    for_each_around(place[0] * texels.width, place[1] * texels.height,
+                    [&](double x, double y, double weight) {
+                        if (request.reference <= depth_at(texels, x, y, place[2])) passed += weight;
+                    });
+    return all_of(passed);
+}
+
+Color answer(const ColorTexels& texels, const ImageRequest& request) {
+    const auto at = [&](double x, double y) {
+        return texels.colors[repeated(y, texels.height) * static_cast<std::size_t>(texels.width) +
+                             repeated(x, texels.width)];
+    };
+    const auto& place = request.coordinates;
+    if (request.what == What::size)
+        return {static_cast<double>(texels.width), static_cast<double>(texels.height), 1, 1};
+    if (request.what == What::levels) return {1, 0, 0, 0};
+    Blend blend;
+    if (request.what == What::fetch)
+        blend.add(at(place[0], place[1]), 1);
+    else
+        for_each_around(place[0] * texels.width + request.offset[0],
+                        place[1] * texels.height + request.offset[1],
+                        [&](double x, double y, double weight) { blend.add(at(x, y), weight); });
+    return blend.color();
+}
+
+Color answer(const CubeTexels& texels, const ImageRequest& request) {
+    const auto side = static_cast<double>(texels.side);
+    if (request.what == What::size) return {side, side, 1, 1};
+    if (request.what == What::levels) return {1, 0, 0, 0};
+    const auto& to = request.coordinates;
+    const OnCube place = on_cube({to[0], to[1], to[2]}, texels.side);
+    Blend blend;
+    for_each_around(place.x, place.y, [&](double x, double y, double weight) {
+        const bool is_across = x < 0 || x >= side;
+        const bool is_above = y < 0 || y >= side;
+        if (is_across && is_above) return blend.add_missing(weight);  // in a corner three faces meet
+        const std::size_t index = is_across || is_above ? across_edge(place.face, x, y, texels.side)
+                                                        : cube_index({place.face, x, y}, texels.side);
+        blend.add(texels.colors[index], weight);
+    });
+    return blend.color();
+}
+
+Image image_of(TextureContent content, const spirv::Image& type) {
+    if (auto* texels = std::get_if<DepthTexels>(&content))
+        return [texels = std::move(*texels)](const ImageRequest& request) { return answer(texels, request); };
+    return [even = std::get<EvenColor>(content), is_cube = is_cube(type)](const ImageRequest& request) {
+        return answer_evenly(even, request, is_cube);
+    };
+}
+
+TextureContent content_of(const Image& image, const ImagePort& port, std::size_t invocation) {
+    ImageRequest request;
+    request.invocation = invocation;
+    if (is_cube(port.type)) return along_axes(image, request);
+    if (port.type.depth) {
+        ImageRequest about_size = request;
+        about_size.what = What::size;
+        const Color size = image(about_size);
+        const bool is_plain =  // a texture of one colour is as large in every direction
+            std::all_of(size.begin(), size.end(), [&](double extent) { return extent == size[0]; });
+        if (!is_plain) return texel_by_texel(image, request, size);
+    }
+    return EvenColor{image(request), {}};
+}
+
+void add_numbers(const std::string& sampler, const TextureContent& content, SamplerNumbers& numbers) {
+    if (const auto* texels = std::get_if<DepthTexels>(&content)) {
+        numbers[sampler + ".size"] = {static_cast<double>(texels->width), static_cast<double>(texels->height),
+                                      static_cast<double>(texels->layers)};
+        numbers[sampler + ".depths"] = texels->depths;
+        return;
+    }
+    const auto& even = std::get<EvenColor>(content);
+    const std::vector<double> color(even.color.begin(), even.color.end());
+    if (!changes(even)) {
+        numbers[sampler] = color;
+        return;
+    }
+    numbers[sampler + ".color"] = color;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        numbers[sampler + kAlong[axis]].assign(even.along[axis].begin(), even.along[axis].end());
 }
 
 }  // namespace gobo::evaluate

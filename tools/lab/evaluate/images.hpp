@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "lab/evaluate/evaluate.hpp"
@@ -24,5 +27,48 @@ struct DepthTexels {
 /// As OpenGL with one level, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_COMPARE_REF_TO_TEXTURE and GL_LEQUAL: the four
 /// comparisons around, weighted. A fetch answers the depth itself.
 [[nodiscard]] std::array<double, 4> answer(const DepthTexels& texels, const ImageRequest& request);
+
+/// Row after row from t = 0, repeated beyond both ends (GL_REPEAT).
+struct ColorTexels {
+    int width = 1;
+    int height = 1;
+    std::vector<std::array<float, 4>> colors;
+};
+
+/// The faces +x -x +y -y +z -z one after the other, each row after row from t = 0; filtered across the edges
+/// between them (GL_TEXTURE_CUBE_MAP_SEAMLESS).
+struct CubeTexels {
+    int side = 1;
+    std::vector<std::array<float, 4>> colors;
+};
+
+/// Sampled: the four texels around (OpenGL 4.5, 8.14.3); in the corner of a cube three, whose mean stands for
+/// the fourth (8.15). Fetched: the texel. The weights are exact where a driver's have some 8 to 24 bits.
+[[nodiscard]] std::array<double, 4> answer(const ColorTexels& texels, const ImageRequest& request);
+[[nodiscard]] std::array<double, 4> answer(const CubeTexels& texels, const ImageRequest& request);
+
+/// A colour that changes evenly: `color` plus each coordinate times `along` it. Coordinates of a cube map are
+/// those of the unit vector. Without slopes a texture of one colour, which is also a depth everywhere.
+struct EvenColor {
+    std::array<double, 4> color{};
+    std::array<std::array<double, 4>, 3> along{};
+};
+
+using TextureContent = std::variant<EvenColor, DepthTexels>;
+
+/// The image that answers from the content, as a sampler of that type.
+[[nodiscard]] Image image_of(TextureContent content, const spirv::Image& type);
+
+/// What an image holds for one invocation, found by asking it: texel by texel where it holds depths of a size
+/// of their own, along the axes where it is a cube map, else at one place, which is all of a texture of one
+/// colour.
+[[nodiscard]] TextureContent content_of(const Image& image, const ImagePort& port, std::size_t invocation);
+
+/// Numbers by the sampler's name, and those that one list does not hold by the name and a member:
+/// "map" for one colour; "map.color", "map.along_x", "map.along_y", "map.along_z" for one that changes;
+/// "map.size" (columns, rows, layers) and "map.depths" (layer by layer, row by row from the lowest).
+using SamplerNumbers = std::map<std::string, std::vector<double>>;
+
+void add_numbers(const std::string& sampler, const TextureContent& content, SamplerNumbers& numbers);
 
 }  // namespace gobo::evaluate

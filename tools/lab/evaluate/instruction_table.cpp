@@ -8,12 +8,11 @@ namespace {
 
 std::vector<Row> all_rows() {
     std::vector<Row> rows;
-    for (const std::span<const Row> part :
-         {arithmetic_rows(), integer_rows(), comparison_rows(), conversion_rows(), matrix_rows(),
-          memory_rows(), elementary_rows(), geometric_rows(), packing_rows(), quad_rows(), image_rows()})
+    for (const auto part :
+         {float_rows(), integer_rows(), comparison_rows(), vector_rows(), memory_rows(), image_rows()})
         rows.insert(rows.end(), part.begin(), part.end());
     // Rows of the same code stay in order.
-    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.code < b.code; });
+    std::ranges::stable_sort(rows, {}, &Row::code);
     return rows;
 }
 
@@ -26,9 +25,7 @@ std::span<const Row> instruction_table() {
 
 std::optional<std::uint32_t> find_row(std::uint32_t code) {
     const std::span<const Row> rows = instruction_table();
-    const auto found =
-        std::lower_bound(rows.begin(), rows.end(), code,
-                         [](const Row& row, std::uint32_t wanted) { return row.code < wanted; });
+    const auto found = std::ranges::lower_bound(rows, code, {}, &Row::code);
     if (found == rows.end() || found->code != code) return std::nullopt;
     return static_cast<std::uint32_t>(found - rows.begin());
 }

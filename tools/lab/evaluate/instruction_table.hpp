@@ -6,17 +6,16 @@
 #include <span>
 #include <string_view>
 
-#include "lab/evaluate/kinds.hpp"
 #include "lab/evaluate/program.hpp"
 
 namespace gobo::evaluate {
 
 template <class T>
-class Machine;
+class Registers;
 template <class T>
-using Execute = void (*)(const Operation&, Machine<T>&);
+using Execute = void (*)(const Operation&, Registers<T>&);
 
-/// How a row runs in either arithmetic.
+/// How a row runs in floats and in doubles.
 struct Execution {
     Execute<float> in_float = nullptr;
     Execute<double> in_double = nullptr;
@@ -30,32 +29,36 @@ struct Execution {
     }
 };
 
-/// How a row runs on machines that take the liberties GLSL allows; where a member is empty, as everywhere.
+/// How a row runs in arithmetics that take the liberties GLSL allows; where a member is empty, as everywhere.
 struct Liberties {
     Execution fused = {};        ///< products and their sum rounded once
     Execution backwards = {};    ///< sums from the last term to the first
     Execution nan_kept = {};     ///< the NaN among two operands is the result
     Execution nan_dropped = {};  ///< the other operand is
+    /// How far the result for the operands x and y may be off beyond its rounding; nullptr for not at all.
+    double (*largest_error)(double x, double y, double result) = nullptr;
 };
 
-/// One instruction. `signature` is what it gives and takes, as "f:ff": f real, i integer, b boolean; lower
+/// One instruction. `signature` is what it gives and takes, as "f:ff": f float, i integer, b boolean; lower
 /// case for values of n components (any n, the same throughout; n as a last digit demands it), upper case for
-/// scalars, * for anything of the result's type. Rows with an empty signature are placed by the decoder's own
-/// functions. A code may have several rows: the first whose signature fits is taken.
+/// scalars, * for anything of the result's type, m for a matrix of it, s for a structure of two values like
+/// the operand. Rows with an empty signature are placed by the decoder's own functions. A code may have
+/// several rows: the first whose signature fits is taken.
 struct Row {
-    std::uint32_t code;  ///< spv::Op, or kExtended + the number in GLSL.std.450, or one of Internal
-    std::string_view name;
+    std::uint32_t code;     ///< spv::Op, or kExtended + the number in GLSL.std.450, or one of Internal
+    std::string_view name;  ///< "FMul", "Pow"; a load or store has that name through an address too
     Kind kind;
     std::string_view signature;
     Execution execution;
     Liberties liberties = {};
+    bool is_bookkeeping = false;  ///< of the decoder: neither counted nor observed
 };
 
 inline constexpr std::uint32_t kExtended = 0x10000;
 
 /// Operations that the decoder makes beside those of SPIR-V.
 enum Internal : std::uint32_t {
-    kKeep = 0x20000,  ///< copies the active lanes; bookkeeping without a name: neither counted nor observed
+    kCopy = 0x20000,  ///< copies the active lanes
     kGather,          ///< a load through an address that each lane computes
     kScatter,         ///< a store through such an address
 };
@@ -64,18 +67,16 @@ enum Internal : std::uint32_t {
 [[nodiscard]] std::span<const Row> instruction_table();
 /// The first row with this code; nothing where there is none.
 [[nodiscard]] std::optional<std::uint32_t> find_row(std::uint32_t code);
+[[nodiscard]] inline const Row& row_of(const Operation& operation) {
+    return instruction_table()[operation.row];
+}
 
 // The parts of the table, one file each.
-[[nodiscard]] std::span<const Row> arithmetic_rows();
+[[nodiscard]] std::span<const Row> float_rows();
 [[nodiscard]] std::span<const Row> integer_rows();
 [[nodiscard]] std::span<const Row> comparison_rows();
-[[nodiscard]] std::span<const Row> conversion_rows();
-[[nodiscard]] std::span<const Row> matrix_rows();
+[[nodiscard]] std::span<const Row> vector_rows();
 [[nodiscard]] std::span<const Row> memory_rows();
-[[nodiscard]] std::span<const Row> elementary_rows();
-[[nodiscard]] std::span<const Row> geometric_rows();
-[[nodiscard]] std::span<const Row> packing_rows();
-[[nodiscard]] std::span<const Row> quad_rows();
 [[nodiscard]] std::span<const Row> image_rows();
 
 }  // namespace gobo::evaluate

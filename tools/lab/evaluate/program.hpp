@@ -1,28 +1,77 @@
 // A stage made ready to be evaluated: flat operations over numbered slots, in blocks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "lab/evaluate/kinds.hpp"
-#include "lab/evaluate/types.hpp"
+#include "spirv/module.hpp"
 
 namespace gobo::evaluate {
+
+using gobo::is_integer;
+using gobo::Scalar;
+
+/// What an executed operation counts as. Each component counts as one; a matrix product counts the
+/// multiplications and additions it consists of.
+enum class Kind : std::uint8_t {
+    add,           ///< additions, subtractions, negations of floats
+    mul,           ///< multiplications of floats
+    div,           ///< divisions and remainders of floats
+    fma,           ///< fused multiply-adds
+    sqrt,          ///< sqrt()
+    inverse_sqrt,  ///< inversesqrt()
+    pow,           ///< pow()
+    exp,           ///< exp(), exp2()
+    log,           ///< log(), log2()
+    trig,          ///< circular and hyperbolic functions and their inverses
+    dot,           ///< dot()
+    geometric,     ///< length(), distance(), normalize(), cross(), reflect(), refract(), faceforward()
+    round,         ///< floor(), ceil(), fract(), round(), trunc(), modf(), frexp(), ldexp()
+    min_max,       ///< min(), max(), clamp(), abs(), sign(), step()
+    mix,           ///< mix(), smoothstep()
+    matrix,        ///< transpose(), determinant(), inverse()
+    integer,       ///< integer arithmetic and bit operations
+    compare,       ///< comparisons
+    logic,         ///< operations on booleans
+    select,        ///< choosing a value by a condition
+    convert,       ///< conversions, reinterpretations, packing
+    move,          ///< taking composites apart and putting them together, addressing
+    load,          ///< reads of variables
+    store,         ///< writes of variables
+    branch,        ///< conditional branches and switches
+    call,          ///< function calls
+    derivative,    ///< dFdx(), dFdy(), fwidth(), interpolateAt...()
+    image,         ///< texture functions, one each
+};
+
+/// The kinds as reports print them, in the order of Kind.
+inline constexpr auto kKindNames = std::to_array<std::string_view>(
+    {"add",  "mul",    "div",     "fma",     "sqrt",      "inverse_sqrt", "pow",
+     "exp",  "log",    "trig",    "dot",     "geometric", "round",        "min_max",
+     "mix",  "matrix", "integer", "compare", "logic",     "select",       "convert",
+     "move", "load",   "store",   "branch",  "call",      "derivative",   "image"});
+inline constexpr std::size_t kKinds = kKindNames.size();
+
+/// How many operations of each kind.
+using Counts = std::array<std::uint64_t, kKinds>;
 
 /// Consecutive slots that hold one value.
 struct Slice {
     std::uint32_t slot = 0;
     std::uint32_t count = 0;
-    Scalar scalar = Scalar::real;  ///< of the first slot; a struct's others may differ
-    std::uint32_t name = 0;        ///< index into Program::names; 0 where it has none
+    Scalar scalar = Scalar::float32;  ///< of the first slot; a struct's others may differ
+    std::uint32_t name = 0;           ///< index into Program::names; 0 where it has none
 };
 
-/// One operation, as the machine runs it.
+/// One operation, as it runs.
 struct Operation {
     std::uint32_t row = 0;                    ///< index into the instruction table
     std::uint32_t count = 0;                  ///< components it works on
@@ -67,7 +116,7 @@ struct Block {
 /// A slot filled once, before anything runs.
 struct ConstantSlot {
     std::uint32_t slot = 0;
-    Scalar scalar = Scalar::real;
+    Scalar scalar = Scalar::float32;
     std::uint32_t bits = 0;  ///< of the 32-bit value
 };
 
@@ -78,7 +127,7 @@ struct Port {
     int location = -1;
     std::uint32_t slot = 0;
     std::uint32_t components = 1;  ///< column by column
-    Scalar scalar = Scalar::real;
+    Scalar scalar = Scalar::float32;
     // Uniform blocks: where it lies in the block's bytes.
     int block = -1;                      ///< index into Program::uniform_blocks
     std::vector<std::uint32_t> offsets;  ///< of each component
@@ -93,7 +142,7 @@ struct UniformBlock {
 /// A sampler or image of the interface; each element of an array is one.
 struct ImagePort {
     std::string name;  ///< "tex", "maps[2]"
-    ImageType type;
+    spirv::Image type;
     std::uint32_t slot = 0;  ///< holds the index of this ImagePort
 };
 
@@ -123,6 +172,20 @@ struct Program {
         return places[infos[operation].place];
     }
 };
+
+/// The one of that name among a program's ports, which are sorted; nullptr where there is none.
+[[nodiscard]] inline const Port* find_port(const std::vector<Port>& ports, std::string_view name) {
+    const auto found = std::ranges::lower_bound(ports, name, {}, &Port::name);
+    return found != ports.end() && found->name == name ? &*found : nullptr;
+}
+
+/// The names of all that the lists hold, for suggestions.
+template <class... List>
+[[nodiscard]] std::vector<std::string> names_of(const List&... lists) {
+    std::vector<std::string> names;
+    (std::ranges::transform(lists, std::back_inserter(names), &List::value_type::name), ...);
+    return names;
+}
 
 /// Reads a vertex or fragment stage from the SPIR-V that glslang makes with OpenGL semantics, with or without
 /// debug information. Anything that evaluation does not know is an error that names the instruction and the

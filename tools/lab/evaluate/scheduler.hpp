@@ -1,55 +1,286 @@
-// Runs the blocks of a program for the lanes of one batch. Internal to evaluation.
+// Runs the blocks of a program for the lanes of one batch. Internal to
+// evaluation.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "lab/evaluate/instruction_table.hpp"
-#include "lab/evaluate/machine.hpp"
+#include <fmt/format.h>
+
+#include "lab/evaluate/functions.hpp"
 #include "lab/evaluate/regrouping.hpp"
 
 namespace gobo::evaluate {
+
+/// How the row runs in the arithmetic of these options.
+inline const Execution& execution_of(const Row& row, const Options& options) {
+    const Liberties& liberties = row.liberties;
+    const Execution* chosen = &row.execution;
+    const auto prefer = [&](bool is_wanted, const Execution& other) {
+        if (is_wanted && other.in_float != nullptr) chosen = &other;
+    };
+    prefer(options.nans == NaNs::kept, liberties.nan_kept);
+    prefer(options.nans == NaNs::dropped, liberties.nan_dropped);
+    prefer(options.sums == Sums::fused, liberties.fused);
+    prefer(options.sums == Sums::regrouped || options.sums == Sums::reordered, liberties.backwards);
+    return *chosen;
+}
+
+/// Moves the operation's result by the largest error allowed, up or down.
+template <class T>
+void add_largest_error(const Row& row, const Operation& operation, Registers<T>& registers, bool is_upward) {
+    T* result = registers.floats(operation.result);
+    const T* x = registers.floats(operation.operands[0]);
+    const T* y = registers.floats(operation.operands[1]);  // of functions of one operand nobody's slot 0
+    for (std::size_t i = 0; i < operation.count * kLanes; ++i) {
+        if (!registers.is_active(i % kLanes) || !std::isfinite(result[i])) continue;
+        const double error = row.liberties.largest_error(static_cast<double>(x[i]), static_cast<double>(y[i]),
+                                                         static_cast<double>(result[i]));
+        const double moved = static_cast<double>(result[i]) + (is_upward ? error : -error);
+        // An exponential or a root is never negative, and an error makes no infinity.
+        if ((moved >= 0 || row.kind == Kind::log) &&
+            moved <= static_cast<double>(std::numeric_limits<float>::max()))
+            result[i] = static_cast<T>(moved);
+    }
+}
 
 /// Lanes go through blocks together as long as they agree. Where they part, those at the earliest block run
 /// first; the order of blocks (see structured_order()) makes them meet again where their ways join.
 template <class T>
 class Scheduler {
   public:
-    Scheduler(const Program& program, Machine<T>& machine, const Options& options, Observer<T>* observer);
+    Scheduler(const Program& program, Registers<T>& registers, const Options& options, Observer<T>* observer)
+        : program_(program), registers_(registers), options_(options), observer_(observer) {
+        for (const Row& row : instruction_table()) rows_.push_back(execution_of(row, options).in<T>());
+        if (options.sums != Sums::as_written) regrouping_.emplace(program, registers, options.sums);
+        loop_visits_.resize(program.blocks.size());
+        if (options.count) lane_visits_.resize(program.blocks.size());
+    }
 
-    /// Runs all lanes from the first block to the end. An endless loop is an error at its place.
-    [[nodiscard]] std::optional<Diagnostic> run();
+    /// Runs all lanes from the first block to the end. An endless loop is an
+    /// error at its place.
+    [[nodiscard]] std::optional<Diagnostic> run() {
+        std::fill(loop_visits_.begin(), loop_visits_.end(), 0);
+        for (auto& visits : lane_visits_) visits.fill(0);
+        if (regrouping_) regrouping_->begin();
+        discarded_ = 0;
+        waiting_ = 0;
+        earliest_ = Program::kEnd;
+        current_ = 0;
+        registers_.set_active(kAllLanes);
+        while (current_ != Program::kEnd) {
+            const Block& block = program_.blocks[current_];
+            if (block.is_loop && ++loop_visits_[current_] > options_.iteration_limit)
+                return error_at(
+                    program_.places[block.place],
+                    fmt::format("the loop is not left after {} iterations", options_.iteration_limit));
+            if (!lane_visits_.empty()) count_visit(current_);
+            if (observer_ != nullptr || options_.rounded_in != nullptr)
+                run_observed(block);
+            else if (regrouping_)
+                for (std::uint32_t at = block.first; at < block.first + block.count; ++at) execute_at(at);
+            else
+                for (const Operation& operation :
+                     std::span(program_.quick).subspan(block.quick_first, block.quick_count))
+                    execute(operation);
+            leave(block);
+        }
+        return std::nullopt;
+    }
+
     [[nodiscard]] LaneMask discarded() const { return discarded_; }
     /// Adds what the lane executed in the last run.
-    void add_counts(std::size_t lane, Counts& counts) const;
+    void add_counts(std::size_t lane, Counts& counts) const {
+        for (std::size_t block = 0; block < lane_visits_.size(); ++block)
+            for (const auto& [kind, number] : program_.blocks[block].costs)
+                counts[static_cast<std::size_t>(kind)] += std::uint64_t{lane_visits_[block][lane]} * number;
+    }
 
   private:
-    void run_quickly(const Block& block);
-    void run_regrouped(const Block& block);
-    void execute(const Operation& operation);
-    void execute_at(std::uint32_t at);
-    void run_observed(const Block& block);
-    void round_result(std::uint32_t operation);
-    void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes);
-    void count_visit(std::uint32_t block);
-    void run_copies(const Edge& edge);
-    void leave(const Block& block);
-    void leave_branch(const Block& block);
-    void leave_switch(const Block& block);
-    void go(std::uint32_t target);
-    void send(LaneMask lanes, const Edge& edge);
-    void pick_next();
-    [[nodiscard]] LaneMask lanes_where_true(std::uint32_t slot);
+    void execute_at(std::uint32_t at) {
+        if (regrouping_ && regrouping_->takes_over(at)) return;
+        execute(program_.operations[at]);
+        if (regrouping_) regrouping_->after(at);
+    }
+
+    void execute(const Operation& operation) {
+        rows_[operation.row](operation, registers_);
+        if (options_.errors == Errors::none) return;
+        if (const Row& row = row_of(operation); row.liberties.largest_error != nullptr)
+            add_largest_error(row, operation, registers_, options_.errors == Errors::largest_up);
+    }
+
+    void run_observed(const Block& block) {
+        const LaneMask lanes = registers_.active() & registers_.callers_lanes;
+        for (std::uint32_t at = block.first; at < block.first + block.count; ++at) {
+            const Operation& operation = program_.operations[at];
+            const Step<T> step{program_, at, lanes, registers_.first_invocation, registers_.floats(0)};
+            const bool is_shown = observer_ != nullptr && lanes != 0 && !step.row().is_bookkeeping;
+            if (is_shown) {
+                observer_->before(step);
+                observe_indices(step, operation, lanes);
+            }
+            execute_at(at);
+            if (options_.rounded_in != nullptr) round_result(at);
+            if (is_shown) observer_->after(step);
+        }
+    }
+
+    /// Where the operation's result is to be a float's, makes it one.
+    void round_result(std::uint32_t operation) {
+        const std::int64_t lane =
+            (*options_.rounded_in)[operation] - static_cast<std::int64_t>(registers_.first_invocation);
+        const Slice& result = program_.infos[operation].result;
+        if (lane < 0 || lane >= static_cast<std::int64_t>(kLanes) || result.scalar != Scalar::float32) return;
+        if (!registers_.is_active(static_cast<std::size_t>(lane))) return;
+        for (std::uint32_t component = 0; component < result.count; ++component) {
+            T& cell = registers_.floats(result.slot + component)[lane];
+            cell = static_cast<T>(static_cast<float>(cell));
+        }
+    }
+
+    /// Tells the observer of each dynamic index outside its extent.
+    void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes) {
+        const auto check = [&](std::uint32_t slot, std::uint32_t extent) {
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                const std::int64_t index = to_signed(registers_.ints(slot)[lane]);
+                if (has_lane(lanes, lane) && (index < 0 || index >= extent))
+                    observer_->clamped(step, lane, index, extent);
+            }
+        };
+        const std::uint32_t* words = registers_.words(operation);
+        const std::uint32_t code = row_of(operation).code;
+        for (std::uint32_t at = 1; at < operation.extras && code == spv::OpAccessChain; at += 3)
+            check(words[at], words[at + 1]);
+        if (code == spv::OpVectorExtractDynamic) check(operation.operands[1], words[0]);
+        if (code == spv::OpVectorInsertDynamic) check(operation.operands[2], words[0]);
+    }
+
+    void count_visit(std::uint32_t block) {
+        const Int<T>* mask = registers_.mask_row();
+        auto& visits = lane_visits_[block];
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            visits[lane] += static_cast<std::uint32_t>(mask[lane] & 1);
+    }
+
+    void run_copies(const Edge& edge) {
+        for (std::uint32_t at = edge.first_copy; at < edge.first_copy + edge.copies; ++at) {
+            rows_[program_.copies[at].row](program_.copies[at], registers_);
+            if (regrouping_) regrouping_->copy(program_.copies[at]);
+        }
+    }
+
+    void leave(const Block& block) {
+        switch (block.end) {
+            case Block::End::jump:
+                return take(program_.edges[block.edge]);
+            case Block::End::branch:
+                return leave_branch(block);
+            case Block::End::select:
+                return leave_switch(block);
+            case Block::End::kill:
+                discarded_ |= registers_.active();
+                [[fallthrough]];
+            case Block::End::finish:
+                return go(Program::kEnd);
+        }
+    }
+
+    /// The active lanes go on together.
+    void take(const Edge& edge) {
+        run_copies(edge);
+        go(edge.target);
+    }
+
+    void go(std::uint32_t target) {
+        if (target < earliest_ || waiting_ == 0) {
+            current_ = target;
+            return;
+        }
+        send(registers_.active(), Edge{target, 0, 0});
+        pick_next();
+    }
+
+    /// These lanes take the edge, and wait at its end.
+    void send(LaneMask lanes, const Edge& edge) {
+        if (lanes == 0) return;
+        registers_.set_active(lanes);
+        run_copies(edge);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (has_lane(lanes, lane)) waiting_at_[lane] = edge.target;
+        if (edge.target != Program::kEnd) waiting_ |= lanes;
+    }
+
+    [[nodiscard]] std::uint32_t earliest_waiting() const {
+        std::uint32_t earliest = Program::kEnd;
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (has_lane(waiting_, lane)) earliest = std::min(earliest, waiting_at_[lane]);
+        return earliest;
+    }
+
+    /// All lanes wait: those at the earliest block run.
+    void pick_next() {
+        current_ = earliest_waiting();
+        const LaneMask chosen =
+            waiting_ & lanes_where([&](std::size_t lane) { return waiting_at_[lane] == current_; });
+        waiting_ &= ~chosen;
+        earliest_ = earliest_waiting();
+        registers_.set_active(chosen);
+    }
+
+    /// Of the active lanes.
+    LaneMask lanes_where_true(std::uint32_t slot) {
+        const Int<T>* condition = registers_.ints(slot);
+        const Int<T>* mask = registers_.mask_row();
+        // Mostly all lanes agree, which one pass over the row tells.
+        Int<T> number = 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) number += condition[lane] & mask[lane];
+        if (number == 0) return 0;
+        if (number == std::popcount(registers_.active())) return registers_.active();
+        return lanes_where([&](std::size_t lane) { return (condition[lane] & mask[lane] & 1) != 0; });
+    }
+
+    void leave_branch(const Block& block) {
+        const LaneMask active = registers_.active();
+        const LaneMask taken = lanes_where_true(block.condition);
+        const Edge& if_true = program_.edges[block.edge];
+        const Edge& if_false = program_.edges[block.edge + 1];
+        if (taken == active || taken == 0) return take(taken == 0 ? if_false : if_true);
+        send(taken, if_true);
+        send(active & ~taken, if_false);
+        pick_next();
+    }
+
+    void leave_switch(const Block& block) {
+        LaneMask left = registers_.active();
+        const LaneMask active = left;
+        const Int<T>* selector = registers_.ints(block.condition);
+        for (std::uint32_t label = 0; label + 1 < block.edges && left != 0; ++label) {
+            const std::uint32_t number = program_.words[block.labels + label];
+            const LaneMask chosen =
+                left & lanes_where([&](std::size_t lane) { return to_unsigned(selector[lane]) == number; });
+            const Edge& edge = program_.edges[block.edge + label + 1];
+            if (chosen == active) return take(edge);
+            left &= ~chosen;
+            send(chosen, edge);
+        }
+        send(left, program_.edges[block.edge]);
+        pick_next();
+    }
 
     const Program& program_;
-    Machine<T>& machine_;
+    Registers<T>& registers_;
     const Options& options_;
     Observer<T>* observer_;
     std::vector<Execute<T>> rows_;
-    std::optional<Regrouping<T>> regrouping_;  ///< of machines that do not compute sums as written
-    std::vector<std::uint64_t> loop_visits_;   ///< of each block that is a loop's head
+    std::optional<Regrouping<T>> regrouping_;                     ///< where sums are not computed as written
+    std::vector<std::uint64_t> loop_visits_;                      ///< of each block that is a loop's head
     std::vector<std::array<std::uint32_t, kLanes>> lane_visits_;  ///< of each block, where counts are wanted
     std::array<std::uint32_t, kLanes> waiting_at_{};              ///< block of each lane that does not run
     LaneMask waiting_ = 0;
@@ -57,8 +288,5 @@ class Scheduler {
     std::uint32_t current_ = 0;
     LaneMask discarded_ = 0;
 };
-
-extern template class Scheduler<float>;
-extern template class Scheduler<double>;
 
 }  // namespace gobo::evaluate

@@ -34,7 +34,7 @@ Definedness::Definedness(const evaluate::Program& program)
         std::uint32_t copies = 0;
         for (std::uint32_t at = block.first + block.count; at-- > block.first;) {
             followers_[at] = copies;
-            copies = code_of(program.operations[at]) == evaluate::kKeep ? copies + 1 : 0;
+            copies = code_of(program.operations[at]) == evaluate::kCopy ? copies + 1 : 0;
         }
     }
 }

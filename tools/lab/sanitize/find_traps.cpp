@@ -19,7 +19,7 @@ std::optional<std::uint32_t> last_store(const evaluate::Program& program, const 
         const evaluate::Row& row = evaluate::instruction_table()[program.operations[at].row];
         const evaluate::Slice& to = program.infos[at].result;
         const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
-        if (row.name == "Store" && is_within) found = at;
+        if (row.kind == evaluate::Kind::store && is_within) found = at;
     }
     return found;
 }

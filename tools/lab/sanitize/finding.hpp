@@ -7,7 +7,7 @@
 
 #include "core/diagnostic.hpp"
 #include "compose/composition.hpp"
-#include "lab/evaluate/eval_point.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "lab/sanitize/machine.hpp"
 
 namespace gobo::sanitize {

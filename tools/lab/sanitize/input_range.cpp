@@ -36,7 +36,7 @@ Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) 
         std::find_if(domains.begin(), domains.end(), [&](const Domain& d) { return d.name == name; });
     if (declared != domains.end()) return *declared;
     if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
-    if (port.scalar == evaluate::Scalar::unsigned_integer) return plain_domain(name, 0, 100);
+    if (port.scalar == evaluate::Scalar::uint32) return plain_domain(name, 0, 100);
     if (name == "gl_FragCoord" || name == "gl_PointCoord" || name == "gl_SamplePosition")
         return plain_domain(name, 0, 1);
     if (name.starts_with("gl_")) return plain_domain(name, 0, 100);

@@ -15,14 +15,14 @@ namespace gobo::sanitize {
 struct InputField {
     std::string name;  ///< reflected
     std::string type;  ///< GLSL name; "vec4" of a texture
-    evaluate::Scalar scalar = evaluate::Scalar::real;
+    evaluate::Scalar scalar = evaluate::Scalar::float32;
     bool is_texture = false;
     Domain domain;
     std::vector<double> hard;  ///< hard numbers of the domain
     std::size_t first = 0;     ///< of its numbers in a point
     std::size_t components = 1;
 
-    [[nodiscard]] bool is_real() const { return scalar == evaluate::Scalar::real; }
+    [[nodiscard]] bool is_real() const { return scalar == evaluate::Scalar::float32; }
     [[nodiscard]] bool is_vector() const;
     /// Components that the domain's range is of: all but a last one that is a quantity of its own.
     [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }

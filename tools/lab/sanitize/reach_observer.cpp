@@ -34,7 +34,7 @@ ReachObserver::ReachObserver(const evaluate::Program& program) {
         watch.first_rule = static_cast<std::uint32_t>(first - rules.begin());
         watch.rules = static_cast<std::uint32_t>(last - first);
         watch.may_overflow =
-            can_overflow(row.kind) && program.infos[at].result.scalar == evaluate::Scalar::real;
+            can_overflow(row.kind) && program.infos[at].result.scalar == evaluate::Scalar::float32;
         watch.first_goal = goals;
         goals += watch.rules + (watch.may_overflow ? 1 : 0);
         watches_.push_back(watch);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "lab/evaluate/module.hpp"
+#include "lab/evaluate/functions.hpp"
 #include "family/key.hpp"
 #include "lab/sanitize/hard_inputs.hpp"
 #include "lab/sanitize/input_range.hpp"

@@ -92,7 +92,7 @@ TrapObserver::Watch TrapObserver::watch_of(const evaluate::Program& program, std
     watch.rules = static_cast<std::uint32_t>(last - first);
     watch.has_silent = std::any_of(first, last, [](const TrapRule& rule) { return rule.is_silent; });
     watch.makes_reals =
-        computes(row.kind) && program.infos[operation].result.scalar == evaluate::Scalar::real;
+        computes(row.kind) && program.infos[operation].result.scalar == evaluate::Scalar::float32;
     return watch;
 }
 
@@ -137,7 +137,7 @@ void TrapObserver::judge_result(const Step& step, const Watch& watch, Lanes lane
     const Slice& result = step.info().result;
     lanes &= not_finite(step, result);
     for (const Slice& operand : step.info().operands)
-        if (lanes != 0 && operand.scalar == evaluate::Scalar::real) lanes &= ~not_finite(step, operand);
+        if (lanes != 0 && operand.scalar == evaluate::Scalar::float32) lanes &= ~not_finite(step, operand);
     if (lanes == 0) return;
     for (const TrapRule& rule : trap_rules().subspan(watch.first_rule, watch.rules)) {
         if (rule.is_silent) continue;

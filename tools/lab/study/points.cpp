@@ -35,8 +35,8 @@ double number_at(const std::vector<std::byte>& bytes, std::uint32_t offset, eval
     if (offset + 4 > bytes.size()) return 0;
     std::uint32_t bits = 0;
     std::memcpy(&bits, bytes.data() + offset, sizeof bits);
-    if (scalar == evaluate::Scalar::real) return std::bit_cast<float>(bits);
-    if (scalar == evaluate::Scalar::unsigned_integer) return bits;
+    if (scalar == evaluate::Scalar::float32) return std::bit_cast<float>(bits);
+    if (scalar == evaluate::Scalar::uint32) return bits;
     return static_cast<std::int32_t>(bits);
 }
 

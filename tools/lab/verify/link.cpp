@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "lab/evaluate/module.hpp"
+#include "spirv/module.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -27,10 +27,9 @@ bool is_derivative(spv::Op opcode) {
 }
 
 Result<ModuleFacts> facts_of(const SpirvModule& words) {
-    const Result<evaluate::Module> module = evaluate::read_module(words);
-    if (!module) return tl::unexpected(module.error());
+    GOBO_TRY(const spirv::Module module, spirv::read_module(words));
     ModuleFacts facts;
-    for (const evaluate::Instruction& instruction : module->instructions) {
+    for (const spirv::Instruction& instruction : module.instructions) {
         if (is_derivative(instruction.opcode)) facts.has_derivatives = true;
         if (instruction.opcode == spv::OpKill || instruction.opcode == spv::OpTerminateInvocation)
             facts.has_discard = true;
@@ -39,9 +38,9 @@ Result<ModuleFacts> facts_of(const SpirvModule& words) {
             facts.tests_early = true;
         if (instruction.opcode != spv::OpDecorate) continue;
         if (instruction.word(2) == spv::DecorationFlat)
-            facts.interpolations[module->name_of(instruction.word(1))] = Interpolation::flat;
+            facts.interpolations[module.name(instruction.id(1))] = Interpolation::flat;
         if (instruction.word(2) == spv::DecorationNoPerspective)
-            facts.interpolations[module->name_of(instruction.word(1))] = Interpolation::linear;
+            facts.interpolations[module.name(instruction.id(1))] = Interpolation::linear;
     }
     return facts;
 }

@@ -28,7 +28,7 @@ class Drawer {
                                    ? component(domain->low, domain->high)
                                    : scale * component(-1, 1);
                 if (port.name == "gl_FragCoord") value = c < 2 ? random_.whole(0, 63) + 0.5 : random_.unit();
-                if (port.scalar != evaluate::Scalar::real) value = std::floor(value);
+                if (port.scalar != evaluate::Scalar::float32) value = std::floor(value);
                 if (port.scalar == evaluate::Scalar::boolean) value = random_.whole(0, 1);
                 values[c * count + i] = static_cast<float>(value);
             }
@@ -90,7 +90,7 @@ evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const eval
     Random random(seed);
     evaluate::Invocations result = base;
     for (const evaluate::Port& port : ports) {
-        if (port.scalar != evaluate::Scalar::real) continue;
+        if (port.scalar != evaluate::Scalar::float32) continue;
         const auto values = result.values.find(port.name);
         if (values == result.values.end()) continue;
         for (double& value : values->second) value *= random.one_in(2) ? 1 + step : 1 - step;

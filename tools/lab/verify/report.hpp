@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "lab/evaluate/eval_point.hpp"
+#include "lab/evaluate/eval_file.hpp"
 
 namespace gobo::verify {
 

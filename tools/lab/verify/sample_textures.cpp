@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "lab/evaluate/texture_content.hpp"
+#include "lab/evaluate/images.hpp"
 
 namespace gobo::verify {
 namespace {

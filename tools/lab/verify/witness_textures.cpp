@@ -1,6 +1,5 @@
 #include "lab/verify/witness_textures.hpp"
 
-#include "lab/evaluate/color_texels.hpp"
 #include "lab/evaluate/images.hpp"
 #include "lab/render/texture.hpp"
 

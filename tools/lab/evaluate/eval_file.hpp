@@ -1,4 +1,4 @@
-// The input file of `gobo eval`: which stage, and what it is given.
+// One invocation as a file: what `gobo eval` reads, and what others write so that it repeats their point.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "lab/evaluate/evaluate.hpp"
+#include "lab/evaluate/images.hpp"
 
 namespace gobo::evaluate {
 
@@ -47,5 +47,25 @@ struct EvalInputs {
 
 /// A note for each input variable that the file does not name: it is 0.
 [[nodiscard]] Diagnostics inputs_left_out(const EvalInputs& inputs, const Program& program);
+
+/// What one invocation is given, by reflected name, component by component.
+struct EvalPoint {
+    std::map<std::string, std::vector<double>> inputs;
+    std::map<std::string, std::vector<double>> uniforms;
+    SamplerNumbers samplers;
+};
+
+/// Invocation `index` of a stage's inputs. What the invocations do not name is left out.
+[[nodiscard]] EvalPoint point_of(const Program& program, const Invocations& invocations, std::size_t index);
+
+/// How numbers are written.
+enum class Digits {
+    all,       ///< so that they read back as the same doubles
+    of_float,  ///< so that they read back as the same floats, where they are floats
+};
+
+/// The point as an input file: the lines of `comment`, `stage`, `[inputs]`, `[uniforms]` and `[samplers]`.
+[[nodiscard]] std::string eval_file(std::string_view stage, const EvalPoint& point, std::string_view comment,
+                                    Digits digits);
 
 }  // namespace gobo::evaluate

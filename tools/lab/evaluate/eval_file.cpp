@@ -1,14 +1,14 @@
-#include "lab/evaluate/eval_inputs.hpp"
+#include "lab/evaluate/eval_file.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "core/text.hpp"
-#include "lab/evaluate/module.hpp"
-#include "lab/evaluate/texture_content.hpp"
+#include "lab/evaluate/functions.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -26,15 +26,13 @@ class FileReader {
             report(error.source(), std::string(error.description()));
             return tl::unexpected(diagnostics_);
         }
+        const std::map<std::string_view, std::map<std::string, EvalValue>*> sections = {
+            {"inputs", &inputs_.inputs}, {"uniforms", &inputs_.uniforms}, {"samplers", &inputs_.samplers}};
         for (const auto& [key, node] : file) {
-            if (key == "stage")
+            if (const auto section = sections.find(key.str()); section != sections.end())
+                read_section(node, "", *section->second);
+            else if (key == "stage")
                 read_stage(node);
-            else if (key == "inputs")
-                read_section(node, inputs_.inputs);
-            else if (key == "uniforms")
-                read_section(node, inputs_.uniforms);
-            else if (key == "samplers")
-                read_section(node, inputs_.samplers);
             else
                 report(key.source(), fmt::format("'{}' means nothing here", key.str()),
                        suggestion(key.str(), {"stage", "inputs", "uniforms", "samplers"}));
@@ -45,12 +43,8 @@ class FileReader {
 
   private:
     void report(const toml::source_region& source, std::string message, std::string help = {}) {
-        Diagnostic diagnostic;
-        diagnostic.place = place_of(source);
-        diagnostic.message = std::move(message);
-        diagnostic.quoted_line = line_of(text_, diagnostic.place.line);
-        diagnostic.help = std::move(help);
-        diagnostics_.push_back(std::move(diagnostic));
+        diagnostics_.push_back(error_at(place_of(source), std::move(message), std::move(help)));
+        diagnostics_.back().quoted_line = line_of(text_, diagnostics_.back().place.line);
     }
 
     [[nodiscard]] Place place_of(const toml::source_region& source) const {
@@ -63,23 +57,23 @@ class FileReader {
             report(node.source(), "'stage' is neither \"vertex\" nor \"fragment\"");
     }
 
-    void read_section(const toml::node& node, std::map<std::string, EvalValue>& values) {
-        if (const toml::table* table = node.as_table()) return read_table(*table, "", values);
-        report(node.source(), "this is a table of names and values", "write it as a section: [inputs]");
-    }
-
-    void read_table(const toml::table& table, const std::string& prefix,
-                    std::map<std::string, EvalValue>& values) {
-        for (const auto& [key, node] : table) {
+    void read_section(const toml::node& section, const std::string& prefix,
+                      std::map<std::string, EvalValue>& values) {
+        const toml::table* const table = section.as_table();
+        if (table == nullptr)
+            return report(section.source(), "this is a table of names and values",
+                          "write it as a section: [inputs]");
+        for (const auto& [key, node] : *table) {
             const std::string name = prefix + std::string(key.str());
-            if (const toml::table* inner = node.as_table()) {
-                read_table(*inner, name + ".", values);
+            if (node.is_table()) {
+                read_section(node, name + ".", values);
                 continue;
             }
             EvalValue value{{}, place_of(key.source()), {}};
             value.quoted_line = line_of(text_, value.place.line);
             if (!read_numbers(node, value.numbers))
-                report(node.source(), fmt::format("'{}' is no number, boolean or array of these", name));
+                report(node.source(),
+                       fmt::format("'{}' is not a number, a boolean or an array of these", name));
             values[name] = std::move(value);
         }
     }
@@ -114,13 +108,10 @@ Diagnostic fault(const EvalValue& value, std::string message, std::string help =
 void match(const std::map<std::string, EvalValue>& values, const std::vector<Port>& ports, const char* what,
            Invocations& invocations, Diagnostics& diagnostics) {
     for (const auto& [name, value] : values) {
-        const auto port =
-            std::find_if(ports.begin(), ports.end(), [&](const Port& one) { return one.name == name; });
-        if (port == ports.end()) {
-            std::vector<std::string> names;
-            for (const Port& one : ports) names.push_back(one.name);
+        const Port* const port = find_port(ports, name);
+        if (port == nullptr) {
             diagnostics.push_back(fault(value, fmt::format("the stage has no {} '{}'", what, name),
-                                        names.empty() ? std::string() : suggestion(name, names)));
+                                        ports.empty() ? std::string() : suggestion(name, names_of(ports))));
         } else if (value.numbers.size() != port->components) {
             diagnostics.push_back(
                 fault(value, fmt::format("'{}' is a {}: it takes {} numbers, not {}", name, port->type,
@@ -151,46 +142,45 @@ class SamplerMatcher {
 
   private:
     void read(const std::string& name, const EvalValue& value) {
-        const auto port = std::find_if(program_.images.begin(), program_.images.end(), [&](const auto& one) {
+        const auto port = std::ranges::find_if(program_.images, [&](const ImagePort& one) {
             return name == one.name || name.starts_with(one.name + ".");
         });
-        if (port == program_.images.end()) {
-            diagnostics_.push_back(fault(value, fmt::format("the stage has no sampler '{}'", name)));
-            return;
-        }
+        if (port == program_.images.end())
+            return report(value, fmt::format("the stage has no sampler '{}'", name));
         const std::string member = name.substr(std::min(port->name.size() + 1, name.size()));
+        const auto axis = std::ranges::find(kAlong, member);
         if (member.empty() || member == "color")
             read_texel(name, value, colors_[port->name].color);
         else if (member == "size")
             read_size(name, value, texels_[port->name]);
         else if (member == "depths")
             texels_[port->name].depths = value.numbers;
-        else if (const auto axis = std::find(kAlong.begin(), kAlong.end(), member); axis != kAlong.end())
+        else if (axis != kAlong.end())
             read_texel(name, value,
                        colors_[port->name].along[static_cast<std::size_t>(axis - kAlong.begin())]);
         else
-            diagnostics_.push_back(
-                fault(value, fmt::format("a sampler has no '{}'", member),
-                      suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths"})));
+            report(value, fmt::format("a sampler has no '{}'", member),
+                   suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths"}));
+    }
+
+    void report(const EvalValue& value, std::string message, std::string help = {}) {
+        diagnostics_.push_back(fault(value, std::move(message), std::move(help)));
     }
 
     void read_texel(const std::string& name, const EvalValue& value, std::array<double, 4>& texel) {
         if (value.numbers.empty() || value.numbers.size() > 4)
-            diagnostics_.push_back(fault(value, fmt::format("'{}' takes one to four numbers", name)));
+            report(value, fmt::format("'{}' takes one to four numbers", name));
         std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
     }
 
     void read_size(const std::string& name, const EvalValue& value, DepthTexels& texels) {
         const std::vector<double>& numbers = value.numbers;
-        const bool are_whole = std::all_of(numbers.begin(), numbers.end(), [](double number) {
+        const bool are_extents = std::ranges::all_of(numbers, [](double number) {
             return number >= 1 && number <= kMostTexels && number == std::floor(number);
         });
-        if (!are_whole || numbers.size() < 2 || numbers.size() > 3) {
-            diagnostics_.push_back(
-                fault(value,
-                      fmt::format("'{}' takes the numbers of columns, rows and, of an array, layers", name)));
-            return;
-        }
+        if (!are_extents || numbers.size() < 2 || numbers.size() > 3)
+            return report(
+                value, fmt::format("'{}' takes the numbers of columns, rows and, of an array, layers", name));
         texels.width = static_cast<int>(numbers[0]);
         texels.height = static_cast<int>(numbers[1]);
         texels.layers = numbers.size() > 2 ? static_cast<int>(numbers[2]) : 1;
@@ -200,10 +190,10 @@ class SamplerMatcher {
     void check(const std::string& name, const DepthTexels& texels) {
         const double count = static_cast<double>(texels.width) * texels.height * texels.layers;
         if (static_cast<double>(texels.depths.size()) == count) return;
-        const auto depths = inputs_.samplers.find(name + ".depths");
-        const auto& at = depths != inputs_.samplers.end() ? depths : inputs_.samplers.find(name + ".size");
-        diagnostics_.push_back(fault(at->second, fmt::format("'{}' has {} depths where its size asks for {}",
-                                                             name, texels.depths.size(), count)));
+        const bool has_depths = inputs_.samplers.contains(name + ".depths");
+        report(
+            inputs_.samplers.at(name + (has_depths ? ".depths" : ".size")),
+            fmt::format("'{}' has {} depths where its size asks for {}", name, texels.depths.size(), count));
     }
 
     static constexpr std::array<std::string_view, 3> kAlong = {"along_x", "along_y", "along_z"};
@@ -215,6 +205,41 @@ class SamplerMatcher {
     std::map<std::string, EvenColor> colors_;
     std::map<std::string, DepthTexels> texels_;
 };
+
+using Numbers = std::map<std::string, std::vector<double>>;
+
+Numbers values_of(const std::vector<Port>& ports, const Invocations& invocations, std::size_t index) {
+    Numbers result;
+    for (const Port& port : ports) {
+        const auto found = invocations.values.find(port.name);
+        if (found == invocations.values.end()) continue;
+        const bool is_common = found->second.size() == port.components;
+        for (std::size_t component = 0; component < port.components; ++component)
+            result[port.name].push_back(
+                found->second[is_common ? component : component * invocations.count + index]);
+    }
+    return result;
+}
+
+/// The shortest decimal that reads back the same, as TOML writes it; infinities and NaN by name.
+std::string number_text(double number, Digits digits) {
+    const auto as_float = static_cast<float>(number);
+    const bool is_float = digits == Digits::of_float && static_cast<double>(as_float) == number;
+    return is_float ? fmt::format("{}", as_float) : fmt::format("{}", number);
+}
+
+std::string table_text(std::string_view name, const Numbers& values, Digits digits) {
+    if (values.empty()) return {};
+    std::string text = fmt::format("\n[{}]\n", name);
+    for (const auto& [key, numbers] : values) {
+        std::vector<std::string> texts;
+        for (const double number : numbers) texts.push_back(number_text(number, digits));
+        const std::string list = fmt::format("{}", fmt::join(texts, ", "));
+        text += numbers.size() == 1 ? fmt::format("\"{}\" = {}\n", key, list)
+                                    : fmt::format("\"{}\" = [{}]\n", key, list);
+    }
+    return text;
+}
 
 }  // namespace
 
@@ -236,12 +261,27 @@ Diagnostics inputs_left_out(const EvalInputs& inputs, const Program& program) {
     Diagnostics notes;
     for (const Port& port : program.inputs) {
         if (inputs.inputs.contains(port.name) || port.name.starts_with("gl_")) continue;
-        Diagnostic note;
-        note.severity = Severity::note;
-        note.message = fmt::format("the input '{}' ({}) is not given and is 0", port.name, port.type);
-        notes.push_back(std::move(note));
+        notes.push_back(
+            error_at({}, fmt::format("the input '{}' ({}) is not given and is 0", port.name, port.type)));
+        notes.back().severity = Severity::note;
     }
     return notes;
+}
+
+EvalPoint point_of(const Program& program, const Invocations& invocations, std::size_t index) {
+    EvalPoint point{
+        values_of(program.inputs, invocations, index), values_of(program.uniforms, invocations, index), {}};
+    for (const ImagePort& port : program.images)
+        if (const auto given = invocations.images.find(port.name); given != invocations.images.end())
+            add_numbers(port.name, content_of(given->second, port, index), point.samplers);
+    return point;
+}
+
+std::string eval_file(std::string_view stage, const EvalPoint& point, std::string_view comment,
+                      Digits digits) {
+    return fmt::format("{}stage = \"{}\"\n{}{}{}", comment, stage, table_text("inputs", point.inputs, digits),
+                       table_text("uniforms", point.uniforms, digits),
+                       table_text("samplers", point.samplers, digits));
 }
 
 }  // namespace gobo::evaluate

@@ -1,11 +1,9 @@
-// What runs operations: rows of lanes. Internal to evaluation.
+// What operations work on: a register file in which each slot is a row, one number of each lane.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -13,21 +11,40 @@
 
 namespace gobo::evaluate {
 
-/// How integers and booleans lie in a row beside reals T: as wide as those, so that a vector of either is one
-/// contiguous run of lanes. Their values are those of 32 bits.
+/// How integers and booleans lie in a row beside floats T: as wide as those, so that a vector of either is
+/// one contiguous run of lanes. Their values are those of 32 bits.
 template <class T>
-using Whole = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+using Int = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+
+template <class I>
+[[nodiscard]] inline std::int32_t to_signed(I cell) {
+    return static_cast<std::int32_t>(cell);
+}
+template <class I>
+[[nodiscard]] inline std::uint32_t to_unsigned(I cell) {
+    return static_cast<std::uint32_t>(cell);
+}
 
 /// Lanes, as bits.
 using LaneMask = std::uint64_t;
 inline constexpr LaneMask kAllLanes = ~LaneMask{0};
 static_assert(kLanes == 64, "a LaneMask has one bit for each lane");
 
-/// The state of kLanes invocations. Each slot is a row: one number of each lane.
+[[nodiscard]] inline bool has_lane(LaneMask lanes, std::size_t lane) {
+    return (lanes >> lane & 1U) != 0;
+}
+
+template <class Test>
+[[nodiscard]] LaneMask lanes_where(const Test& test) {
+    LaneMask lanes = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes |= static_cast<LaneMask>(test(lane)) << lane;
+    return lanes;
+}
+
 template <class T>
-class Machine {
+class Registers {
   public:
-    Machine(const Program& program, const Images& images)
+    Registers(const Program& program, const Images& images)
         : program_(program), cells_(std::size_t{program.slots} * kLanes * sizeof(T) + kAlignment) {
         // Rows start at cache lines.
         const auto address = reinterpret_cast<std::uintptr_t>(cells_.data());
@@ -37,20 +54,19 @@ class Machine {
             images_.push_back(given == images.end() ? nullptr : &given->second);
         }
     }
-    Machine(const Machine&) = delete;
-    Machine& operator=(const Machine&) = delete;
+    Registers(const Registers&) = delete;
+    Registers& operator=(const Registers&) = delete;
 
-    [[nodiscard]] T* reals(std::uint32_t slot) {
+    [[nodiscard]] T* floats(std::uint32_t slot) {
         return reinterpret_cast<T*>(start_ + std::size_t{slot} * kLanes * sizeof(T));
     }
-    /// Rows of the same memory; a slot holds either reals or integers for good, or is copied as bytes.
-    [[nodiscard]] Whole<T>* wholes(std::uint32_t slot) {
-        return reinterpret_cast<Whole<T>*>(start_ + std::size_t{slot} * kLanes * sizeof(T));
+    /// Rows of the same memory; a slot holds either floats or integers for good, or is copied as bytes.
+    [[nodiscard]] Int<T>* ints(std::uint32_t slot) {
+        return reinterpret_cast<Int<T>*>(start_ + std::size_t{slot} * kLanes * sizeof(T));
     }
     [[nodiscard]] const std::uint32_t* words(const Operation& operation) const {
         return program_.words.data() + operation.extra;
     }
-    [[nodiscard]] const Program& program() const { return program_; }
     /// The caller's image for that ImagePort; where there is none, nullptr, and missing_image() knows.
     [[nodiscard]] const Image* image(std::size_t index) {
         if (index < images_.size() && images_[index] != nullptr) return images_[index];
@@ -62,17 +78,17 @@ class Machine {
 
     /// The lanes that run. Operations compute all lanes where that is cheaper: only stores heed the mask.
     [[nodiscard]] LaneMask active() const { return active_; }
-    [[nodiscard]] bool is_full() const { return active_ == kAllLanes; }
-    [[nodiscard]] bool is_active(std::size_t lane) const { return (active_ >> lane & 1U) != 0; }
+    [[nodiscard]] bool is_active(std::size_t lane) const { return has_lane(active_, lane); }
     void set_active(LaneMask active) {
         if (active == active_) return;
         active_ = active;
         for (std::size_t lane = 0; lane < kLanes; ++lane) mask_row_[lane] = is_active(lane) ? -1 : 0;
     }
     /// The active lanes as rows of all bits or none.
-    [[nodiscard]] const Whole<T>* mask_row() const { return mask_row_.data(); }
-    /// Those of the lanes that are invocations of the caller, no padding.
-    LaneMask real = kAllLanes;
+    [[nodiscard]] const Int<T>* mask_row() const { return mask_row_.data(); }
+
+    /// The lanes that are invocations of the caller: neither padding nor helpers.
+    LaneMask callers_lanes = kAllLanes;
     std::size_t first_invocation = 0;
 
   private:
@@ -83,7 +99,7 @@ class Machine {
     std::vector<std::byte> cells_;
     std::byte* start_ = nullptr;
     LaneMask active_ = 0;
-    std::array<Whole<T>, kLanes> mask_row_{};
+    std::array<Int<T>, kLanes> mask_row_{};
 };
 
 }  // namespace gobo::evaluate

@@ -1,0 +1,242 @@
+// Texture functions: which operand of which instruction means what, and how each active lane asks the
+// caller's image.
+#include <algorithm>
+#include <bit>
+
+#include "lab/evaluate/decoder.hpp"
+#include "lab/evaluate/rows.hpp"
+
+namespace gobo::evaluate {
+
+using What = ImageRequest::What;
+
+/// What the decoder tells the row of an image operation, as its words. Slots are stored plus 1; 0 where the
+/// call has no such operand.
+struct ImageCall {
+    std::uint32_t what = 0;           ///< ImageRequest::What
+    std::uint32_t dimensions = 0;     ///< number of coordinates that are differentiated
+    std::uint32_t is_arrayed = 0;     ///< the layer follows
+    std::uint32_t is_implicit = 0;    ///< the gradients come from the quad
+    std::uint32_t has_int_level = 0;  ///< the level is an integer (fetch, size)
+    std::uint32_t has_int_result = 0;
+    std::uint32_t has_int_coordinates = 0;
+    // Slots.
+    std::uint32_t image = 0;  ///< of the image's index
+    std::uint32_t coordinates = 0;
+    std::uint32_t divisor = 0;
+    std::uint32_t reference = 0;
+    std::uint32_t lod = 0;
+    std::uint32_t bias = 0;
+    std::uint32_t gradient_x = 0;
+    std::uint32_t gradient_y = 0;
+    std::uint32_t offset = 0;
+    std::uint32_t sample = 0;
+    std::uint32_t component = 0;  ///< of a gather
+};
+using ImageWords = std::array<std::uint32_t, sizeof(ImageCall) / sizeof(std::uint32_t)>;
+
+namespace {
+
+/// How an image instruction is laid out.
+struct ImageForm {
+    std::uint32_t code;
+    std::string_view name;
+    What what;
+    bool is_implicit;      ///< the level of detail follows from the quad
+    bool projects;         ///< the coordinate after the last is a divisor
+    bool compares;         ///< word 5 is the reference
+    bool has_coordinates;  ///< word 4
+    std::size_t operands;  ///< word of the image operands mask; 0 where there is none
+};
+
+constexpr ImageForm kForms[] = {
+    {GOBO_CORE(ImageSampleImplicitLod), What::sample, true, false, false, true, 5},
+    {GOBO_CORE(ImageSampleExplicitLod), What::sample, false, false, false, true, 5},
+    {GOBO_CORE(ImageSampleDrefImplicitLod), What::sample, true, false, true, true, 6},
+    {GOBO_CORE(ImageSampleDrefExplicitLod), What::sample, false, false, true, true, 6},
+    {GOBO_CORE(ImageSampleProjImplicitLod), What::sample, true, true, false, true, 5},
+    {GOBO_CORE(ImageSampleProjExplicitLod), What::sample, false, true, false, true, 5},
+    {GOBO_CORE(ImageSampleProjDrefImplicitLod), What::sample, true, true, true, true, 6},
+    {GOBO_CORE(ImageSampleProjDrefExplicitLod), What::sample, false, true, true, true, 6},
+    {GOBO_CORE(ImageFetch), What::fetch, false, false, false, true, 5},
+    {GOBO_CORE(ImageGather), What::gather, false, false, false, true, 6},
+    {GOBO_CORE(ImageDrefGather), What::gather, false, false, true, true, 6},
+    {GOBO_CORE(ImageQuerySizeLod), What::size, false, false, false, false, 0},
+    {GOBO_CORE(ImageQuerySize), What::size, false, false, false, false, 0},
+    {GOBO_CORE(ImageQueryLevels), What::levels, false, false, false, false, 0},
+    {GOBO_CORE(ImageQueryLod), What::lod, true, false, false, true, 0},
+};
+
+/// Coordinates of an image without its layer.
+std::uint32_t dimensions_of(const spirv::Image& image) {
+    if (image.dimension == spv::Dim1D || image.dimension == spv::DimBuffer) return 1;
+    return image.dimension == spv::Dim3D || image.dimension == spv::DimCube ? 3 : 2;
+}
+
+}  // namespace
+
+/// False where the instruction has nothing to do with images.
+bool Decoder::decode_image(const Instruction& instruction) {
+    const auto* form = std::ranges::find(kForms, std::uint32_t{instruction.opcode}, &ImageForm::code);
+    if (form == std::end(kForms)) return false;
+    Values operands{value(instruction, 3)};
+    const Type& sampled = type(operands[0]);
+    const Type& result = type(instruction.type);
+    if (!sampled.is_image() || result.scalars == 0 || result.scalars > 4) {
+        report_types(instruction);
+        return true;
+    }
+    ImageCall call;
+    const auto set = [&](std::uint32_t& slot, std::size_t at) {
+        operands.push_back(value(instruction, at));
+        slot = operands.back().slot + 1;
+    };
+    call.what = static_cast<std::uint32_t>(form->what);
+    call.image = operands[0].slot + 1;
+    call.dimensions = dimensions_of(sampled.image);
+    call.is_arrayed = sampled.image.arrayed && form->what != What::lod ? 1 : 0;
+    call.is_implicit = form->is_implicit ? 1 : 0;
+    call.has_int_result = is_float(result.value.scalar) ? 0 : 1;
+    std::uint32_t needed = call.dimensions + call.is_arrayed;
+    if (form->has_coordinates) {
+        set(call.coordinates, 4);
+        const Type& given = type(operands.back());
+        call.has_int_coordinates = is_float(given.value.scalar) ? 0 : 1;
+        if (form->projects) call.divisor = operands.back().slot + needed++ + 1;
+        if (given.scalars < needed) report(instruction, "a texture function has too few coordinates");
+    }
+    if (form->compares)
+        set(call.reference, 5);
+    else if (form->what == What::gather)
+        set(call.component, 5);
+    if (instruction.opcode == spv::OpImageQuerySizeLod) {
+        set(call.lod, 4);
+        call.has_int_level = 1;
+    }
+    if (form->operands != 0) read_image_operands(instruction, form->operands, call, operands);
+    const auto words = std::bit_cast<ImageWords>(call);
+    emit(instruction.opcode, instruction, result.scalars, define(instruction), operands,
+         {words.begin(), words.end()});
+    return true;
+}
+
+/// The optional operands after the mask, in the order of its bits.
+void Decoder::read_image_operands(const Instruction& instruction, std::size_t at, ImageCall& call,
+                                  Values& operands) {
+    const std::uint32_t mask = instruction.word(at);
+    std::size_t next = at + 1;
+    std::uint32_t known = 0;
+    const auto take = [&](std::uint32_t bit, std::uint32_t& slot, std::uint32_t components) {
+        known |= bit;
+        if ((mask & bit) == 0) return;
+        operands.push_back(value(instruction, next++));
+        slot = operands.back().slot + 1;
+        if (type(operands.back()).scalars < components)
+            report(instruction, "a texture function has operands of the wrong types");
+    };
+    take(spv::ImageOperandsBiasMask, call.bias, 1);
+    take(spv::ImageOperandsLodMask, call.lod, 1);
+    if (call.lod != 0) call.has_int_level = is_float(type(operands.back()).value.scalar) ? 0 : 1;
+    take(spv::ImageOperandsGradMask, call.gradient_x, call.dimensions);
+    take(spv::ImageOperandsGradMask, call.gradient_y, call.dimensions);
+    take(spv::ImageOperandsConstOffsetMask, call.offset, call.dimensions);
+    take(spv::ImageOperandsOffsetMask, call.offset, call.dimensions);
+    take(spv::ImageOperandsSampleMask, call.sample, 1);
+    if ((mask & ~known) != 0)
+        report(instruction, "the evaluator does not know an operand of this texture function");
+}
+
+namespace {
+
+/// Fills the request of one lane from the operands that the call has.
+template <class T>
+class RequestReader {
+  public:
+    RequestReader(const ImageCall& call, Registers<T>& registers, std::size_t lane)
+        : call_(call), registers_(registers), lane_(lane) {}
+
+    ImageRequest read() {
+        ImageRequest request;
+        request.what = static_cast<What>(call_.what);
+        request.dimensions = static_cast<int>(call_.dimensions);
+        request.arrayed = call_.is_arrayed != 0;
+        request.invocation = registers_.first_invocation + lane_;
+        request.compares = call_.reference != 0;
+        request.has_lod = call_.lod != 0;
+        const double divisor = call_.divisor != 0 ? number(call_.divisor) : 1.0;
+        for (std::uint32_t axis = 0; axis < call_.dimensions + call_.is_arrayed && call_.coordinates != 0;
+             ++axis)
+            request.coordinates[axis] = call_.has_int_coordinates != 0
+                                            ? integer(call_.coordinates, axis)
+                                            : number(call_.coordinates, axis) / divisor;
+        if (request.compares) request.reference = number(call_.reference) / divisor;
+        if (call_.bias != 0) request.bias = number(call_.bias);
+        if (request.has_lod) request.lod = call_.has_int_level != 0 ? integer(call_.lod) : number(call_.lod);
+        for (std::uint32_t axis = 0; axis < call_.dimensions; ++axis) {
+            if (call_.gradient_x != 0) {
+                request.dx[axis] = number(call_.gradient_x, axis);
+                request.dy[axis] = number(call_.gradient_y, axis);
+            } else if (call_.is_implicit != 0) {
+                request.dx[axis] = across_quad(axis, lane_ & ~std::size_t{1}, 1);
+                request.dy[axis] = across_quad(axis, lane_ & ~std::size_t{2}, 2);
+            }
+            if (call_.offset != 0) request.offset[axis] = integer(call_.offset, axis);
+        }
+        if (call_.sample != 0) request.sample = integer(call_.sample);
+        if (call_.component != 0) request.component = integer(call_.component);
+        return request;
+    }
+
+  private:
+    [[nodiscard]] double number(std::uint32_t slot, std::uint32_t component = 0) const {
+        return static_cast<double>(registers_.floats(slot - 1 + component)[lane_]);
+    }
+    [[nodiscard]] int integer(std::uint32_t slot, std::uint32_t component = 0) const {
+        return to_signed(registers_.ints(slot - 1 + component)[lane_]);
+    }
+
+    /// The change of a (projected) coordinate between two lanes of the quad.
+    [[nodiscard]] double across_quad(std::uint32_t axis, std::size_t from, std::size_t step) const {
+        const T* values = registers_.floats(call_.coordinates - 1 + axis);
+        if (call_.divisor == 0) return static_cast<double>(values[from + step] - values[from]);
+        const T* divisors = registers_.floats(call_.divisor - 1);
+        return static_cast<double>(values[from + step] / divisors[from + step] -
+                                   values[from] / divisors[from]);
+    }
+
+    const ImageCall& call_;
+    Registers<T>& registers_;
+    std::size_t lane_;
+};
+
+constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
+    ImageWords words;
+    std::copy_n(registers.words(operation), words.size(), words.begin());
+    const auto call = std::bit_cast<ImageCall>(words);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
+        const Image* image = registers.image(static_cast<std::size_t>(registers.ints(call.image - 1)[lane]));
+        if (image == nullptr) return;
+        const std::array<double, 4> texel = (*image)(RequestReader<T>(call, registers, lane).read());
+        for (std::uint32_t component = 0; component < operation.count; ++component) {
+            if (call.has_int_result != 0)
+                registers.ints(operation.result + component)[lane] =
+                    to_signed(static_cast<std::int64_t>(texel[component]));
+            else
+                registers.floats(operation.result + component)[lane] = static_cast<T>(texel[component]);
+        }
+    }
+}>;
+
+}  // namespace
+
+std::span<const Row> image_rows() {
+    static const std::vector<Row> rows = [] {
+        std::vector<Row> all;
+        for (const ImageForm& form : kForms) all.push_back({form.code, form.name, Kind::image, "", kAsk});
+        return all;
+    }();
+    return rows;
+}
+
+}  // namespace gobo::evaluate
