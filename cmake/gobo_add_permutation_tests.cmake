@@ -1,6 +1,6 @@
 # gobo_add_permutation_tests(NAME name FAMILY family
 #                            [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
-#                            [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
+#                            [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
 #                            [RENDER] [BACKEND osmesa|egl] [SHARDS n] [INCLUDE folder...] [LIBRARY folder])
 #
 # Registers tests that run `gobo test` on the selected permutations: with CTest, and so in what `ctest --output-junit`
@@ -15,7 +15,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutation_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;RETIRED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;SHARDS;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;EXCLUDED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;SHARDS;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_test_arguments()
   if(NOT arg_LIBRARY)
@@ -37,6 +37,9 @@ endfunction()
 # The functions below are parts of the one above and read its variables.
 
 function(_gobo_check_test_arguments)
+  if("RETIRED" IN_LIST arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "gobo_add_permutation_tests: RETIRED is now EXCLUDED")
+  endif()
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "gobo_add_permutation_tests: unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
   endif()

@@ -1,6 +1,6 @@
 # gobo_add_permutations(TARGET FAMILY family
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
-#                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [RETIRED]
+#                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
 #                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [COMMENTS] [LIBRARY folder])
 #
@@ -22,7 +22,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;RETIRED;COMMENTS" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
@@ -61,6 +61,9 @@ endfunction()
 function(_gobo_check_arguments)
   if(NOT TARGET "${target}")
     message(FATAL_ERROR "gobo_add_permutations: there is no target '${target}'; add it before")
+  endif()
+  if("RETIRED" IN_LIST arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "gobo_add_permutations: RETIRED is now EXCLUDED")
   endif()
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "gobo_add_permutations: unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
@@ -132,7 +135,7 @@ function(_gobo_command_line arguments_variable inputs_variable)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
   endforeach()
-  foreach(option ALL RETIRED COMMENTS)
+  foreach(option ALL EXCLUDED COMMENTS)
     if(arg_${option})
       string(TOLOWER "--${option}" flag)
       list(APPEND arguments ${flag})

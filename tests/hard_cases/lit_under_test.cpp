@@ -196,7 +196,7 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     selection.cover = cover;
     selection.over = over;
     selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
-    selection.retired = true;  // who names such a value has its guards, too
+    selection.excluded = true;  // who names such a value has its guards, too
     const auto keys = select(family_, selection, "450");
     EXPECT_TRUE(keys) << where;
     if (!keys) return;

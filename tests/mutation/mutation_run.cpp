@@ -52,10 +52,10 @@ int lights(const Family& family, const Key& key) {
 }
 
 /// A cover by threes of up to three lights, since among many an error drowns, and one by twos of any number;
-/// retired values too, whose pieces are shipped. Few lights first.
+/// excluded values too, whose pieces are shipped. Few lights first.
 std::vector<Key> keys_to_try(const Family& family) {
     Selection selection;
-    selection.retired = true;
+    selection.excluded = true;
     selection.cover = 2;
     std::vector<Key> keys = select(family, selection, "450").value();
     selection.cover = 3;

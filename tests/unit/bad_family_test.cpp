@@ -156,31 +156,69 @@ const BadRow bad_rows[] = {
      "    enum = \"Fog kind\"\n"
      "           ^\n"
      "  help: name it as C++ names a type, such as FogKind\n"},
-    {"retired_explicit_default",
+    {"excluded_explicit_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"
      "default = \"b\"\n"
-     "retired = [\"b\"]\n",
-     "tiny.toml:7:11: error: feature 'fog' cannot retire 'b'\n"
-     "    retired = [\"b\"]\n"
-     "              ^\n"
-     "  help: the default cannot be retired\n"},
-    {"retired_default",
+     "excluded = [\"b\"]\n",
+     "tiny.toml:7:12: error: feature 'fog' cannot exclude 'b'\n"
+     "    excluded = [\"b\"]\n"
+     "               ^\n"
+     "  help: the default cannot be excluded\n"},
+    {"excluded_default",
      "[features.fog]\n"
      "values = [\"a\", \"b\"]\n"
-     "retired = [\"a\"]\n",
-     "tiny.toml:6:11: error: feature 'fog' cannot retire 'a'\n"
-     "    retired = [\"a\"]\n"
-     "              ^\n"
-     "  help: the default cannot be retired\n"},
-    {"retired_unknown",
+     "excluded = [\"a\"]\n",
+     "tiny.toml:6:12: error: feature 'fog' cannot exclude 'a'\n"
+     "    excluded = [\"a\"]\n"
+     "               ^\n"
+     "  help: the default cannot be excluded\n"},
+    {"excluded_unknown",
      "[features.fog]\n"
      "values = [\"one\", \"two\"]\n"
-     "retired = [\"twoo\"]\n",
-     "tiny.toml:6:11: error: feature 'fog' cannot retire 'twoo'\n"
-     "    retired = [\"twoo\"]\n"
-     "              ^\n"
+     "excluded = [\"twoo\"]\n",
+     "tiny.toml:6:12: error: feature 'fog' cannot exclude 'twoo'\n"
+     "    excluded = [\"twoo\"]\n"
+     "               ^\n"
      "  help: did you mean 'two'?\n"},
+    {"retired",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "retired = [\"two\"]\n",
+     "tiny.toml:6:11: error: feature 'fog' has retired values\n"
+     "    retired = [\"two\"]\n"
+     "              ^\n"
+     "  help: 'retired' is now 'excluded'\n"},
+    {"renamed_to_nothing",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "[renamed]\n"
+     "mist = \"foggy\"\n",
+     "tiny.toml:7:8: error: 'mist' cannot have been renamed to 'foggy'\n"
+     "    mist = \"foggy\"\n"
+     "           ^\n"
+     "  help: write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the new one "
+     "exists\n"},
+    {"renamed_though_it_is_there",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "[renamed]\n"
+     "\"fog=one\" = \"fog=two\"\n",
+     "tiny.toml:7:13: error: 'fog=one' cannot have been renamed to 'fog=two'\n"
+     "    \"fog=one\" = \"fog=two\"\n"
+     "                ^\n"
+     "  help: write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the new one "
+     "exists\n"},
+    {"renamed_without_its_value",
+     "[features.fog]\n"
+     "values = [\"one\", \"two\"]\n"
+     "[renamed]\n"
+     "\"fog=1\" = \"one\"\n",
+     "tiny.toml:7:11: error: 'fog=1' cannot have been renamed to 'one'\n"
+     "    \"fog=1\" = \"one\"\n"
+     "              ^\n"
+     "  help: write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the new one "
+     "exists\n"},
     {"count_from_one",
      "[features.point]\n"
      "count = [1, 4]\n"

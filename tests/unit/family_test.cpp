@@ -19,7 +19,7 @@ fragment = "tiny.frag"
 [features.fog]
 role    = "quality"
 values  = ["none", "linear", "old"]
-retired = ["old"]
+excluded = ["old"]
 [features.bump]
 define = "USE_BUMP"
 [features.point]
@@ -66,7 +66,6 @@ where = "point < 2"
                                       "some/folder/tiny.toml", {})
                               .value();
     EXPECT_EQ(family.name, "tiny");
-    EXPECT_EQ(family.folder, "some/folder");
     EXPECT_EQ(family.vertex, "tiny.vert");
     EXPECT_EQ(family.fragment, "tiny.frag");
 
@@ -78,7 +77,7 @@ where = "point < 2"
     EXPECT_EQ(family.features[0].role, Role::effect);
     EXPECT_EQ(family.features[1].role, Role::quality);
     EXPECT_THAT(family.features[1].values, ElementsAre("none", "linear", "old"));
-    EXPECT_THAT(family.features[1].retired, ElementsAre("old"));
+    EXPECT_THAT(family.features[1].excluded, ElementsAre("old"));
     EXPECT_EQ(family.features[2].role, Role::pipeline);
     EXPECT_EQ(family.features[2].macro, "POINT_LIGHTS");
     EXPECT_THAT(family.features[2].values, ElementsAre("0", "1", "2"));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "family/cover.hpp"
@@ -13,6 +14,10 @@
 
 namespace gobo {
 namespace {
+
+KeySpace space_of(const Family& family, std::string_view dialect = "450", const KeySpaceLimits& limits = {}) {
+    return KeySpace::make(family, dialect, limits).value();
+}
 
 Expression condition(const Family& family, const std::string& text) {
     return parse_expression(text, family.features, {}, Fault::usage).value();
@@ -45,10 +50,10 @@ class SmallFamily : public testing::TestWithParam<std::pair<std::string, std::st
 
 TEST_P(SmallFamily, CountsAndListsWhatTryingFinds) {
     for (const std::string_view dialect : {"450", "330"}) {
-        for (const bool retired : {false, true}) {
+        for (const bool excluded : {false, true}) {
             KeySpaceLimits limits;
-            limits.retired = retired;
-            const KeySpace space(family, dialect, limits);
+            limits.excluded = excluded;
+            const KeySpace space = space_of(family, dialect, limits);
             const std::vector<Key> expected = keys_by_trying(family, dialect, limits);
             EXPECT_EQ(space.keys(), expected) << dialect;
             EXPECT_EQ(space.count(), expected.size()) << dialect;
@@ -60,17 +65,24 @@ TEST_P(SmallFamily, KeepsOtherFeaturesAtTheirDefaults) {
     for (int feature = 0; feature < static_cast<int>(family.features.size()); ++feature) {
         KeySpaceLimits limits;
         limits.over = {feature};
-        EXPECT_EQ(KeySpace(family, "450", limits).keys(), keys_by_trying(family, "450", limits)) << feature;
+        EXPECT_EQ(space_of(family, "450", limits).keys(), keys_by_trying(family, "450", limits)) << feature;
     }
 }
 
 TEST_P(SmallFamily, ContainsExactlyWhatSomeKeyAgreesWith) {
-    const KeySpace space(family, "450", {});
+    const KeySpace space = space_of(family);
     const std::vector<Key> keys = space.keys();
     for (const PartialKey& partial : partial_keys(family)) {
         const bool expected =
             std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return agrees(partial, key); });
-        ASSERT_EQ(space.contains(partial), expected) << testing::PrintToString(partial);
+        OpenPaths paths(space);
+        bool is_contained = !keys.empty();
+        for (std::size_t i = 0; i < partial.size() && is_contained; ++i) {
+            if (partial[i] < 0) continue;
+            is_contained = paths.allowed(i)[partial[i]] != 0;
+            paths.decide(i, partial[i]);
+        }
+        ASSERT_EQ(is_contained, expected) << testing::PrintToString(partial);
     }
 }
 
@@ -99,11 +111,11 @@ void expect_cover(const std::vector<Key>& keys, const std::vector<Key>& covering
 }
 
 TEST_P(SmallFamily, IsCovered) {
-    const KeySpace space(family, "450", {});
+    const KeySpace space = space_of(family);
     for (int strength = 1; strength <= static_cast<int>(family.features.size()); ++strength) {
         SCOPED_TRACE(strength);
         expect_cover(space.keys(), cover(space, strength), static_cast<std::size_t>(strength));
-        EXPECT_EQ(cover(space, strength), cover(KeySpace(family, "450", {}), strength)) << "not repeatable";
+        EXPECT_EQ(cover(space, strength), cover(space_of(family), strength)) << "not repeatable";
     }
 }
 
@@ -125,7 +137,7 @@ TEST_P(LitSpace, IsWhatTryingFindsAndIsCoveredBySize) {
     for (const char* feature :
          {"directional", "point", "spot", "diffuse", "specular", "fog", "fog_distance", "shading", "depth"})
         limits.over.push_back(family.index_of(feature).value());
-    const KeySpace space(family, "450", limits);
+    const KeySpace space = space_of(family, "450", limits);
     const std::vector<Key> expected = keys_by_trying(family, "450", limits);
     ASSERT_EQ(space.keys(), expected);
     EXPECT_EQ(space.count(), expected.size());
@@ -145,11 +157,100 @@ INSTANTIATE_TEST_SUITE_P(Conditions, LitSpace,
                                                 "directional == 0"}),
                          [](const auto& row) { return row.param.name; });
 
-TEST(KeySpace, CountsBeyond64BitsAsTheLargestNumber) {
+/// Families that a diagram whose levels follow the names of the features would drown in.
+struct WideRow {
+    const char* name;
+    std::string body;
+    std::uint64_t count;
+};
+
+std::string defines(int count) {
     std::string body = "[features]\n";
-    for (char name = 'a'; name <= 'z'; ++name)
-        body += std::string(1, name) + " = { count = [0, 15], constant = \"" + name + "_COUNT\" }\n";
-    EXPECT_EQ(KeySpace(family_of(body), "450", {}).count(), std::numeric_limits<std::uint64_t>::max())
+    for (int i = 0; i < count; ++i) body += fmt::format("f{0:02} = {{ define = \"F{0}\" }}\n", i);
+    return body;
+}
+
+std::string counts(int count, int largest) {
+    std::string body = "[features]\n";
+    for (int i = 0; i < count; ++i)
+        body += fmt::format("c{0:02} = {{ count = [0, {1}], constant = \"C{0}\" }}\n", i, largest);
+    return body;
+}
+
+std::string forbid(const std::string& condition) {
+    return fmt::format("[[rules]]\nforbid = \"{}\"\nreason = \"no\"\n", condition);
+}
+
+std::string pairs(int count) {
+    std::string body = defines(2 * count);
+    for (int i = 0; i < count; ++i)
+        body += forbid(
+            fmt::format("f{0:02} == on && f{1:02} == off || f{0:02} == off && f{1:02} == on", i, i + count));
+    return body;
+}
+
+std::string one_rule_of_pairs(int count) {
+    std::string condition;
+    for (int i = 0; i < count; ++i)
+        condition += fmt::format("{}(f{:02} == on || f{:02} == on)", i == 0 ? "" : " && ", i, i + count);
+    return defines(2 * count) + forbid(condition);
+}
+
+std::string sum_of(int count) {
+    std::string sum = "c00";
+    for (int i = 1; i < count; ++i) sum += fmt::format(" + c{:02}", i);
+    return sum;
+}
+
+std::uint64_t power(std::uint64_t base, int exponent) {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+/// The ways to choose a, b, c and d from 0 to `largest` with a + d == b + c.
+std::uint64_t equal_sums(std::uint64_t largest) {
+    std::uint64_t ways = 0;
+    for (std::uint64_t sum = 0; sum <= 2 * largest; ++sum) {
+        const std::uint64_t pairs = std::min(sum, 2 * largest - sum) + 1;
+        ways += pairs * pairs;
+    }
+    return ways;
+}
+
+class WideFamily : public testing::TestWithParam<WideRow> {};
+
+TEST_P(WideFamily, IsCounted) {
+    EXPECT_EQ(space_of(family_of(GetParam().body)).count(), GetParam().count);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, WideFamily,
+    testing::Values(WideRow{"eighteen_pairs", pairs(18), power(2, 18)},
+                    WideRow{"thirty_pairs", pairs(30), power(2, 30)},
+                    WideRow{"eighteen_pairs_in_one_rule", one_rule_of_pairs(18), power(4, 18) - power(3, 18)},
+                    WideRow{"a_sum_at_its_largest", counts(40, 3) + forbid(sum_of(40) + " < 119"), 41},
+                    // As many keys sum up to less than the middle as to more.
+                    WideRow{"a_sum_of_seven", counts(7, 63) + forbid(sum_of(7) + " > 220"), power(64, 7) / 2},
+                    WideRow{"sums_of_both_sides", counts(4, 100) + forbid("c00 + c03 != c01 + c02"),
+                            equal_sums(100)}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(KeySpace, NamesTheRuleThatTakesTooMuch) {
+    const Family family =
+        family_of(counts(10, 4096) + forbid("c00 == 1 && c01 == 1") + forbid(sum_of(10) + " > 20000"));
+    const Result<KeySpace> space = KeySpace::make(family, "450", {});
+    ASSERT_FALSE(space);
+    EXPECT_EQ(first_text(space.error()),
+              "tiny.toml:18:1: error: the conditions of family 'tiny' tie too many values together to count or "
+              "cover its "
+              "keys\n"
+              "  help: simplify tiny.toml:18, tiny.toml:15, or vary fewer features with --over\n");
+    KeySpaceLimits limits;
+    limits.over = {3};
+    EXPECT_EQ(space_of(family, "450", limits).count(), 4097u);
+}
+
+TEST(KeySpace, CountsBeyond64BitsAsTheLargestNumber) {
+    EXPECT_EQ(space_of(family_of(counts(26, 15))).count(), std::numeric_limits<std::uint64_t>::max())
         << "16^26 keys";
 }
 

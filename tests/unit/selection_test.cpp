@@ -159,19 +159,59 @@ TEST(Selection, OfNothingIsTheFamilysDefaultSet) {
     EXPECT_THAT(texts(family_of(declared), filtered, "450"), ElementsAre()) << "both conditions hold";
 }
 
-TEST(Selection, RetiredValuesAreOnlyNamed) {
+TEST(Selection, ExcludedValuesAreOnlyNamed) {
     const auto& families = small_families();
-    const auto retired = std::find_if(families.begin(), families.end(),
-                                      [](const auto& row) { return row.first == "dialects_and_retired"; });
-    ASSERT_NE(retired, families.end());
-    const Family family = family_of(retired->second);
+    const auto excluded = std::find_if(families.begin(), families.end(),
+                                       [](const auto& row) { return row.first == "dialects_and_excluded"; });
+    ASSERT_NE(excluded, families.end());
+    const Family family = family_of(excluded->second);
     Selection selection;
     selection.all = true;
     EXPECT_THAT(texts(family, selection, "330"), ElementsAre("default", "b=on", "a=y"));
     selection.keys = {{"a=z", {}}};
     EXPECT_THAT(texts(family, selection, "330"), ElementsAre("default", "b=on", "a=y", "a=z"));
-    selection.retired = true;
+    selection.excluded = true;
     EXPECT_EQ(texts(family, selection, "450").size(), 6u);
+}
+
+/// A family of which a feature and values of it and of another have other names than before.
+const char* const renamed_family =
+    "[features.edge]\nvalues = [\"one_minus_cosine\", \"cosine\"]\n"
+    "[features.evaluation]\nvalues = [\"fragment\", \"vertex\"]\n"
+    "[features.point]\ncount = [0, 2]\nconstant = \"POINT\"\n"
+    "[renamed]\nintensity = \"evaluation\"\n\"edge=versine\" = \"edge=one_minus_cosine\"\n"
+    "\"intensity=corner\" = \"evaluation=vertex\"\n";
+
+TEST(Selection, OldNamesAreRefusedWithTheNewOnes) {
+    const Family family = family_of(renamed_family);
+    const auto refusal = [&](const std::string& key, const std::string& over, const std::string& where) {
+        Selection selection;
+        if (!key.empty()) selection.keys = {{key, {}}};
+        selection.all = key.empty();
+        if (!over.empty()) selection.over = {over};
+        selection.where = where;
+        const Result<std::vector<Key>> keys = select(family, selection, "450");
+        return keys ? "" : first_text(keys.error());
+    };
+    EXPECT_EQ(
+        refusal("edge=versine", "", ""),
+        "gobo: error: feature 'edge' has no value 'versine'\n  help: 'versine' is now 'one_minus_cosine'\n");
+    EXPECT_EQ(
+        refusal("intensity=vertex", "", ""),
+        "gobo: error: family 'tiny' has no feature 'intensity'\n  help: 'intensity' is now 'evaluation'\n");
+    EXPECT_EQ(refusal("evaluation=corner", "", ""),
+              "gobo: error: feature 'evaluation' has no value 'corner'\n  help: 'corner' is now 'vertex'\n");
+    EXPECT_EQ(refusal("point=3", "", ""),
+              "gobo: error: feature 'point' has no value '3'\n  help: a whole number from 0 to 2\n");
+    EXPECT_EQ(refusal("", "intensity", ""),
+              "gobo: error: --over: family 'tiny' has no feature 'intensity'\n  help: 'intensity' is now "
+              "'evaluation'\n");
+    EXPECT_EQ(refusal("", "", "intensity == vertex"),
+              "gobo: error: unknown feature 'intensity' in the condition 'intensity == vertex'\n"
+              "  help: 'intensity' is now 'evaluation'\n");
+    EXPECT_EQ(refusal("", "", "edge != versine"),
+              "gobo: error: feature 'edge' has no value 'versine' in the condition 'edge != versine'\n"
+              "  help: 'versine' is now 'one_minus_cosine'\n");
 }
 
 TEST(Selection, CountsWhatItSelects) {

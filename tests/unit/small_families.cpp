@@ -43,8 +43,8 @@ const std::vector<std::pair<std::string, std::string>>& small_families() {
          "c = { count = [0, 2], constant = \"C\" }\n"
          "[[rules]]\nwhen = \"a == 0\"\ndefault = [\"b\"]\n"
          "[[rules]]\nforbid = \"b > a || c > a + b\"\nreason = \"more than there are\"\n"},
-        {"dialects_and_retired",
-         "[features]\na = { values = [\"x\", \"y\", \"z\"], retired = [\"z\"] }\nb = { define = \"B\" }\n"
+        {"dialects_and_excluded",
+         "[features]\na = { values = [\"x\", \"y\", \"z\"], excluded = [\"z\"] }\nb = { define = \"B\" }\n"
          "[[rules]]\nforbid = \"a == y && b == on\"\nreason = \"no\"\ndialects = [\"330\"]\n"},
         {"nothing_left",
          "[features.a]\nvalues = [\"x\", \"y\"]\n[[rules]]\nforbid = \"a == x || a == y\"\n"
@@ -80,10 +80,10 @@ std::vector<Key> keys_by_trying(const Family& family, std::string_view dialect,
         for (std::size_t i = 0; i < key.size(); ++i) {
             const Feature& feature = family.features[i];
             const std::string& value = feature.values[static_cast<std::size_t>(key[i])];
-            const bool is_retired = std::count(feature.retired.begin(), feature.retired.end(), value) > 0;
+            const bool is_excluded = std::count(feature.excluded.begin(), feature.excluded.end(), value) > 0;
             const bool varies = limits.over.empty() ||
                                 std::count(limits.over.begin(), limits.over.end(), static_cast<int>(i)) > 0;
-            keep = keep && (limits.retired || !is_retired) && (varies || key[i] == 0);
+            keep = keep && (limits.excluded || !is_excluded) && (varies || key[i] == 0);
         }
         if (keep) kept.push_back(key);
     }

@@ -11,47 +11,27 @@ namespace {
 /// The dialect that evaluation works on.
 constexpr std::string_view kDialect = "450";
 
-bool is_retired(const Feature& feature, int value) {
-    const std::string& name = feature.values[static_cast<std::size_t>(value)];
-    return std::find(feature.retired.begin(), feature.retired.end(), name) != feature.retired.end();
-}
-
-/// A family whose features may name a default apart from their order tells the order by listed(); otherwise
-/// the default is the first.
-template <class AnyFeature>
-int first_listed(const AnyFeature& feature) {
-    if constexpr (requires { feature.listed(); })
-        return feature.listed().front();
-    else
-        return 0;
-}
-
-int value_count(const Family& family, int feature) {
-    return static_cast<int>(family.features[static_cast<std::size_t>(feature)].values.size());
-}
-
 Key with(const Family& family, Key key, int feature, int value) {
-    key[static_cast<std::size_t>(feature)] = value;
+    key[feature] = value;
     return canonical(family, std::move(key), kDialect);
 }
 
 }  // namespace
 
 int most_accurate_value(const Feature& feature) {
-    return first_listed(feature);
+    return feature.listed().front();
 }
 
 std::vector<int> quality_features(const Family& family) {
     std::vector<int> features;
-    for (std::size_t i = 0; i < family.features.size(); ++i)
-        if (family.features[i].role == Role::quality) features.push_back(static_cast<int>(i));
+    for (int i = 0; i < std::ssize(family.features); ++i)
+        if (family.features[i].role == Role::quality) features.push_back(i);
     return features;
 }
 
 Key most_accurate(const Family& family, Key key) {
     for (const int feature : quality_features(family))
-        key[static_cast<std::size_t>(feature)] =
-            most_accurate_value(family.features[static_cast<std::size_t>(feature)]);
+        key[feature] = most_accurate_value(family.features[feature]);
     return canonical(family, std::move(key), kDialect);
 }
 
@@ -62,12 +42,10 @@ Key effects_of(const Family& family, Key key) {
 std::string quality_text(const Family& family, const Key& key) {
     const Key reference = most_accurate(family, key);
     std::string text;
-    for (const int feature : quality_features(family)) {
-        const auto i = static_cast<std::size_t>(feature);
-        if (key[i] == reference[i]) continue;
-        if (!text.empty()) text += ' ';
-        text += family.features[i].name + '=' + family.features[i].values[static_cast<std::size_t>(key[i])];
-    }
+    for (const int i : quality_features(family))
+        if (key[i] != reference[i])
+            text +=
+                (text.empty() ? "" : " ") + family.features[i].name + '=' + family.features[i].values[key[i]];
     return text;
 }
 
@@ -76,11 +54,11 @@ std::vector<Choice> single_choices(const Family& family, const Key& effects) {
     std::set<Key> seen = {reference};
     std::vector<Choice> choices;
     for (const int feature : quality_features(family)) {
-        for (int value = 0; value < value_count(family, feature); ++value) {
+        for (int value = 0; value < std::ssize(family.features[feature].values); ++value) {
             Key key = with(family, reference, feature, value);
             // A rule may have taken the value back: it cannot matter here.
-            if (key[static_cast<std::size_t>(feature)] != value || !is_valid(family, key)) continue;
-            if (seen.insert(key).second) choices.push_back({std::move(key), feature, value});
+            if (key[feature] == value && is_valid(family, key) && seen.insert(key).second)
+                choices.push_back({std::move(key), feature, value});
         }
     }
     return choices;
@@ -89,10 +67,12 @@ std::vector<Choice> single_choices(const Family& family, const Key& effects) {
 std::vector<Key> all_qualities(const Family& family, const Key& effects, std::size_t most) {
     std::set<Key> keys = {most_accurate(family, effects)};
     for (const int feature : quality_features(family)) {
+        const std::vector<std::string>& values = family.features[feature].values;
+        const std::vector<std::string>& excluded = family.features[feature].excluded;
         std::set<Key> more;
         for (const Key& key : keys)
-            for (int value = 0; value < value_count(family, feature); ++value)
-                if (!is_retired(family.features[static_cast<std::size_t>(feature)], value))
+            for (int value = 0; value < std::ssize(values); ++value)
+                if (std::find(excluded.begin(), excluded.end(), values[value]) == excluded.end())
                     more.insert(with(family, key, feature, value));
         keys = std::move(more);
         if (keys.size() > most) return {};
@@ -102,8 +82,7 @@ std::vector<Key> all_qualities(const Family& family, const Key& effects, std::si
 }
 
 Key with_quality_of(const Family& family, Key key, const Key& quality) {
-    for (const int feature : quality_features(family))
-        key[static_cast<std::size_t>(feature)] = quality[static_cast<std::size_t>(feature)];
+    for (const int feature : quality_features(family)) key[feature] = quality[feature];
     return canonical(family, std::move(key), kDialect);
 }
 

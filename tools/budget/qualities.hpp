@@ -34,7 +34,7 @@ struct Choice {
 };
 [[nodiscard]] std::vector<Choice> single_choices(const Family& family, const Key& effects);
 
-/// Every valid canonical key of the effects, sorted, retired values left out. More than `most` are not
+/// Every valid canonical key of the effects, sorted, excluded values left out. More than `most` are not
 /// enumerated: then nothing.
 [[nodiscard]] std::vector<Key> all_qualities(const Family& family, const Key& effects, std::size_t most);
 

@@ -1,35 +1,19 @@
 #include "core/diagnostic.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 namespace gobo {
 namespace {
 
-std::string_view name_of(Severity severity) {
-    switch (severity) {
-        case Severity::error:
-            return "error";
-        case Severity::warning:
-            return "warning";
-        case Severity::note:
-            return "note";
-    }
-    return "error";
-}
+// By Severity.
+constexpr std::array kNames = {"error", "warning", "note"};
+constexpr std::array kColors = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
 
-std::string_view color_of(Severity severity) {
-    switch (severity) {
-        case Severity::error:
-            return "\033[1;31m";
-        case Severity::warning:
-            return "\033[1;35m";
-        case Severity::note:
-            return "\033[1;36m";
-    }
-    return "";
-}
+/// The exit statuses, by Fault.
+constexpr std::array kStatuses = {1, 2, 3, 3, 4};
 
 std::string place_text(const Place& place) {
     if (place.file.empty()) return "gobo";
@@ -48,21 +32,6 @@ std::string quotation(const Diagnostic& diagnostic) {
     text += "    ";
     for (std::size_t i = 0; i + 1 < column; ++i) text += diagnostic.quoted_line[i] == '\t' ? '\t' : ' ';
     return text + "^\n";
-}
-
-int status_of(Fault fault) {
-    switch (fault) {
-        case Fault::input:
-            return 1;
-        case Fault::usage:
-            return 2;
-        case Fault::file:
-        case Fault::needs_lab:
-            return 3;
-        case Fault::internal:
-            return 4;
-    }
-    return 4;
 }
 
 }  // namespace
@@ -90,10 +59,10 @@ tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_lin
 }
 
 std::string to_text(const Diagnostic& diagnostic, bool color) {
-    const std::string_view on = color ? color_of(diagnostic.severity) : "";
-    const std::string_view off = color ? "\033[0m" : "";
-    std::string text = fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place), on,
-                                   name_of(diagnostic.severity), off, diagnostic.message);
+    const auto severity = static_cast<std::size_t>(diagnostic.severity);
+    std::string text =
+        fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place), color ? kColors[severity] : "",
+                    kNames[severity], color ? "\033[0m" : "", diagnostic.message);
     if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", diagnostic.subject);
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
@@ -103,10 +72,9 @@ std::string to_text(const Diagnostic& diagnostic, bool color) {
 
 int exit_status(const Diagnostics& diagnostics) {
     int status = 0;
-    for (const Diagnostic& diagnostic : diagnostics) {
-        if (diagnostic.severity != Severity::error) continue;
-        status = std::max(status, status_of(diagnostic.fault));
-    }
+    for (const Diagnostic& diagnostic : diagnostics)
+        if (diagnostic.severity == Severity::error)
+            status = std::max(status, kStatuses[static_cast<std::size_t>(diagnostic.fault)]);
     return status;
 }
 

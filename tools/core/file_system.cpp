@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Bytes. What is longer is no shader, family or scene, but a device that never ends.
-constexpr std::size_t largest_file = std::size_t{1} << 30;
+constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 
 tl::unexpected<Diagnostics> file_error(const std::string& path, std::string_view action, int error) {
     Diagnostic diagnostic;
@@ -38,24 +38,24 @@ class Descriptor {
     }
     [[nodiscard]] int number() const { return number_; }
     /// 0, or errno. Some file systems report a full disk only here.
-    int close() {
-        const int result = ::close(std::exchange(number_, -1));
-        return result == 0 ? 0 : errno;
-    }
+    int close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
 
   private:
     int number_;
 };
 
-/// 0, or errno.
-int write_all(int descriptor, std::string_view content) {
-    while (!content.empty()) {
-        const ssize_t written = ::write(descriptor, content.data(), content.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return errno;
-        content.remove_prefix(static_cast<std::size_t>(written));
+/// Writes and closes: 0, or errno.
+int write_all(Descriptor& file, std::string_view content) {
+    int error = file.number() < 0 ? errno : 0;
+    while (error == 0 && !content.empty()) {
+        const ssize_t written = ::write(file.number(), content.data(), content.size());
+        if (written >= 0)
+            content.remove_prefix(static_cast<std::size_t>(written));
+        else if (errno != EINTR)
+            error = errno;
     }
-    return 0;
+    const int close_error = file.close();
+    return error != 0 ? error : close_error;
 }
 
 /// Writes a new file beside `path` and renames it into place. 0, or errno; on an error nothing is left
@@ -64,12 +64,11 @@ int replace_file(const std::string& path, std::string_view content) {
     std::string temporary = path + ".XXXXXX";
     Descriptor file(::mkstemp(temporary.data()));
     if (file.number() < 0) return errno;
-    int error = write_all(file.number(), content);
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    if (error == 0 && ::fchmod(file.number(), 0666 & ~mask) != 0) error = errno;
-    const int close_error = file.close();
-    if (error == 0) error = close_error;
+    int error = ::fchmod(file.number(), 0666 & ~mask) != 0 ? errno : 0;
+    const int write_error = write_all(file, content);
+    if (error == 0) error = write_error;
     if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
     if (error != 0) ::unlink(temporary.c_str());
     return error;
@@ -94,7 +93,7 @@ Result<std::string> DiskFileSystem::read(const std::string& path) const {
         if (count < 0) return file_error(path, "read", errno);
         if (count == 0) return content;
         content.append(buffer, static_cast<std::size_t>(count));
-        if (content.size() > largest_file) return file_error(path, "read", EFBIG);
+        if (content.size() > kLargestFile) return file_error(path, "read", EFBIG);
     }
 }
 
@@ -122,16 +121,14 @@ Result<bool> DiskFileSystem::write(const std::string& path, std::string_view con
     std::error_code folder_error;
     if (!folder.empty()) fs::create_directories(folder, folder_error);
     if (folder_error) return file_error(folder.generic_string(), "made", folder_error.value());
+    int error = 0;
     if (!is_regular && fs::exists(path, kind_error)) {  // /dev/full, a pipe: no renaming onto it
         Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-        if (file.number() < 0) return file_error(path, "written", errno);
-        const int error = write_all(file.number(), content);
-        const int close_error = file.close();
-        if (error != 0 || close_error != 0)
-            return file_error(path, "written", error != 0 ? error : close_error);
-        return true;
+        error = write_all(file, content);
+    } else {
+        error = replace_file(path, content);
     }
-    if (const int error = replace_file(path, content); error != 0) return file_error(path, "written", error);
+    if (error != 0) return file_error(path, "written", error);
     return true;
 }
 
@@ -139,6 +136,14 @@ std::string DiskFileSystem::real_path(const std::string& path) const {
     std::error_code error;
     const fs::path real = fs::weakly_canonical(path, error);
     return error ? path : real.generic_string();
+}
+
+Result<void> append_to_disk(const std::string& path, std::string_view content) {
+    std::error_code ignored;  // opening tells
+    fs::create_directories(fs::path(path).parent_path(), ignored);
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+    if (const int error = write_all(file, content); error != 0) return file_error(path, "written", error);
+    return {};
 }
 
 bool MemoryFileSystem::is_file(const std::string& path) const {

@@ -41,6 +41,10 @@ class DiskFileSystem final : public FileSystem {
     [[nodiscard]] std::string real_path(const std::string& path) const override;
 };
 
+/// Adds `content` to the end of a file on disk, making it and its folder; what is there stays, whatever
+/// happens. Fault::file where it cannot be written.
+[[nodiscard]] Result<void> append_to_disk(const std::string& path, std::string_view content);
+
 /// Files in memory: the tests', and the library that is embedded in the executable.
 class MemoryFileSystem final : public FileSystem {
   public:

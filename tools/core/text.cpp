@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -82,6 +83,12 @@ bool is_identifier_part(char character) {
 bool is_identifier(std::string_view text) {
     return !text.empty() && is_identifier_start(text.front()) &&
            std::all_of(text.begin(), text.end(), is_identifier_part);
+}
+
+std::string folder_of(std::string_view path) {
+    const auto slash = path.rfind('/');
+    return slash == std::string_view::npos ? ""
+                                           : std::string(path.substr(0, std::max(slash, std::size_t{1})));
 }
 
 std::string short_number(double number) {

@@ -30,6 +30,9 @@ namespace gobo {
 [[nodiscard]] bool is_identifier_start(char character);
 [[nodiscard]] bool is_identifier_part(char character);
 
+/// The folder of a path, without the slash at its end ("/" alone keeps it); empty where it names none.
+[[nodiscard]] std::string folder_of(std::string_view path);
+
 /// A number for readers: three significant digits, and all of those before the point; no exponent where it
 /// can do without.
 [[nodiscard]] std::string short_number(double number);

@@ -16,15 +16,21 @@ constexpr int kWordBits = 64;
 std::string cpp_condition(const Expression& condition, const CppKey& key) {
     using Kind = Expression::Kind;
     constexpr std::string_view operators[] = {"==", "!=", "<", "<=", ">", ">="};  // as Comparison lists them
+    const auto sum = [&](const std::vector<int>& features) {
+        std::vector<std::string> terms;
+        for (const int feature : features) terms.push_back("key." + key[feature].member);
+        return fmt::format("{}", fmt::join(terms, " + "));
+    };
     std::vector<std::string> parts;
     switch (condition.kind) {
         case Kind::constant:
             return condition.constant ? "true" : "false";
         case Kind::compare:
-            for (const int feature : condition.features) parts.push_back("key." + key[feature].member);
-            return fmt::format("{} {} {}", fmt::join(parts, " + "),
+            return fmt::format("{} {} {}", sum(condition.features),
                                operators[static_cast<std::size_t>(condition.comparison)],
-                               key[condition.features.front()].value(condition.value));
+                               condition.subtracted.empty()
+                                   ? key[condition.features.front()].value(condition.value)
+                                   : sum(condition.subtracted));
         case Kind::negation:
             return "!(" + cpp_condition(*condition.parts.front(), key) + ")";
         case Kind::conjunction:
@@ -69,6 +75,7 @@ bool need_repetition(const std::vector<Rule>& rules) {
     std::set<int> looked_at;
     const auto look = [&](const auto& self, const Expression& condition) -> void {
         looked_at.insert(condition.features.begin(), condition.features.end());
+        looked_at.insert(condition.subtracted.begin(), condition.subtracted.end());
         for (const auto& part : condition.parts) self(self, *part);
     };
     return std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {

@@ -10,14 +10,17 @@ namespace {
 using Kind = Expression::Kind;
 using Comparison = Expression::Comparison;
 
-/// The truth of `sum comparison value` where it is the same for every sum in [0, largest]; nothing otherwise.
-std::optional<bool> decided(int largest, Comparison comparison, int value) {
-    const bool at_zero = compare(0, comparison, value);
-    const bool at_largest = compare(largest, comparison, value);
-    if (at_zero != at_largest) return std::nullopt;
+/// The truth of `sum comparison value` where it is the same for every sum in [low, high]; nothing otherwise.
+std::optional<bool> decided(int low, int high, Comparison comparison, int value) {
+    const bool at_low = compare(low, comparison, value);
     const bool is_point = comparison == Comparison::equal || comparison == Comparison::not_equal;
-    if (is_point && value > 0 && value < largest) return std::nullopt;
-    return at_zero;
+    const bool inside = is_point && value > low && value < high;
+    if (at_low != compare(high, comparison, value) || inside) return std::nullopt;
+    return at_low;
+}
+
+int feature_of(int term) {
+    return term < 0 ? ~term : term;
 }
 
 std::uint64_t bit_of(int feature) {
@@ -26,12 +29,20 @@ std::uint64_t bit_of(int feature) {
 
 }  // namespace
 
+std::size_t ConditionPool::Hash::operator()(const Node& node) const {
+    std::size_t hash = (static_cast<std::size_t>(node.kind) * 8 + static_cast<std::size_t>(node.comparison)) *
+                           0x9E3779B97F4A7C15U +
+                       static_cast<std::size_t>(node.value);
+    for (const int operand : node.operands)
+        hash = (hash ^ (hash >> 29U)) * 0xBF58476D1CE4E5B9U + static_cast<std::size_t>(operand);
+    return hash ^ (hash >> 32U);
+}
+
 ConditionPool::ConditionPool(const std::vector<Feature>& features) {
     for (const Feature& feature : features)
         largest_values_.push_back(static_cast<int>(feature.values.size()) - 1);
-    nodes_.push_back({Kind::constant, {}, Comparison::equal, 0});
-    nodes_.push_back({Kind::constant, {}, Comparison::equal, 1});
-    mentioned_ = {0, 0};
+    intern({Kind::constant, Comparison::equal, 0, {}});
+    intern({Kind::constant, Comparison::equal, 1, {}});
 }
 
 ConditionPool::Id ConditionPool::add(const Expression& expression) {
@@ -40,12 +51,14 @@ ConditionPool::Id ConditionPool::add(const Expression& expression) {
     switch (expression.kind) {
         case Kind::constant:
             return expression.constant ? always : never;
-        case Kind::compare:
-            return compare(expression.features, expression.comparison, expression.value);
+        case Kind::compare: {
+            std::vector<int> terms = expression.features;
+            for (const int feature : expression.subtracted) terms.push_back(~feature);
+            return compare(std::move(terms), expression.comparison, expression.value);
+        }
         case Kind::conjunction:
-            return conjoin(std::move(parts));
         case Kind::disjunction:
-            return disjoin(std::move(parts));
+            return junction(expression.kind, std::move(parts));
         case Kind::negation:
             return negate(parts.front());
     }
@@ -53,43 +66,31 @@ ConditionPool::Id ConditionPool::add(const Expression& expression) {
 }
 
 ConditionPool::Id ConditionPool::intern(Node node) {
-    const auto [at, is_new] = ids_.try_emplace(node, static_cast<Id>(nodes_.size()));
+    const auto [at, is_new] = ids_.try_emplace(std::move(node), static_cast<Id>(nodes_.size()));
     if (!is_new) return at->second;
     std::uint64_t mentioned = 0;
-    for (const int operand : node.operands)
-        mentioned |=
-            node.kind == Kind::compare ? bit_of(operand) : mentioned_[static_cast<std::size_t>(operand)];
+    for (const int operand : at->first.operands)
+        mentioned |= at->first.kind == Kind::compare ? bit_of(feature_of(operand)) : mentioned_[operand];
     mentioned_.push_back(mentioned);
-    nodes_.push_back(std::move(node));
+    nodes_.push_back(&at->first);
     return at->second;
 }
 
-bool ConditionPool::mentions(Id condition, int feature) const {
-    return (mentioned_[static_cast<std::size_t>(condition)] & bit_of(feature)) != 0;
-}
-
-ConditionPool::Id ConditionPool::compare(std::vector<int> features, Comparison comparison, int value) {
-    int largest = 0;
-    for (const int feature : features) largest += largest_values_[static_cast<std::size_t>(feature)];
-    if (const auto truth = decided(largest, comparison, value)) return *truth ? always : never;
-    std::sort(features.begin(), features.end());
-    return intern({Kind::compare, std::move(features), comparison, value});
+ConditionPool::Id ConditionPool::compare(std::vector<int> terms, Comparison comparison, int value) {
+    int low = 0, high = 0;
+    for (const int term : terms)
+        (term < 0 ? low : high) += (term < 0 ? -1 : 1) * largest_values_[feature_of(term)];
+    if (const auto truth = decided(low, high, comparison, value)) return *truth ? always : never;
+    std::sort(terms.begin(), terms.end());
+    return intern({Kind::compare, comparison, value, std::move(terms)});
 }
 
 ConditionPool::Id ConditionPool::negate(Id condition) {
     if (condition == never) return always;
     if (condition == always) return never;
-    const Node& node = nodes_[static_cast<std::size_t>(condition)];
-    if (node.kind == Kind::negation) return node.operands.front();
-    return intern({Kind::negation, {condition}, Comparison::equal, 0});
-}
-
-ConditionPool::Id ConditionPool::conjoin(std::vector<Id> parts) {
-    return junction(Kind::conjunction, std::move(parts));
-}
-
-ConditionPool::Id ConditionPool::disjoin(std::vector<Id> parts) {
-    return junction(Kind::disjunction, std::move(parts));
+    const Node& node = *nodes_[condition];
+    if (node.kind == Kind::negation) return static_cast<Id>(node.operands.front());
+    return intern({Kind::negation, Comparison::equal, 0, {static_cast<int>(condition)}});
 }
 
 ConditionPool::Id ConditionPool::junction(Kind kind, std::vector<Id> parts) {
@@ -101,35 +102,52 @@ ConditionPool::Id ConditionPool::junction(Kind kind, std::vector<Id> parts) {
     std::erase(parts, neutral);
     if (parts.empty()) return neutral;
     if (parts.size() == 1) return parts.front();
-    return intern({kind, std::move(parts), Comparison::equal, 0});
+    return intern({kind, Comparison::equal, 0, {parts.begin(), parts.end()}});
 }
 
 ConditionPool::Id ConditionPool::assign(Id condition, int feature, int value) {
-    if (!mentions(condition, feature)) return condition;
-    // A key has far fewer features, and a feature fewer values, than 65,536: a selection could not name them.
-    const std::uint64_t question = static_cast<std::uint64_t>(condition) << 32U |
-                                   static_cast<std::uint64_t>(feature) << 16U |
-                                   static_cast<std::uint64_t>(value);
+    if ((mentioned_[condition] & bit_of(feature)) == 0) return condition;
+    const Node& node = *nodes_[condition];
+    if (node.kind == Kind::compare) return assign_terms(node, feature, value);
+    if (std::exchange(assigned_feature_, feature) != feature) assigned_.clear();
+    const std::uint64_t question = std::uint64_t{condition} << 32U | static_cast<std::uint32_t>(value);
     if (const auto known = assigned_.find(question); known != assigned_.end()) return known->second;
-    const Node node = nodes_[static_cast<std::size_t>(condition)];  // a copy: new conditions move the nodes
-    const Id left = assign_parts(node, feature, value);
+    std::vector<Id> parts;
+    for (const int part : node.operands) parts.push_back(assign(static_cast<Id>(part), feature, value));
+    const Id left =
+        node.kind == Kind::negation ? negate(parts.front()) : junction(node.kind, std::move(parts));
     assigned_.emplace(question, left);
     return left;
 }
 
-ConditionPool::Id ConditionPool::assign_parts(const Node& node, int feature, int value) {
-    if (node.kind == Kind::compare) {
-        if (std::find(node.operands.begin(), node.operands.end(), feature) == node.operands.end())
-            return intern(node);
-        std::vector<int> open;
-        std::remove_copy(node.operands.begin(), node.operands.end(), std::back_inserter(open), feature);
-        const auto times = static_cast<int>(node.operands.size() - open.size());
-        return compare(std::move(open), node.comparison, node.value - times * value);
+ConditionPool::Id ConditionPool::assign_terms(const Node& node, int feature, int value) {
+    int sum = 0;
+    std::vector<int> open;
+    for (const int term : node.operands) {
+        if (feature_of(term) != feature)
+            open.push_back(term);
+        else
+            sum += term < 0 ? -value : value;
     }
-    std::vector<Id> parts;
-    for (const Id part : node.operands) parts.push_back(assign(part, feature, value));
-    if (node.kind == Kind::negation) return negate(parts.front());
-    return junction(node.kind, std::move(parts));
+    return compare(std::move(open), node.comparison, node.value - sum);
+}
+
+void ConditionPool::collect(Id condition, std::vector<std::vector<int>>& groups) const {
+    const Node& node = *nodes_[condition];
+    const std::size_t own = groups.size();
+    groups.emplace_back();
+    for (const int operand : node.operands) {
+        if (node.kind == Kind::compare) {
+            groups[own].push_back(feature_of(operand));
+        } else {
+            const std::size_t part = groups.size();
+            collect(static_cast<Id>(operand), groups);
+            const std::vector<int> features = groups[part];
+            groups[own].insert(groups[own].end(), features.begin(), features.end());
+        }
+    }
+    std::sort(groups[own].begin(), groups[own].end());
+    groups[own].erase(std::unique(groups[own].begin(), groups[own].end()), groups[own].end());
 }
 
 }  // namespace gobo

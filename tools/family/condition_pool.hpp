@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace gobo {
 /// Hash-consed conditions. Equal conditions have equal numbers; `never` and `always` are the two constants.
 class ConditionPool {
   public:
-    using Id = int;
+    using Id = std::uint32_t;
     static constexpr Id never = 0;
     static constexpr Id always = 1;
 
@@ -23,34 +22,40 @@ class ConditionPool {
 
     Id add(const Expression& expression);
     Id negate(Id condition);
-    Id disjoin(std::vector<Id> parts);
-    Id conjoin(std::vector<Id> parts);
-    /// The features' values added, compared with a number.
-    Id compare(std::vector<int> features, Expression::Comparison comparison, int value);
+    Id disjoin(std::vector<Id> parts) { return junction(Expression::Kind::disjunction, std::move(parts)); }
+    /// The features' values added, compared with a number. ~feature: its value is subtracted.
+    Id compare(std::vector<int> terms, Expression::Comparison comparison, int value);
 
     /// What is left of a condition once `feature` has the value. Later features are still open.
     Id assign(Id condition, int feature, int value);
 
+    /// The features that a condition looks at, and those of each of its parts that looks at several.
+    void collect(Id condition, std::vector<std::vector<int>>& groups) const;
+
+    [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+
   private:
     struct Node {
         Expression::Kind kind = Expression::Kind::constant;
-        std::vector<int> operands;  ///< compare: features; otherwise: conditions
         Expression::Comparison comparison = Expression::Comparison::equal;
         int value = 0;
-        auto operator<=>(const Node&) const = default;
+        std::vector<int> operands;  ///< compare: terms; otherwise: conditions
+        bool operator==(const Node&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Node& node) const;
     };
 
-    /// Whether the condition may depend on the feature; never false where it does.
-    [[nodiscard]] bool mentions(Id condition, int feature) const;
-    Id assign_parts(const Node& node, int feature, int value);
+    Id assign_terms(const Node& node, int feature, int value);
     Id intern(Node node);
     Id junction(Expression::Kind kind, std::vector<Id> parts);
 
     std::vector<int> largest_values_;  ///< per feature
-    std::vector<Node> nodes_;
-    std::vector<std::uint64_t> mentioned_;  ///< per node: a bit for each feature, every 64th sharing one
-    std::map<Node, Id> ids_;
-    std::unordered_map<std::uint64_t, Id> assigned_;  ///< by condition, feature and value
+    std::unordered_map<Node, Id, Hash> ids_;
+    std::vector<const Node*> nodes_;        ///< by Id: the keys of `ids_`, which never move
+    std::vector<std::uint64_t> mentioned_;  ///< by Id: a bit for each feature, every 64th sharing one
+    int assigned_feature_ = -1;
+    std::unordered_map<std::uint64_t, Id> assigned_;  ///< by condition and value of `assigned_feature_`
 };
 
 }  // namespace gobo

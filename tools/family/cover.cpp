@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <random>
-
-#include "family/open_paths.hpp"
+#include <span>
+#include <utility>
 
 namespace gobo {
 namespace {
@@ -15,100 +15,73 @@ struct Combination {
     std::vector<std::size_t> features;  ///< ascending
     std::vector<std::size_t> strides;   ///< per feature: how far its next value is in `open`
     std::vector<char> open;             ///< per tuple, in mixed radix, last feature fastest
+    std::size_t left = 0;               ///< how many are open
+    std::size_t first = 0;              ///< none before it is
 };
 
 std::size_t tuple_index(const Combination& combination, const PartialKey& key) {
     std::size_t index = 0;
     for (std::size_t i = 0; i < combination.features.size(); ++i)
-        index += combination.strides[i] * static_cast<std::size_t>(key[combination.features[i]]);
+        index += combination.strides[i] * key[combination.features[i]];
     return index;
 }
 
-/// Every set of `strength` features, with the tuples that occur in the space marked open. Walks the diagram
-/// from the root: a tuple occurs where following its values, and any values between them, leads somewhere.
+/// Every set of `strength` features, in lexicographic order, with the tuples that occur in the space open.
 class Occurrences {
   public:
-    Occurrences(const KeySpace& space, std::size_t strength) : space_(space), strength_(strength) {}
+    Occurrences(const KeySpace& space, std::size_t strength)
+        : space_(space), strength_(strength), key_(space.feature_count(), -1) {}
 
     std::vector<Combination> find() {
-        std::vector<std::size_t> features;
-        list(0, features);
-        follow(0, {1}, {}, 0);
-        return std::move(combinations_);
+        follow(OpenPaths(space_), {});
+        std::vector<Combination> combinations;
+        for (auto& [features, combination] : found_) combinations.push_back(std::move(combination));
+        return combinations;
     }
 
   private:
-    /// All sets, in lexicographic order.
-    void list(std::size_t first, std::vector<std::size_t>& features) {
-        if (features.size() == strength_) {
-            numbers_[features] = combinations_.size();
-            return combinations_.push_back(closed(features));
-        }
-        for (std::size_t feature = first; feature < space_.feature_count(); ++feature) {
-            features.push_back(feature);
-            list(feature + 1, features);
-            features.pop_back();
+    /// Chooses one more feature than those that are decided in `key_`, and its value, in every way.
+    void follow(const OpenPaths& paths, const std::vector<std::size_t>& chosen) {
+        std::vector<std::size_t> features = chosen;
+        features.push_back(0);
+        const std::size_t last = space_.feature_count() - (strength_ - features.size());
+        for (std::size_t feature = chosen.empty() ? 0 : chosen.back() + 1; feature < last; ++feature) {
+            features.back() = feature;
+            const std::vector<char> allowed = paths.allowed(feature);
+            Combination* const whole = features.size() == strength_ ? &combination(features) : nullptr;
+            for (std::size_t value = 0; value < allowed.size(); ++value) {
+                if (allowed[value] == 0) continue;
+                key_[feature] = static_cast<int>(value);
+                if (whole == nullptr) {
+                    OpenPaths further = paths;
+                    further.decide(feature, key_[feature]);
+                    follow(further, features);
+                } else if (std::exchange(whole->open[tuple_index(*whole, key_)], 1) == 0) {
+                    ++whole->left;
+                }
+            }
         }
     }
 
-    [[nodiscard]] Combination closed(const std::vector<std::size_t>& features) const {
-        Combination combination{features, std::vector<std::size_t>(features.size()), {}};
+    Combination& combination(const std::vector<std::size_t>& features) {
+        const auto [at, is_new] = found_.try_emplace(features);
+        Combination& combination = at->second;
+        if (!is_new) return combination;
+        combination.features = features;
+        combination.strides.resize(features.size());
         std::size_t tuples = 1;
         for (std::size_t i = features.size(); i-- > 0;) {
             combination.strides[i] = tuples;
-            tuples *= static_cast<std::size_t>(space_.value_count(features[i]));
+            tuples *= space_.value_count(features[i]);
         }
         combination.open.assign(tuples, 0);
         return combination;
     }
 
-    /// Nodes of the next level that `nodes` lead to by a value, or by any.
-    [[nodiscard]] std::vector<char> step(std::size_t level, const std::vector<char>& nodes, int value) const {
-        std::vector<char> reached(space_.level(level + 1).size(), 0);
-        for (std::size_t node = 0; node < nodes.size(); ++node) {
-            if (nodes[node] == 0) continue;
-            const std::vector<int>& next = space_.level(level)[node].next;
-            const std::size_t first = value < 0 ? 0 : static_cast<std::size_t>(value);
-            const std::size_t end = value < 0 ? next.size() : first + 1;
-            for (std::size_t at = first; at < end; ++at)
-                if (next[at] != KeySpace::dead) reached[static_cast<std::size_t>(next[at])] = 1;
-        }
-        return reached;
-    }
-
-    /// Chooses the next feature of a tuple, and its value, in every way. `nodes` are those of `level` that
-    /// the values chosen so far lead to.
-    void follow(std::size_t level, std::vector<char> nodes, const std::vector<std::size_t>& features,
-                std::size_t tuple) {
-        for (; level < space_.feature_count(); ++level) {
-            std::vector<std::size_t> chosen = features;
-            chosen.push_back(level);
-            if (space_.feature_count() - level >= strength_ - features.size())
-                take(level, nodes, chosen, tuple);
-            nodes = step(level, nodes, -1);
-        }
-    }
-
-    void take(std::size_t level, const std::vector<char>& nodes, const std::vector<std::size_t>& chosen,
-              std::size_t tuple) {
-        const auto values = static_cast<std::size_t>(space_.value_count(level));
-        const bool is_last = chosen.size() == strength_;
-        Combination* combination = is_last ? &combinations_[numbers_.at(chosen)] : nullptr;
-        for (std::size_t value = 0; value < values; ++value) {
-            const std::vector<char> reached = step(level, nodes, static_cast<int>(value));
-            if (std::find(reached.begin(), reached.end(), 1) == reached.end()) continue;
-            const std::size_t next = tuple * values + value;
-            if (is_last)
-                combination->open[next] = 1;
-            else
-                follow(level + 1, reached, chosen, next);
-        }
-    }
-
     const KeySpace& space_;
     std::size_t strength_;
-    std::vector<Combination> combinations_;
-    std::map<std::vector<std::size_t>, std::size_t> numbers_;
+    PartialKey key_;
+    std::map<std::vector<std::size_t>, Combination> found_;
 };
 
 class Coverer {
@@ -127,9 +100,12 @@ class Coverer {
         std::vector<Key> keys;
         PartialKey start;
         while (next_start(start)) {
+            OpenPaths paths = nothing_decided_;
+            for (std::size_t i = 0; i < start.size(); ++i)
+                if (start[i] >= 0) paths.decide(i, start[i]);
             Attempt best;
             for (int i = 0; i < attempts; ++i) {
-                Attempt attempt = complete(start);
+                Attempt attempt = complete(start, paths);
                 if (best.key.empty() || attempt.gain > best.gain) best = std::move(attempt);
             }
             mark(best.key);
@@ -152,10 +128,10 @@ class Coverer {
     /// The first tuple still open, as a key to start from. Combinations before the cursor hold none.
     bool next_start(PartialKey& start) {
         for (; cursor_ < combinations_.size(); ++cursor_) {
-            const Combination& combination = combinations_[cursor_];
-            const auto open = std::find(combination.open.begin(), combination.open.end(), 1);
-            if (open == combination.open.end()) continue;
-            auto index = static_cast<std::size_t>(open - combination.open.begin());
+            Combination& combination = combinations_[cursor_];
+            if (combination.left == 0) continue;
+            while (combination.open[combination.first] == 0) ++combination.first;
+            std::size_t index = combination.first;
             start.assign(space_.feature_count(), -1);
             for (std::size_t i = 0; i < combination.features.size(); ++i) {
                 start[combination.features[i]] = static_cast<int>(index / combination.strides[i]);
@@ -166,16 +142,11 @@ class Coverer {
         return false;
     }
 
-    Attempt complete(const PartialKey& start) {
+    Attempt complete(const PartialKey& start, OpenPaths paths) {
         Attempt attempt{start, 0};
-        OpenPaths paths = nothing_decided_;
         std::vector<std::size_t> order;
-        for (std::size_t i = 0; i < start.size(); ++i) {
-            if (start[i] < 0)
-                order.push_back(i);
-            else
-                paths.decide(i, start[i]);
-        }
+        for (std::size_t i = 0; i < start.size(); ++i)
+            if (start[i] < 0) order.push_back(i);
         for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random_() % i]);
         for (const std::size_t feature : order) {
             attempt.gain += decide_best(attempt.key, feature, paths);
@@ -203,7 +174,7 @@ class Coverer {
 
     /// Per value of the feature: how many open tuples it makes up with what is decided already.
     [[nodiscard]] std::vector<std::size_t> gains_of(const PartialKey& key, std::size_t feature) const {
-        std::vector<std::size_t> gains(static_cast<std::size_t>(space_.value_count(feature)), 0);
+        std::vector<std::size_t> gains(space_.value_count(feature), 0);
         for (const auto& [number, place] : touching_[feature]) {
             const Combination& combination = combinations_[number];
             std::size_t index = 0;
@@ -212,7 +183,7 @@ class Coverer {
                 if (i == place) continue;
                 const int value = key[combination.features[i]];
                 is_decided = value >= 0;
-                index += combination.strides[i] * static_cast<std::size_t>(value);
+                index += combination.strides[i] * value;
             }
             if (!is_decided) continue;
             for (std::size_t value = 0; value < gains.size(); ++value)
@@ -221,8 +192,16 @@ class Coverer {
         return gains;
     }
 
+    /// Combinations of which nothing is open any more are left out of all further sums.
     void mark(const Key& key) {
-        for (Combination& combination : combinations_) combination.open[tuple_index(combination, key)] = 0;
+        for (std::size_t number = cursor_; number < combinations_.size(); ++number) {
+            Combination& combination = combinations_[number];
+            if (std::exchange(combination.open[tuple_index(combination, key)], 0) == 0) continue;
+            if (--combination.left > 0) continue;
+            for (const std::size_t feature : combination.features)
+                std::erase_if(touching_[feature],
+                              [&](const Touch& touch) { return touch.combination == number; });
+        }
     }
 
     /// A combination that names a feature, and which of its features that is.

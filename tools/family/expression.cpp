@@ -72,11 +72,13 @@ class Parser {
         expression.kind = Expression::Kind::compare;
         expression.features = sum();
         expression.comparison = comparison();
-        if (!error_) check_kinds(expression);
-        if (!error_ && is_count(expression.features.front()) && next_is_count()) {
-            return compare_sums(expression, sum());
+        if (!error_) check_kinds(expression.features, expression.comparison);
+        if (!error_ && features_[expression.features.front()].kind == FeatureKind::count && next_is_count()) {
+            expression.subtracted = sum();
+            if (!error_) check_kinds(expression.subtracted, expression.comparison);
+        } else if (!error_) {
+            expression.value = value(features_[expression.features.front()]);
         }
-        if (!error_) expression.value = value(expression);
         return expression;
     }
 
@@ -89,51 +91,25 @@ class Parser {
         return features;
     }
 
-    [[nodiscard]] bool is_count(int feature) const {
-        return features_[static_cast<std::size_t>(feature)].kind == FeatureKind::count;
-    }
-
     /// Whether a count's name follows, which is left to be read.
     bool next_is_count() {
         skip_blanks();
-        std::size_t end = at_;
-        while (end < text_.size() && is_identifier_part(text_[end])) ++end;
-        const std::string_view name = text_.substr(at_, end - at_);
-        return std::any_of(features_.begin(), features_.end(),
-                           [&](const Feature& f) { return f.kind == FeatureKind::count && f.name == name; });
+        const auto index = index_of(features_, identifier());
+        return index && features_[*index].kind == FeatureKind::count;
     }
 
-    /// `left op right` as what it is for each value of the right sum: right == v && left op v, for some v.
-    Expression compare_sums(Expression left, std::vector<int> right) {
-        Expression equals;
-        equals.kind = Expression::Kind::compare;
-        equals.features = std::move(right);
-        if (!error_) check_kinds(equals);
-        Expression any;
-        any.kind = Expression::Kind::disjunction;
-        int largest = 0;
-        for (const int index : equals.features)
-            largest += static_cast<int>(features_[static_cast<std::size_t>(index)].values.size()) - 1;
-        for (int value = 0; value <= largest; ++value) {
-            equals.value = left.value = value;
-            Expression both;
-            both.kind = Expression::Kind::conjunction;
-            both.parts = {std::make_shared<const Expression>(equals),
-                          std::make_shared<const Expression>(left)};
-            any.parts.push_back(std::make_shared<const Expression>(std::move(both)));
-        }
-        return any;
+    /// What follows, up to the next character that no name has.
+    [[nodiscard]] std::string_view identifier() const {
+        const std::string_view rest = text_.substr(at_);
+        const auto end = std::find_if_not(rest.begin(), rest.end(), is_identifier_part);
+        return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
     }
 
     int feature() {
         const std::string name(word("a feature's name"));
         if (error_) return 0;
-        const auto found = std::find_if(features_.begin(), features_.end(),
-                                        [&](const Feature& f) { return f.name == name; });
-        if (found != features_.end()) return static_cast<int>(found - features_.begin());
-        std::vector<std::string> names;
-        for (const Feature& known : features_) names.push_back(known.name);
-        error(fmt::format("unknown feature '{}'", name), suggestion(name, names), at_ - name.size());
+        if (const auto index = index_of(features_, name)) return *index;
+        error(fmt::format("unknown feature '{}'", name), help_for(features_, name), at_ - name.size());
         return 0;
     }
 
@@ -148,13 +124,12 @@ class Parser {
         return Comparison::equal;
     }
 
-    void check_kinds(const Expression& expression) {
-        const bool equality =
-            expression.comparison == Comparison::equal || expression.comparison == Comparison::not_equal;
-        for (const int index : expression.features) {
-            const Feature& feature = features_[static_cast<std::size_t>(index)];
+    void check_kinds(const std::vector<int>& summands, Comparison comparison) {
+        const bool equality = comparison == Comparison::equal || comparison == Comparison::not_equal;
+        for (const int index : summands) {
+            const Feature& feature = features_[index];
             if (feature.kind == FeatureKind::count) continue;
-            if (expression.features.size() > 1) {
+            if (summands.size() > 1) {
                 error(fmt::format("'{}' is no count and cannot be added", feature.name), "add counts only");
             } else if (!equality) {
                 error(fmt::format("'{}' is no count and has no order", feature.name),
@@ -163,14 +138,13 @@ class Parser {
         }
     }
 
-    int value(const Expression& expression) {
-        const Feature& feature = features_[static_cast<std::size_t>(expression.features.front())];
+    int value(const Feature& feature) {
         const std::string text(word("a value"));
         if (error_) return 0;
         if (feature.kind != FeatureKind::count) {
             if (const auto index = feature.index_of(text)) return *index;
-            error(fmt::format("feature '{}' has no value '{}'", feature.name, text),
-                  suggestion(text, feature.values), at_ - text.size());
+            error(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
+                  at_ - text.size());
             return 0;
         }
         int number = 0;
@@ -183,11 +157,11 @@ class Parser {
 
     std::string_view word(std::string_view what) {
         skip_blanks();
-        const std::size_t start = at_;
-        while (at_ < text_.size() && is_identifier_part(text_[at_])) ++at_;
-        if (at_ == start)
+        const std::string_view found = identifier();
+        at_ += found.size();
+        if (found.empty())
             error(fmt::format("expected {}", what), "a condition reads like 'fog == linear && point <= 2'");
-        return text_.substr(start, at_ - start);
+        return found;
     }
 
     bool accepts(std::string_view symbol) {
@@ -255,7 +229,8 @@ bool holds(const Expression& expression, const std::vector<int>& key) {
             return expression.constant;
         case Expression::Kind::compare: {
             int sum = 0;
-            for (const int feature : expression.features) sum += key[static_cast<std::size_t>(feature)];
+            for (const int feature : expression.features) sum += key[feature];
+            for (const int feature : expression.subtracted) sum -= key[feature];
             return compare(sum, expression.comparison, expression.value);
         }
         case Expression::Kind::conjunction:

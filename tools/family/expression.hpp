@@ -26,6 +26,7 @@ struct Expression {
     Kind kind = Kind::constant;
     bool constant = true;                       ///< constant
     std::vector<int> features;                  ///< compare: the features whose values are added
+    std::vector<int> subtracted;                ///< compare: those whose values are taken off that sum
     Comparison comparison = Comparison::equal;  ///< compare
     int value = 0;                              ///< compare: a count, or the index of a choice's value
     std::vector<std::shared_ptr<const Expression>> parts;  ///< conjunction, disjunction, negation

@@ -1,9 +1,7 @@
 // The data model of a family: a set of shaders that share templates. Read from a TOML file by read_family().
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,17 +32,26 @@ struct Feature {
     std::vector<std::string>
         values;             ///< the default, then the others as the family lists them. Counts: "0", ...
     int default_place = 0;  ///< where the family's list has the default: 0 unless it names another
-    std::vector<std::string> retired;  ///< values that measurement has shown to be dominated
+    std::vector<std::string> excluded;  ///< values that only keys which name them have
     std::string macro;      ///< the constant of a count or the macro of a define; empty for a choice
     Place place;            ///< where the family declares it
     std::string enum_name;  ///< of a choice in generated headers; empty: its own in PascalCase
 
+    std::vector<std::string> old_names;             ///< by which it went before
+    std::map<std::string, std::string> old_values;  ///< a name by which a value went before: its name now
+
     /// The index of a value; nothing where there is no such value.
     [[nodiscard]] std::optional<int> index_of(std::string_view value) const;
+    /// What to write where there is no such value.
+    [[nodiscard]] std::string help_for(std::string_view value) const;
 
     /// The indices of the values as the family lists them: most accurate first where the role is quality.
     [[nodiscard]] std::vector<int> listed() const;
 };
+
+[[nodiscard]] std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name);
+/// What to write where there is no such feature.
+[[nodiscard]] std::string help_for(const std::vector<Feature>& features, std::string_view name);
 
 /// What the family demands of its keys.
 struct Rule {
@@ -67,13 +74,13 @@ struct Varying {
     std::string name;  ///< the GLSL identifier
     std::string type;  ///< the GLSL type
     int location = 0;  ///< of a single varying
-    /// Of a counted one, an array, the counts whose sum is how many values it holds; it lies behind all single
-    /// ones that are read, and `location` is 0. Empty: it is single.
+    /// Of a counted one, an array, the counts whose sum is how many values it holds; it lies behind all
+    /// single ones that are read, and `location` is 0. Empty: it is single.
     std::vector<int> counts;
     int values_per_element = 1;  ///< of a counted one: a vec4 may hold the values of four
-    std::string interpolation;  ///< "flat", "noperspective", "smooth", or empty
-    std::string piece;          ///< the piece that the vertex stage includes for it
-    std::string value;          ///< the GLSL expression that the vertex stage writes
+    std::string interpolation;   ///< "flat", "noperspective", "smooth", or empty
+    std::string piece;           ///< the piece that the vertex stage includes for it
+    std::string value;           ///< the GLSL expression that the vertex stage writes
     Place place;
 };
 
@@ -133,7 +140,6 @@ struct DefaultSelection {
 struct Family {
     std::string name;
     std::string path;      ///< of the family file, as given
-    std::string folder;    ///< where its templates are searched after the -I folders
     std::string vertex;    ///< template, by its include path; empty where loose files give no vertex stage
     std::string fragment;  ///< likewise
     std::vector<Feature> features;  ///< sorted by name
@@ -144,7 +150,9 @@ struct Family {
     std::vector<Relation> relations;  ///< in the order of the file
     std::optional<DefaultSelection> default_selection;
 
-    [[nodiscard]] std::optional<int> index_of(std::string_view feature) const;
+    [[nodiscard]] std::optional<int> index_of(std::string_view feature) const {
+        return gobo::index_of(features, feature);
+    }
 };
 
 /// One value per feature of a family: the index of the value, in the order of Family::features.

@@ -1,46 +1,14 @@
 #include "family/key.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/text.hpp"
 
 namespace gobo {
-namespace {
-
-std::vector<std::string> feature_names(const Family& family) {
-    std::vector<std::string> names;
-    for (const Feature& feature : family.features) names.push_back(feature.name);
-    return names;
-}
-
-tl::unexpected<Diagnostics> key_error(const Place& place, std::string_view text, std::string message,
-                                      std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.fault = Fault::usage;
-    diagnostic.place = place;
-    if (!place.file.empty()) diagnostic.quoted_line = text;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return fail(std::move(diagnostic));
-}
-
-std::string values_help(const Feature& feature, std::string_view value) {
-    if (feature.kind == FeatureKind::count)
-        return fmt::format("a whole number from 0 to {}", feature.values.back());
-    return suggestion(value, feature.values);
-}
-
-/// A value that is not the default where there is one.
-std::string example_of(const Feature& feature) {
-    return feature.name + "=" + feature.values[std::min<std::size_t>(1, feature.values.size() - 1)];
-}
-
-}  // namespace
-
 std::optional<int> Feature::index_of(std::string_view value) const {
     const auto found = std::find(values.begin(), values.end(), value);
     if (found == values.end()) return std::nullopt;
@@ -55,11 +23,28 @@ std::vector<int> Feature::listed() const {
     return order;
 }
 
-std::optional<int> Family::index_of(std::string_view feature) const {
-    const auto found =
-        std::find_if(features.begin(), features.end(), [&](const Feature& f) { return f.name == feature; });
+std::string Feature::help_for(std::string_view value) const {
+    if (const auto now = old_values.find(std::string(value)); now != old_values.end())
+        return fmt::format("'{}' is now '{}'", value, now->second);
+    if (kind == FeatureKind::count) return fmt::format("a whole number from 0 to {}", values.back());
+    return suggestion(value, values);
+}
+
+std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name) {
+    const auto found = std::find_if(features.begin(), features.end(),
+                                    [&](const Feature& feature) { return feature.name == name; });
     if (found == features.end()) return std::nullopt;
     return static_cast<int>(found - features.begin());
+}
+
+std::string help_for(const std::vector<Feature>& features, std::string_view name) {
+    std::vector<std::string> names;
+    for (const Feature& feature : features) {
+        names.push_back(feature.name);
+        if (std::find(feature.old_names.begin(), feature.old_names.end(), name) != feature.old_names.end())
+            return fmt::format("'{}' is now '{}'", name, feature.name);
+    }
+    return suggestion(name, names);
 }
 
 Key default_key(const Family& family) {
@@ -68,16 +53,23 @@ Key default_key(const Family& family) {
 
 std::string key_text(const Family& family, const Key& key) {
     std::string text;
-    for (std::size_t i = 0; i < key.size(); ++i) {
-        if (key[i] == 0) continue;
-        const Feature& feature = family.features[i];
-        if (!text.empty()) text += ' ';
-        text += feature.name + '=' + feature.values[static_cast<std::size_t>(key[i])];
-    }
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (key[i] != 0)
+            text +=
+                (text.empty() ? "" : " ") + family.features[i].name + '=' + family.features[i].values[key[i]];
     return text.empty() ? "default" : text;
 }
 
 Result<Key> parse_key(const Family& family, std::string_view text, const Place& place) {
+    const auto refuse = [&](std::string message, std::string help) {
+        Diagnostic diagnostic;
+        diagnostic.fault = Fault::usage;
+        diagnostic.place = place;
+        if (!place.file.empty()) diagnostic.quoted_line = text;
+        diagnostic.message = std::move(message);
+        diagnostic.help = std::move(help);
+        return fail(std::move(diagnostic));
+    };
     Key key = default_key(family);
     std::vector<bool> named(key.size(), false);
     std::string blanks_folded(trim(text));
@@ -87,31 +79,28 @@ Result<Key> parse_key(const Family& family, std::string_view text, const Place& 
     for (const std::string& word : split(blanks_folded, ' ')) {
         const auto equals = word.find('=');
         if (equals == std::string::npos) {
-            return key_error(
-                place, text, fmt::format("'{}' is not of the form feature=value", word),
-                fmt::format("write a key like '{}'",
-                            family.features.empty() ? "default" : example_of(family.features[0])));
+            std::string example = "default";
+            if (!family.features.empty())  // not the default, where there is another value
+                example =
+                    fmt::format("{}={}", family.features[0].name,
+                                family.features[0].values[family.features[0].values.size() > 1 ? 1 : 0]);
+            return refuse(fmt::format("'{}' is not of the form feature=value", word),
+                          fmt::format("write a key like '{}'", example));
         }
-        const std::string name = word.substr(0, equals);
-        const std::string value = word.substr(equals + 1);
+        const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
         const auto index = family.index_of(name);
-        if (!index) {
-            return key_error(place, text, fmt::format("family '{}' has no feature '{}'", family.name, name),
-                             suggestion(name, feature_names(family)));
-        }
-        const Feature& feature = family.features[static_cast<std::size_t>(*index)];
+        if (!index)
+            return refuse(fmt::format("family '{}' has no feature '{}'", family.name, name),
+                          help_for(family.features, name));
+        const Feature& feature = family.features[*index];
         const auto found = feature.index_of(value);
-        if (!found) {
-            return key_error(place, text, fmt::format("feature '{}' has no value '{}'", name, value),
-                             values_help(feature, value));
-        }
-        const auto at = static_cast<std::size_t>(*index);
-        if (named[at]) {
-            return key_error(place, text, fmt::format("feature '{}' is named twice", name),
-                             "name each feature once");
-        }
-        named[at] = true;
-        key[at] = *found;
+        if (!found)
+            return refuse(fmt::format("feature '{}' has no value '{}'", name, value),
+                          feature.help_for(value));
+        if (named[*index])
+            return refuse(fmt::format("feature '{}' is named twice", name), "name each feature once");
+        named[*index] = true;
+        key[*index] = *found;
     }
     return key;
 }
@@ -122,28 +111,42 @@ bool applies_in(const Rule& rule, std::string_view dialect) {
 }
 
 Key canonical(const Family& family, Key key, std::string_view dialect) {
-    bool changed = true;
-    while (changed) {
+    for (bool changed = true; changed;) {
         changed = false;
         for (const Rule& rule : family.rules) {
             if (rule.kind != Rule::Kind::defaults || !applies_in(rule, dialect) || !holds(rule.when, key))
                 continue;
-            for (const int feature : rule.defaults) {
-                int& value = key[static_cast<std::size_t>(feature)];
-                changed = changed || value != 0;
-                value = 0;
-            }
+            for (const int feature : rule.defaults) changed |= std::exchange(key[feature], 0) != 0;
         }
     }
     return key;
 }
 
 const Rule* forbidding_rule(const Family& family, const Key& key, std::string_view dialect) {
-    for (const Rule& rule : family.rules) {
+    for (const Rule& rule : family.rules)
         if (rule.kind == Rule::Kind::forbid && applies_in(rule, dialect) && holds(rule.when, key))
             return &rule;
-    }
     return nullptr;
+}
+
+void DiagnosticGroups::add(const Diagnostic& diagnostic, const Key& key) {
+    const auto identity = std::tuple(diagnostic.place.file, diagnostic.place.line, diagnostic.message);
+    const auto [position, is_new] = positions_.try_emplace(identity, groups_.size());
+    if (is_new) groups_.push_back({diagnostic, &key, nullptr, 0});
+    Group& group = groups_[position->second];
+    if (std::exchange(group.last, &key) != &key) ++group.keys;
+}
+
+Diagnostics DiagnosticGroups::result() const {
+    Diagnostics diagnostics;
+    for (const Group& group : groups_) {
+        diagnostics.push_back(group.diagnostic);
+        std::string& subject = diagnostics.back().subject;
+        subject = key_text(family_, *group.first);
+        if (group.keys > 1)
+            subject += fmt::format(", and {} more key{}", group.keys - 1, group.keys == 2 ? "" : "s");
+    }
+    return diagnostics;
 }
 
 }  // namespace gobo

@@ -1,8 +1,11 @@
-// Keys as text, and their canonical form.
+// Keys as text, their canonical form, and messages about them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <vector>
 
 #include "family/family.hpp"
 
@@ -27,5 +30,28 @@ namespace gobo {
 
 /// Whether a rule holds in a dialect: one of 450, 330, es300.
 [[nodiscard]] bool applies_in(const Rule& rule, std::string_view dialect);
+
+/// Groups diagnostics over permutations: one per place and text, its subject the first key and how many more
+/// there are. The keys and the family must outlive it.
+class DiagnosticGroups {
+  public:
+    explicit DiagnosticGroups(const Family& family) : family_(family) {}
+
+    /// Both stages of a permutation may say the same: a key counts once in a row.
+    void add(const Diagnostic& diagnostic, const Key& key);
+    /// In the order in which they were first added.
+    [[nodiscard]] Diagnostics result() const;
+
+  private:
+    struct Group {
+        Diagnostic diagnostic;
+        const Key* first = nullptr;
+        const Key* last = nullptr;
+        int keys = 0;
+    };
+    const Family& family_;
+    std::map<std::tuple<std::string, int, std::string>, std::size_t> positions_;
+    std::vector<Group> groups_;
+};
 
 }  // namespace gobo

@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
+#include <unordered_map>
 
+#include <fmt/format.h>
+
+#include "core/random.hpp"
 #include "family/condition_pool.hpp"
 #include "family/key.hpp"
 
@@ -13,39 +19,80 @@ namespace {
 using Id = ConditionPool::Id;
 using Comparison = Expression::Comparison;
 
-/// The conditions that make a key canonical and valid: every default rule already fulfilled, no forbid rule
-/// met.
-std::vector<Id> conditions_of_rules(const Family& family, std::string_view dialect, ConditionPool& pool) {
-    std::vector<Id> conditions;
-    for (const Rule& rule : family.rules) {
-        if (!applies_in(rule, dialect)) continue;
-        const Id does_not_apply = pool.negate(pool.add(rule.when));
-        if (rule.kind == Rule::Kind::forbid) conditions.push_back(does_not_apply);
-        for (const int feature : rule.defaults) {
-            conditions.push_back(
-                pool.disjoin({does_not_apply, pool.compare({feature}, Comparison::equal, 0)}));
+/// What every key must meet, and which rule says so.
+struct Demand {
+    Id condition = ConditionPool::always;
+    const Rule* rule = nullptr;  ///< nullptr: a limit of the selection
+    std::vector<int> features;   ///< that it looks at
+    std::size_t first = 0;       ///< the level of the first of them
+    std::size_t last = 0;        ///< and of the last
+};
+
+/// Moves the features of a group close together: each to the middle of its groups' middles, again and again
+/// (Aloul, Markov, Sakallah: FORCE, GLSVLSI 2003). Features that may have one value only go to the front,
+/// where they cost nothing.
+std::vector<int> ordered(std::vector<int> order, const std::vector<char>& is_fixed,
+                         const std::vector<std::vector<int>>& groups) {
+    constexpr int rounds = 20;
+    std::vector<double> position(order.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = static_cast<double>(i);
+        std::vector<double> pulled(order.size(), 0), pulls(order.size(), 0);
+        for (const std::vector<int>& group : groups) {
+            double middle = 0;
+            for (const int feature : group) middle += position[feature] / static_cast<double>(group.size());
+            for (const int feature : group) {
+                pulled[feature] += middle;
+                ++pulls[feature];
+            }
         }
+        for (std::size_t i = 0; i < order.size(); ++i)
+            if (pulls[i] > 0) position[i] = pulled[i] / pulls[i];
+        std::ranges::stable_sort(order, {}, [&](int feature) { return position[feature]; });
     }
-    return conditions;
+    std::stable_partition(order.begin(), order.end(), [&](int feature) { return is_fixed[feature] != 0; });
+    return order;
 }
 
-std::vector<Id> conditions_of_limits(const Family& family, const KeySpaceLimits& limits,
-                                     ConditionPool& pool) {
-    std::vector<Id> conditions;
-    for (const Expression& condition : limits.where) conditions.push_back(pool.add(condition));
-    for (std::size_t i = 0; i < family.features.size(); ++i) {
-        const Feature& feature = family.features[i];
-        const auto index = static_cast<int>(i);
-        const bool varies = limits.over.empty() ||
-                            std::find(limits.over.begin(), limits.over.end(), index) != limits.over.end();
-        if (!varies) conditions.push_back(pool.compare({index}, Comparison::equal, 0));
-        if (limits.retired) continue;
-        for (const std::string& value : feature.retired) {
-            conditions.push_back(
-                pool.compare({index}, Comparison::not_equal, feature.index_of(value).value_or(-1)));
-        }
+struct HashOfIds {
+    std::size_t operator()(const std::vector<Id>& ids) const {
+        std::size_t hash = ids.size();
+        for (const Id id : ids) hash = (hash ^ (hash >> 29U)) * 0xBF58476D1CE4E5B9U + id;
+        return hash ^ (hash >> 32U);
     }
-    return conditions;
+};
+
+/// What is left of the demands that are open at a level, in their order: a node before merging.
+using State = std::vector<Id>;
+using States = std::unordered_map<State, int, HashOfIds>;
+
+/// Names the rules that tell most of a level's states apart.
+tl::unexpected<Diagnostics> too_large(const Family& family, const std::vector<const Demand*>& open,
+                                      const States& states) {
+    std::map<const Rule*, std::size_t> kinds;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        std::set<Id> left;
+        for (const auto& [state, node] : states) left.insert(state[i]);
+        kinds[open[i]->rule] = std::max(kinds[open[i]->rule], left.size());
+    }
+    std::vector<std::pair<std::size_t, const Rule*>> rules;
+    for (const auto& [rule, count] : kinds) rules.emplace_back(count, rule);
+    const auto place_of = [](const Rule* rule) { return rule == nullptr ? Place{} : rule->place; };
+    std::sort(rules.begin(), rules.end(), [&](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : place_of(a.second).line < place_of(b.second).line;
+    });
+    constexpr std::size_t most_named = 3;
+    std::string names;
+    for (const auto& [count, rule] : std::span(rules).first(std::min(rules.size(), most_named)))
+        names += (names.empty() ? "" : ", ") +
+                 (rule == nullptr ? "the --where" : fmt::format("{}:{}", rule->place.file, rule->place.line));
+    if (rules.size() > most_named) names += fmt::format(" and {} more", rules.size() - most_named);
+    Diagnostic diagnostic;
+    if (!rules.empty()) diagnostic.place = place_of(rules.front().second);
+    diagnostic.message = fmt::format(
+        "the conditions of family '{}' tie too many values together to count or cover its keys", family.name);
+    diagnostic.help = fmt::format("simplify {}, or vary fewer features with --over", names);
+    return fail(std::move(diagnostic));
 }
 
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
@@ -53,71 +100,198 @@ std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
     return a > most - b ? most : a + b;
 }
 
-/// Builds the diagram from the root down; a node is made once everything below it is known to be no dead end.
-template <class Node>
-class Builder {
-  public:
-    Builder(ConditionPool& pool, const std::vector<int>& value_counts, std::vector<std::vector<Node>>& levels,
-            int dead)
-        : pool_(pool),
-          value_counts_(value_counts),
-          levels_(levels),
-          dead_(dead),
-          known_(value_counts.size()),
-          made_(value_counts.size()) {}
+}  // namespace
 
-    /// The node of `level` for these open conditions (their conjunction as one), or dead.
-    int build(std::size_t level, Id open) {
-        if (open == ConditionPool::never) return dead_;
-        if (level == value_counts_.size()) return 0;
-        if (const auto found = known_[level].find(open); found != known_[level].end()) return found->second;
-        Node node;
-        for (int value = 0; value < value_counts_[level]; ++value) {
-            node.next.push_back(build(level + 1, pool_.assign(open, static_cast<int>(level), value)));
+/// Builds the diagram of one family level by level.
+class KeySpace::Builder {
+  public:
+    Builder(const Family& family, std::string_view dialect, const KeySpaceLimits& limits)
+        : family_(family), pool_(family.features) {
+        for (const Feature& feature : family.features) allowed_.emplace_back(feature.values.size(), 1);
+        for (const Rule& rule : family.rules) {
+            if (!applies_in(rule, dialect)) continue;
+            if (rule.kind == Rule::Kind::forbid) demand(rule.when, false, ConditionPool::never, &rule);
+            // What a default rule asks is already so.
+            for (const int feature : rule.defaults)
+                demand(rule.when, false, pool_.compare({feature}, Comparison::equal, 0), &rule);
         }
-        int index = dead_;
-        if (std::any_of(node.next.begin(), node.next.end(), [&](int next) { return next != dead_; })) {
-            const auto [same, is_new] =
-                made_[level].try_emplace(node.next, static_cast<int>(levels_[level].size()));
-            index = same->second;
-            if (is_new) levels_[level].push_back(std::move(node));
+        for (const Expression& condition : limits.where)
+            demand(condition, true, ConditionPool::never, nullptr);
+        for (int i = 0; i < std::ssize(family.features); ++i) {
+            const Feature& feature = family.features[i];
+            if (!limits.over.empty() && std::ranges::find(limits.over, i) == limits.over.end())
+                std::fill(allowed_[i].begin() + 1, allowed_[i].end(), 0);
+            if (!limits.excluded)
+                for (const std::string& value : feature.excluded)
+                    allowed_[i][feature.index_of(value).value()] = 0;
         }
-        known_[level].emplace(open, index);
-        return index;
+        for (const std::vector<char>& values : allowed_)
+            is_fixed_.push_back(std::ranges::count(values, 1) <= 1 ? 1 : 0);
+        for (std::vector<int>& group : groups_)
+            std::erase_if(group, [&](int feature) { return is_fixed_[feature] != 0; });
+        std::erase_if(groups_, [](const std::vector<int>& group) { return group.size() < 2; });
+    }
+
+    /// How small a diagram is depends on the order of its levels, and no rule tells a good one: of several,
+    /// the first that needs few nodes is taken, then the first that needs not too many.
+    Result<KeySpace> build() {
+        constexpr int orders = 8;
+        std::vector<int> natural(family_.features.size());
+        std::iota(natural.begin(), natural.end(), 0);
+        for (const std::size_t fraction : {32U, 8U}) {
+            Random random(1);
+            std::vector<int> order = natural;
+            for (int i = 0; i < orders; ++i) {
+                if (Result<KeySpace> space = build(order, fraction)) return space;
+                for (std::size_t k = order.size(); k > 1; --k)
+                    std::swap(order[k - 1], order[random.bits() % k]);
+            }
+        }
+        return build(natural, 1);
     }
 
   private:
-    ConditionPool& pool_;
-    const std::vector<int>& value_counts_;
-    std::vector<std::vector<Node>>& levels_;
-    int dead_;
-    std::vector<std::map<Id, int>> known_;               ///< per level: nodes by their open conditions
-    std::vector<std::map<std::vector<int>, int>> made_;  ///< per level: nodes by where they lead
+    /// That the expression be true (or false), or else `otherwise` hold. In small parts: `a && b` is demanded
+    /// as a and as b, the negation of `a || b` as that of each, so that no part is open for longer than its
+    /// own features ask.
+    void demand(const Expression& expression, bool truth, Id otherwise, const Rule* rule) {
+        using Kind = Expression::Kind;
+        if (expression.kind == Kind::negation)
+            return demand(*expression.parts.front(), !truth, otherwise, rule);
+        if (expression.kind == (truth ? Kind::conjunction : Kind::disjunction)) {
+            for (const auto& part : expression.parts) demand(*part, truth, otherwise, rule);
+            return;
+        }
+        Id condition = pool_.add(expression);
+        condition = pool_.disjoin({truth ? condition : pool_.negate(condition), otherwise});
+        is_empty_ = is_empty_ || condition == ConditionPool::never;
+        const auto is_it = [&](const Demand& known) { return known.condition == condition; };
+        if (std::ranges::any_of(demands_, is_it)) return;
+        const std::size_t own = groups_.size();
+        pool_.collect(condition, groups_);
+        if (groups_[own].size() > 1) {
+            demands_.push_back({condition, rule, groups_[own]});
+            return;
+        }
+        for (const int feature : groups_[own])  // one alone: what it may be is known at once
+            for (int value = 0; value < std::ssize(allowed_[feature]); ++value)
+                if (pool_.assign(condition, feature, value) == ConditionPool::never)
+                    allowed_[feature][value] = 0;
+    }
+
+    /// Errors where it takes more than the fraction of kMostNodes and kMostBranches.
+    Result<KeySpace> build(const std::vector<int>& start, std::size_t fraction) {
+        KeySpace space;
+        space.feature_at_ = ordered(start, is_fixed_, groups_);
+        std::vector<std::size_t> level_of(start.size());
+        for (std::size_t level = 0; level < start.size(); ++level) level_of[space.feature_at_[level]] = level;
+        for (const std::vector<char>& values : allowed_) space.value_counts_.push_back(values.size());
+        for (Demand& demand : demands_) {
+            const auto [first, last] =
+                std::ranges::minmax(demand.features, {}, [&](int feature) { return level_of[feature]; });
+            demand.first = level_of[first];
+            demand.last = level_of[last];
+        }
+        std::vector<const Demand*> open;
+        States states;
+        if (!is_empty_) states.emplace(State{}, 0);
+        const std::size_t known_conditions = pool_.size();
+        std::size_t nodes = 0, branches = 0;
+        for (std::size_t level = 0; level < start.size(); ++level) {
+            nodes += states.size();
+            branches += states.size() * space.value_counts_[space.feature_at_[level]];
+            if (nodes + pool_.size() - known_conditions > kMostNodes / fraction ||
+                branches > kMostBranches / fraction)
+                return too_large(family_, open, states);
+            space.node_counts_.push_back(states.size());
+            states = follow(space, level, open, states);
+            std::erase_if(open, [&](const Demand* demand) { return demand->last <= level; });
+        }
+        space.node_counts_.push_back(states.size());
+        space.merge_equal_nodes();
+        return space;
+    }
+
+    /// The states of the next level; adds the level's branches, and to `open` the demands that begin here.
+    States follow(KeySpace& space, std::size_t level, std::vector<const Demand*>& open,
+                  const States& states) {
+        const int feature = space.feature_at_[level];
+        const std::vector<char>& allowed = allowed_[feature];
+        const std::size_t before = open.size();
+        for (const Demand& demand : demands_)
+            if (demand.first == level) open.push_back(&demand);
+        std::vector<int>& branches = space.branches_.emplace_back(states.size() * allowed.size(), dead);
+        States following;
+        State next;
+        for (const auto& [left, node] : states) {
+            State state = left;
+            for (std::size_t i = before; i < open.size(); ++i) state.push_back(open[i]->condition);
+            for (std::size_t value = 0; value < allowed.size(); ++value) {
+                bool is_dead = allowed[value] == 0;
+                next.clear();
+                for (std::size_t i = 0; i < open.size() && !is_dead; ++i) {
+                    const Id rest = pool_.assign(state[i], feature, static_cast<int>(value));
+                    is_dead = rest == ConditionPool::never;
+                    if (open[i]->last > level) next.push_back(rest);
+                }
+                if (is_dead) continue;
+                branches[node * allowed.size() + value] =
+                    following.try_emplace(next, static_cast<int>(following.size())).first->second;
+            }
+        }
+        return following;
+    }
+
+    const Family& family_;
+    ConditionPool pool_;
+    std::vector<Demand> demands_;             ///< on several features each
+    std::vector<std::vector<char>> allowed_;  ///< per feature and value: by the demands on it alone
+    std::vector<char> is_fixed_;              ///< per feature: it may have one value only
+    std::vector<std::vector<int>> groups_;  ///< features that conditions, or parts of them, look at together
+    bool is_empty_ = false;
 };
 
-}  // namespace
+Result<KeySpace> KeySpace::make(const Family& family, std::string_view dialect,
+                                const KeySpaceLimits& limits) {
+    return Builder(family, dialect, limits).build();
+}
 
-KeySpace::KeySpace(const Family& family, std::string_view dialect, const KeySpaceLimits& limits) {
-    for (const Feature& feature : family.features)
-        value_counts_.push_back(static_cast<int>(feature.values.size()));
-    levels_.resize(value_counts_.size() + 1);
-    ConditionPool pool(family.features);
-    std::vector<Id> conditions = conditions_of_rules(family, dialect, pool);
-    const std::vector<Id> more = conditions_of_limits(family, limits, pool);
-    conditions.insert(conditions.end(), more.begin(), more.end());
-    const Id all = pool.conjoin(std::move(conditions));
-    if (Builder<Node>(pool, value_counts_, levels_, dead).build(0, all) != dead) levels_.back().push_back({});
+/// From the end up: nodes that lead to the same become one, and those that lead nowhere none.
+void KeySpace::merge_equal_nodes() {
+    std::vector<int> merged(node_counts_.back(), 0);  // of the level below: each node's new number, or dead
+    for (std::size_t level = feature_count(); level-- > 0;) {
+        const std::size_t values = value_counts_[feature_at_[level]];
+        std::unordered_map<std::vector<Id>, int, HashOfIds> known;
+        std::vector<int> kept, numbers;
+        for (std::size_t node = 0; node < node_counts_[level]; ++node) {
+            std::vector<Id> row;
+            bool is_dead = true;
+            for (const int below : next(level, node)) {
+                const int target = below == dead ? dead : merged[below];
+                row.push_back(static_cast<Id>(target));
+                is_dead = is_dead && target == dead;
+            }
+            if (is_dead) {
+                numbers.push_back(dead);
+                continue;
+            }
+            const auto [same, is_new] = known.try_emplace(row, static_cast<int>(known.size()));
+            numbers.push_back(same->second);
+            if (is_new) kept.insert(kept.end(), row.begin(), row.end());
+        }
+        merged = std::move(numbers);
+        branches_[level] = std::move(kept);
+        node_counts_[level] = branches_[level].size() / values;
+    }
 }
 
 std::uint64_t KeySpace::count() const {
-    std::vector<std::uint64_t> below(levels_.back().size(), 1);
-    for (std::size_t level = value_counts_.size(); level-- > 0;) {
-        std::vector<std::uint64_t> here(levels_[level].size(), 0);
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            for (const int next : levels_[level][i].next) {
-                if (next != dead) here[i] = saturating_sum(here[i], below[static_cast<std::size_t>(next)]);
-            }
-        }
+    std::vector<std::uint64_t> below(node_counts_.back(), 1);
+    for (std::size_t level = feature_count(); level-- > 0;) {
+        std::vector<std::uint64_t> here(node_counts_[level], 0);
+        for (std::size_t node = 0; node < here.size(); ++node)
+            for (const int target : next(level, node))
+                if (target != dead) here[node] = saturating_sum(here[node], below[target]);
         below = std::move(here);
     }
     return below.empty() ? 0 : below.front();
@@ -125,44 +299,75 @@ std::uint64_t KeySpace::count() const {
 
 std::vector<Key> KeySpace::keys() const {
     std::vector<Key> found;
-    if (levels_.front().empty()) return found;
-    Key key(value_counts_.size(), 0);
+    Key key(feature_count(), 0);
     const auto walk = [&](const auto& self, std::size_t level, int node) -> void {
-        if (level == value_counts_.size()) {
-            found.push_back(key);
-            return;
-        }
-        const Node& here = levels_[level][static_cast<std::size_t>(node)];
-        for (int value = 0; value < value_counts_[level]; ++value) {
-            const int next = here.next[static_cast<std::size_t>(value)];
-            if (next == dead) continue;
-            key[level] = value;
-            self(self, level + 1, next);
+        if (level == feature_count()) return found.push_back(key);
+        const std::span<const int> targets = next(level, node);
+        for (std::size_t value = 0; value < targets.size(); ++value) {
+            if (targets[value] == dead) continue;
+            key[feature_at_[level]] = static_cast<int>(value);
+            self(self, level + 1, targets[value]);
         }
     };
-    // A dead root is never stored, so the root is the last node that level 0 got: its only one.
-    walk(walk, 0, 0);
+    if (node_counts_.front() > 0) walk(walk, 0, 0);
+    std::sort(found.begin(), found.end());
     return found;
 }
 
-bool KeySpace::contains(const PartialKey& partial) const {
-    std::vector<char> reached(levels_.front().size(), 1);
-    for (std::size_t level = 0; level < value_counts_.size(); ++level) {
-        std::vector<char> next_reached(levels_[level + 1].size(), 0);
-        const int wanted = partial[level];
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            if (reached[i] == 0) continue;
-            const std::vector<int>& next = levels_[level][i].next;
-            const int first = wanted < 0 ? 0 : wanted;
-            const int last = wanted < 0 ? value_counts_[level] - 1 : wanted;
-            for (int value = first; value <= last; ++value) {
-                const int target = next[static_cast<std::size_t>(value)];
-                if (target != dead) next_reached[static_cast<std::size_t>(target)] = 1;
-            }
-        }
-        reached = std::move(next_reached);
+OpenPaths::OpenPaths(const KeySpace& space)
+    : space_(&space), levels_(space.feature_count()), decided_(space.feature_count(), -1) {
+    for (std::size_t level = 0; level < levels_.size(); ++level) levels_[space.feature_at(level)] = level;
+    for (std::size_t level = 0; level <= levels_.size(); ++level) {
+        is_open_.emplace_back(space.node_count(level), 1);
+        open_.emplace_back(space.node_count(level));
+        std::iota(open_.back().begin(), open_.back().end(), 0);
     }
-    return std::find(reached.begin(), reached.end(), 1) != reached.end();
+}
+
+std::vector<char> OpenPaths::allowed(std::size_t feature) const {
+    const std::size_t level = levels_[feature];
+    std::vector<char> result(space_->value_count(feature), 0);
+    for (const int node : open_[level]) {
+        const std::span<const int> next = space_->next(level, node);
+        for (std::size_t value = 0; value < next.size(); ++value)
+            if (next[value] != KeySpace::dead && is_open_[level + 1][next[value]] != 0) result[value] = 1;
+    }
+    return result;
+}
+
+std::span<const int> OpenPaths::ways(std::size_t level, int node) const {
+    const std::span<const int> next = space_->next(level, node);
+    return decided_[level] < 0 ? next : next.subspan(decided_[level], 1);
+}
+
+bool OpenPaths::keep(std::size_t level, const std::vector<char>& kept) {
+    std::vector<int>& nodes = open_[level];
+    const auto closed = [&](int node) { return kept[node] == 0; };
+    const std::size_t before = nodes.size();
+    for (const int node : nodes) is_open_[level][node] = kept[node];
+    std::erase_if(nodes, closed);
+    return nodes.size() < before;
+}
+
+void OpenPaths::decide(std::size_t feature, int value) {
+    decided_[levels_[feature]] = value;
+    std::vector<char> kept;
+    bool changes = true;
+    for (std::size_t level = levels_[feature]; level < levels_.size() && changes; ++level) {
+        kept.assign(is_open_[level + 1].size(), 0);  // those that a way leads to
+        for (const int node : open_[level])
+            for (const int next : ways(level, node))
+                if (next != KeySpace::dead) kept[next] = is_open_[level + 1][next];
+        changes = keep(level + 1, kept);
+    }
+    changes = true;
+    for (std::size_t level = levels_[feature] + 1; level-- > 0 && changes;) {
+        kept.assign(is_open_[level].size(), 0);  // those that lead on
+        for (const int node : open_[level])
+            for (const int next : ways(level, node))
+                if (next != KeySpace::dead && is_open_[level + 1][next] != 0) kept[node] = 1;
+        changes = keep(level, kept);
+    }
 }
 
 }  // namespace gobo

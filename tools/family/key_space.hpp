@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace gobo {
 struct KeySpaceLimits {
     std::vector<int> over;  ///< features that vary; the others stand at their defaults. Empty: all vary
     std::vector<Expression> where;  ///< conditions that every key must meet
-    bool retired = false;           ///< whether retired values take part
+    bool excluded = false;          ///< whether excluded values take part
 };
 
 /// A key in which -1 stands for "any value".
@@ -23,12 +23,19 @@ using PartialKey = std::vector<int>;
 
 /// All canonical valid keys of a family within some limits.
 ///
-/// A reduced multi-valued decision diagram: level i decides feature i, and a node stands for what may still
-/// follow. Two ways after which the same may follow share a node: those that leave the same conditions open,
-/// and those whose conditions differ only in how they are written. No node is a dead end.
+/// A reduced multi-valued decision diagram: each level decides one feature, and a node stands for what may
+/// still follow. Features that the same conditions look at are decided close together, which keeps it small.
+/// Two ways after which the same may follow share a node. No node is a dead end.
 class KeySpace {
   public:
-    KeySpace(const Family& family, std::string_view dialect, const KeySpaceLimits& limits);
+    /// Fault::input where the rules would make the diagram grow past kMostNodes or kMostBranches; the message
+    /// names the rules that do.
+    [[nodiscard]] static Result<KeySpace> make(const Family& family, std::string_view dialect,
+                                               const KeySpaceLimits& limits);
+
+    /// Before nodes that lead to the same are merged.
+    static constexpr std::size_t kMostNodes = 250'000;
+    static constexpr std::size_t kMostBranches = 4'000'000;
 
     /// How many keys there are; the largest 64-bit number where there are more.
     [[nodiscard]] std::uint64_t count() const;
@@ -36,27 +43,59 @@ class KeySpace {
     /// All keys, in lexicographic order of their value indices.
     [[nodiscard]] std::vector<Key> keys() const;
 
-    /// Whether some key of the space agrees with every decided value.
-    [[nodiscard]] bool contains(const PartialKey& partial) const;
-
-    [[nodiscard]] std::size_t feature_count() const { return value_counts_.size(); }
-    [[nodiscard]] int value_count(std::size_t feature) const { return value_counts_[feature]; }
+    [[nodiscard]] std::size_t feature_count() const { return feature_at_.size(); }
+    [[nodiscard]] std::size_t value_count(std::size_t feature) const { return value_counts_[feature]; }
+    [[nodiscard]] int feature_at(std::size_t level) const { return feature_at_[level]; }
 
     /// No key leads this way.
     static constexpr int dead = -1;
 
-    /// What may still follow once the features before a level are decided.
-    struct Node {
-        std::vector<int> next;  ///< per value of the level's feature: a node of the next level, or dead
-    };
+    /// The nodes of a level; level 0 holds the root alone, or nothing where no key is allowed, and one more
+    /// level than there are features the end. Every node lies on the way of some key.
+    [[nodiscard]] std::size_t node_count(std::size_t level) const { return node_counts_[level]; }
 
-    /// The nodes that decide a feature; level 0 holds the root alone. Every node lies on the way of some key.
-    [[nodiscard]] const std::vector<Node>& level(std::size_t feature) const { return levels_[feature]; }
+    /// Per value of the level's feature: a node of the next level, or dead.
+    [[nodiscard]] std::span<const int> next(std::size_t level, std::size_t node) const {
+        const std::size_t count = value_counts_[feature_at_[level]];
+        return std::span(branches_[level]).subspan(node * count, count);
+    }
 
   private:
-    std::vector<int> value_counts_;
-    std::vector<std::vector<Node>>
-        levels_;  ///< levels_[0] holds the root, or nothing where no key is allowed
+    class Builder;
+    KeySpace() = default;
+    void merge_equal_nodes();
+
+    std::vector<int> feature_at_;             ///< per level
+    std::vector<std::size_t> value_counts_;   ///< per feature
+    std::vector<std::size_t> node_counts_;    ///< per level
+    std::vector<std::vector<int>> branches_;  ///< per level: next() of all nodes
+};
+
+/// The keys of a key space that agree with what is decided so far, while features are decided in any order.
+/// Asking which values a feature may still have costs one look at its level; deciding costs one pass over the
+/// diagram at most.
+class OpenPaths {
+  public:
+    /// Nothing is decided. `space` must outlive this.
+    explicit OpenPaths(const KeySpace& space);
+
+    /// Per value of the feature: whether some key of the space has it and agrees with all that is decided.
+    [[nodiscard]] std::vector<char> allowed(std::size_t feature) const;
+
+    /// Gives the feature the value.
+    void decide(std::size_t feature, int value);
+
+  private:
+    /// Where a node leads to by what is decided of its level.
+    [[nodiscard]] std::span<const int> ways(std::size_t level, int node) const;
+    /// Closes the nodes of a level that are not `kept`; whether there were any.
+    bool keep(std::size_t level, const std::vector<char>& kept);
+
+    const KeySpace* space_;
+    std::vector<std::size_t> levels_;         ///< of the features
+    std::vector<int> decided_;                ///< per level: a value, or -1
+    std::vector<std::vector<int>> open_;      ///< per level: the nodes on the way of some key that agrees
+    std::vector<std::vector<char>> is_open_;  ///< per level and node: the same
 };
 
 }  // namespace gobo

@@ -2,93 +2,56 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "family/read_domains.hpp"
 #include "family/read_features.hpp"
-#include "family/read_relations.hpp"
 #include "family/toml_reader.hpp"
 
 namespace gobo {
 namespace {
 
-std::string folder_of(const std::string& path) {
-    const auto slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return path.substr(0, slash);
-}
-
 /// Beyond any driver's: OpenGL guarantees 15 vectors between the stages.
-constexpr std::int64_t largest_location = 255;
-constexpr std::int64_t largest_vector = 4;
+constexpr std::int64_t kLargestLocation = 255;
+constexpr std::int64_t kLargestVector = 4;
 
-void read_location(TomlReader& reader, const toml::table& row, const std::string& what, Varying& varying) {
-    const std::int64_t location = reader.integer(row, "location").value_or(-1);
-    if (location >= 0 && location <= largest_location) {
-        varying.location = static_cast<int>(location);
-    } else if (row.contains("location")) {
-        reader.error(*row.get("location"), what + " has no valid location",
-                     fmt::format("write location = N with N from 0 to {}", largest_location));
-    } else {
+/// `location = 3`, or `count = "point + spot"`: the counts by whose sum a varying is an array.
+void read_location(TomlReader& reader, const toml::table& row, const std::string& what,
+                   const std::vector<Feature>& features, Varying& varying) {
+    const toml::node* location = row.get("location");
+    const toml::node* count = row.get("count");
+    if (location == nullptr && count == nullptr)
         reader.error(row, what + " lacks its location", "add location = 0 or more");
+    if (location != nullptr) {
+        const std::int64_t number = reader.integer(row, "location").value_or(-1);
+        varying.location = static_cast<int>(number);
+        if (number < 0 || number > kLargestLocation)
+            reader.error(*location, what + " has no valid location",
+                         fmt::format("write location = N with N from 0 to {}", kLargestLocation));
+        if (count != nullptr)
+            reader.error(*location, what + " has a location and a count",
+                         "leave the location out: counted varyings lie behind the others");
     }
-}
-
-void read_interpolation(TomlReader& reader, const toml::table& row, const std::string& what,
-                        Varying& varying) {
-    const std::vector<std::string> known = {"flat", "noperspective", "smooth"};
-    varying.interpolation = reader.string(row, "interpolation").value_or("");
-    if (varying.interpolation.empty() ||
-        std::find(known.begin(), known.end(), varying.interpolation) != known.end())
-        return;
-    reader.error(*row.get("interpolation"),
-                 fmt::format("{} has no interpolation '{}'", what, varying.interpolation),
-                 suggestion(varying.interpolation, known));
-}
-
-/// `count = "point + spot"`: the counts by whose sum a varying is an array.
-void read_counts(TomlReader& reader, const toml::table& row, const std::string& what,
-                 const std::vector<Feature>& features, Varying& varying) {
-    std::vector<std::string> names;
-    for (const Feature& feature : features)
-        if (feature.kind == FeatureKind::count) names.push_back(feature.name);
-    for (const std::string& part : split(reader.string(row, "count").value_or(""), '+')) {
-        const std::string name(trim(part));
-        const auto feature = std::find_if(features.begin(), features.end(),
-                                          [&](const Feature& one) { return one.name == name; });
-        if (feature != features.end() && feature->kind == FeatureKind::count) {
-            varying.counts.push_back(static_cast<int>(feature - features.begin()));
-            continue;
+    if (count != nullptr) {
+        std::vector<std::string> known;
+        for (const Feature& feature : features)
+            if (feature.kind == FeatureKind::count) known.push_back(feature.name);
+        for (const std::string& name : split(reader.string(row, "count").value_or(""), '+')) {
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                reader.error(*count, fmt::format("{} is counted by '{}', which is no count", what, name),
+                             suggestion(name, known));
+            else
+                varying.counts.push_back(*index_of(features, name));
         }
-        reader.error(*row.get("count"), fmt::format("{} is counted by '{}', which is no count", what, name),
-                     suggestion(name, names));
     }
-}
-
-/// `values_per_element = 4`: a counted varying whose elements are vectors of so many values.
-void read_values_per_element(TomlReader& reader, const toml::table& row, const std::string& what,
-                             Varying& varying) {
-    if (!row.contains("values_per_element")) return;
-    const std::int64_t values = reader.integer(row, "values_per_element").value_or(0);
-    if (row.contains("count") && values >= 1 && values <= largest_vector)
-        varying.values_per_element = static_cast<int>(values);
-    else
-        reader.error(*row.get("values_per_element"), what + " has no valid values_per_element",
-                     fmt::format("write a number from 1 to {} beside a count", largest_vector));
-}
-
-/// `varyings` are sorted by location.
-void refuse_shared_locations(TomlReader& reader, const std::vector<Varying>& varyings) {
-    for (std::size_t i = 1; i < varyings.size(); ++i) {
-        if (!varyings[i].counts.empty() || varyings[i].location != varyings[i - 1].location) continue;
-        reader.error(varyings[i].place,
-                     fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
-                                 varyings[i].location, varyings[i - 1].name),
-                     "give each varying a location of its own");
+    if (const toml::node* values = row.get("values_per_element")) {
+        const std::int64_t number = reader.integer(row, "values_per_element").value_or(0);
+        varying.values_per_element = static_cast<int>(number);
+        if (count == nullptr || number < 1 || number > kLargestVector)
+            reader.error(*values, what + " has no valid values_per_element",
+                         fmt::format("write a number from 1 to {} beside a count", kLargestVector));
     }
 }
 
@@ -116,24 +79,57 @@ std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
         }
         reader.only(*row, what,
                     {"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
-        if (row->contains("count") && !row->contains("location"))
-            read_counts(reader, *row, what, features, varying);
-        else
-            read_location(reader, *row, what, varying);
-        if (row->contains("count") && row->contains("location")) {
-            reader.error(*row->get("location"), what + " has a location and a count",
-                         "leave the location out: counted varyings lie behind the others");
-        }
-        read_values_per_element(reader, *row, what, varying);
+        read_location(reader, *row, what, features, varying);
         varying.type = reader.required_string(*row, what, "type");
         varying.value = reader.required_string(*row, what, "value");
         varying.piece = reader.string(*row, "piece").value_or("");
-        read_interpolation(reader, *row, what, varying);
+        if (reader.one_of(*row, what, "interpolation", {"flat", "noperspective", "smooth"}))
+            varying.interpolation = *reader.string(*row, "interpolation");
         varyings.push_back(std::move(varying));
     }
     std::stable_sort(varyings.begin(), varyings.end(), lies_before);
-    refuse_shared_locations(reader, varyings);
+    for (std::size_t i = 1; i < varyings.size(); ++i)
+        if (varyings[i].counts.empty() && varyings[i].location == varyings[i - 1].location)
+            reader.error(varyings[i].place,
+                         fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
+                                     varyings[i].location, varyings[i - 1].name),
+                         "give each varying a location of its own");
     return varyings;
+}
+
+Domain read_domain(TomlReader& reader, std::string name, const toml::node& node) {
+    Domain domain;
+    domain.name = std::move(name);
+    domain.place = reader.place_of(node);
+    const std::string what = fmt::format("the domain of '{}'", domain.name);
+    std::vector<double> range;
+    if (const toml::table* table = node.as_table()) {
+        reader.only(*table, what, {"range", "length", "last", "also"});
+        domain.of_length = table->contains("length");
+        range = reader.numbers(*table, domain.of_length ? "length" : "range");
+        domain.also = reader.numbers(*table, "also");
+        domain.last = reader.numbers(*table, "last");
+        if (!domain.last.empty() && (domain.last.size() != 2 || domain.last[0] > domain.last[1]))
+            reader.error(*table->get("last"), what + " is no range", "write last = [low, high]");
+    } else {
+        range = reader.numbers_of(node, domain.name);
+    }
+    if (range.size() != 2 || range[0] > range[1]) {
+        reader.error(node, what + " is no range", "write [low, high]");
+        return domain;
+    }
+    domain.low = range[0];
+    domain.high = range[1];
+    return domain;
+}
+
+/// Sorted by name, as TOML tables are.
+std::vector<Domain> read_domains(TomlReader& reader, const toml::table& root) {
+    std::vector<Domain> domains;
+    if (const toml::table* table = reader.table(root, "domain"))
+        for (const auto& [key, node] : *table)
+            domains.push_back(read_domain(reader, std::string(key.str()), node));
+    return domains;
 }
 
 std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root) {
@@ -144,12 +140,12 @@ std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root
         RenderValue value;
         value.name = key.str();
         value.place = reader.place_of(node);
+        const std::string what = fmt::format("the render value of '{}'", value.name);
         if (const auto* source = node.as_string()) {
             value.source = source->get();
         } else if (const toml::table* row = node.as_table()) {
-            reader.only(*row, fmt::format("the render value of '{}'", value.name), {"source", "numbers"});
-            value.source =
-                reader.required_string(*row, fmt::format("the render value of '{}'", value.name), "source");
+            reader.only(*row, what, {"source", "numbers"});
+            value.source = reader.required_string(*row, what, "source");
             value.numbers = reader.numbers(*row, "numbers");
         } else {
             value.numbers = reader.numbers_of(node, value.name);
@@ -157,24 +153,6 @@ std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root
         values.push_back(std::move(value));
     }
     return values;
-}
-
-/// Errors in the keys, features and condition of a default set are the family's, not those of who uses it.
-void check_default_set(TomlReader& reader, const toml::table& table, const DefaultSelection& selection,
-                       const Family& family) {
-    if (reader.failed()) return;
-    for (const std::string& text : selection.keys) {
-        const Place place = reader.place_of(*table.get("keys"));
-        if (const Result<Key> key = parse_key(family, text, place); !key) reader.take(key.error());
-    }
-    std::vector<std::string> names;
-    for (const Feature& feature : family.features) names.push_back(feature.name);
-    for (const std::string& name : selection.over) {
-        if (family.index_of(name)) continue;
-        reader.error(*table.get("over"), fmt::format("[default_set] names an unknown feature '{}'", name),
-                     suggestion(name, names));
-    }
-    if (!selection.where.empty()) (void)read_condition(reader, table, "where", family.features);
 }
 
 std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root,
@@ -189,10 +167,16 @@ std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml:
                                                                 0, std::numeric_limits<int>::max()));
     selection.over = reader.strings(*table, "over");
     selection.where = reader.string(*table, "where").value_or("");
-    if (selection.keys.empty() && !selection.all && selection.cover < 1) {
+    if (selection.keys.empty() && !selection.all && selection.cover < 1)
         reader.error(*table, "[default_set] selects nothing", "add keys = [...], all = true or cover = 2");
-    }
-    check_default_set(reader, *table, selection, family);
+    if (reader.failed()) return selection;
+    // Errors in its keys, features and condition are the family's, not those of who uses it.
+    for (const std::string& text : selection.keys)
+        if (const Result<Key> key = parse_key(family, text, reader.place_of(*table->get("keys"))); !key)
+            reader.take(key.error());
+    for (const std::string& name : selection.over)
+        read_feature_name(reader, *table->get("over"), "[default_set]", name, family.features);
+    if (!selection.where.empty()) read_condition(reader, *table, "where", family.features);
     return selection;
 }
 
@@ -203,14 +187,12 @@ Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base
     Diagnostic diagnostic;
     diagnostic.place = reader.place_of(*extends);
     diagnostic.help = "name a shipped family or a .toml file: extends = \"lit\"";
-    if (!extends->is_string() || !find_base) {
-        diagnostic.message = "'extends' must name a family";
-        return fail(std::move(diagnostic));
-    }
-    Result<FamilyText> base = find_base(extends->as_string()->get());
+    diagnostic.message = "'extends' must name a family";
+    if (!extends->is_string() || !find_base) return fail(std::move(diagnostic));
+    const std::string& name = extends->as_string()->get();
+    Result<FamilyText> base = find_base(name);
     if (base) return base;
-    diagnostic.message =
-        fmt::format("cannot extend '{}': {}", extends->as_string()->get(), base.error().front().message);
+    diagnostic.message = fmt::format("cannot extend '{}': {}", name, base.error().front().message);
     diagnostic.help = base.error().front().help;
     return fail(std::move(diagnostic));
 }
@@ -219,17 +201,14 @@ Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base
 
 Result<Family> read_family(std::string_view text, const std::string& path, const FindFamily& find_base) {
     TomlReader reader(text, path);
-    const Result<FamilyText> base = base_of(reader, find_base);
-    if (!base) return tl::unexpected(base.error());
-    if (!base->path.empty())
-        reader.extend(base->text, base->path, {"values", "retired", "rules", "relations"});
+    GOBO_TRY(const FamilyText base, base_of(reader, find_base));
+    if (!base.path.empty()) reader.extend(base.text, base.path, {"values", "excluded", "rules", "relations"});
     Family family;
     family.path = path;
-    family.folder = folder_of(path);
     const toml::table& root = reader.root();
     reader.only(root, "the family",
                 {"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
-                 "relations", "default_set"});
+                 "relations", "default_set", "renamed"});
     family.name = reader.required_string(root, "the family", "name");
     if (!reader.failed() && !is_identifier(family.name)) {
         reader.error(*root.get("name"), fmt::format("'{}' cannot name a family", family.name),
@@ -246,6 +225,14 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.default_selection = read_default_set(reader, root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return family;
+}
+
+Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::string& path) {
+    TomlReader reader(text, path);
+    reader.only(reader.root(), "the file", {"domain"});
+    std::vector<Domain> domains = read_domains(reader, reader.root());
+    if (reader.failed()) return tl::unexpected(reader.errors());
+    return domains;
 }
 
 }  // namespace gobo

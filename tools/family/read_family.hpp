@@ -26,4 +26,7 @@ using FindFamily = std::function<Result<FamilyText>(const std::string& name)>;
 [[nodiscard]] Result<Family> read_family(std::string_view text, const std::string& path,
                                          const FindFamily& find_base = {});
 
+/// A file of nothing but the section [domain], written as in a family file.
+[[nodiscard]] Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::string& path);
+
 }  // namespace gobo

@@ -1,6 +1,7 @@
-// The [features] and [[rules]] of a family file.
+// The tables of a family file that are about features: [features], [renamed], [[rules]], [[relations]].
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "family/family.hpp"
@@ -8,15 +9,23 @@
 
 namespace gobo {
 
-/// The features, sorted by name. Errors go to the reader.
+// Errors go to the reader.
+
+/// Sorted by name, with the names of [renamed].
 [[nodiscard]] std::vector<Feature> read_features(TomlReader& reader, const toml::table& root);
 
-/// The rules in the order of the file, their conditions parsed. Errors go to the reader.
+/// Rules and relations in the order of the file, their conditions parsed.
 [[nodiscard]] std::vector<Rule> read_rules(TomlReader& reader, const toml::table& root,
                                            const std::vector<Feature>& features);
+[[nodiscard]] std::vector<Relation> read_relations(TomlReader& reader, const toml::table& root,
+                                                   const std::vector<Feature>& features);
 
-/// The condition that `table` holds under `name`, which must be there. Errors go to the reader.
-[[nodiscard]] Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
-                                        const std::vector<Feature>& features);
+/// The condition in the entry `name` of a table, which has it.
+Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
+                          const std::vector<Feature>& features);
+
+/// The index of a feature that `what` names in the entry at `node`; 0 and an error where there is none.
+int read_feature_name(TomlReader& reader, const toml::node& node, std::string_view what,
+                      const std::string& name, const std::vector<Feature>& features);
 
 }  // namespace gobo

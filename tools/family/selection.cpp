@@ -15,56 +15,51 @@ namespace {
 /// A default set is all keys up to this many, unless the family declares it.
 constexpr std::uint64_t small_family = 256;
 
-tl::unexpected<Diagnostics> refused(const Family& family, const NamedKey& named, const Key& key,
-                                    const Rule& rule) {
+/// A cover holds a byte for each.
+constexpr double most_combinations = 5e8;
+
+Result<Key> named_key(const Family& family, const NamedKey& named, std::string_view dialect) {
+    GOBO_TRY(Key key, parse_key(family, named.text, named.place));
+    key = canonical(family, std::move(key), dialect);
+    const Rule* rule = forbidding_rule(family, key, dialect);
+    if (rule == nullptr) return key;
     Diagnostic diagnostic;
     diagnostic.fault = Fault::usage;
     diagnostic.place = named.place;
     if (!named.place.file.empty()) diagnostic.quoted_line = named.text;
     diagnostic.message =
-        fmt::format("family '{}' forbids the key '{}': {}", family.name, key_text(family, key), rule.reason);
+        fmt::format("family '{}' forbids the key '{}': {}", family.name, key_text(family, key), rule->reason);
     diagnostic.help =
-        fmt::format("choose another value; the rule is in {}:{}", rule.place.file, rule.place.line);
+        fmt::format("choose another value; the rule is in {}:{}", rule->place.file, rule->place.line);
     return fail(std::move(diagnostic));
-}
-
-Result<Key> named_key(const Family& family, const NamedKey& named, std::string_view dialect) {
-    Result<Key> key = parse_key(family, named.text, named.place);
-    if (!key) return key;
-    *key = canonical(family, std::move(*key), dialect);
-    if (const Rule* rule = forbidding_rule(family, *key, dialect)) return refused(family, named, *key, *rule);
-    return key;
 }
 
 Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selection) {
     KeySpaceLimits limits;
-    limits.retired = selection.retired;
-    std::vector<std::string> names;
-    for (const Feature& feature : family.features) names.push_back(feature.name);
+    limits.excluded = selection.excluded;
     for (const std::string& name : selection.over) {
         const auto index = family.index_of(name);
         if (!index) {
             return fail(Fault::usage,
                         fmt::format("--over: family '{}' has no feature '{}'", family.name, name),
-                        suggestion(name, names));
+                        help_for(family.features, name));
         }
         limits.over.push_back(*index);
     }
     if (!selection.where.empty()) {
-        Result<Expression> where = parse_expression(selection.where, family.features, {}, Fault::usage);
-        if (!where) return tl::unexpected(where.error());
-        limits.where.push_back(std::move(*where));
+        GOBO_TRY(Expression where, parse_expression(selection.where, family.features, {}, Fault::usage));
+        limits.where.push_back(std::move(where));
     }
     return limits;
 }
 
 /// What the selection means: itself, or the family's default set where it names nothing.
-Selection resolved(const Family& family, const Selection& selection, std::string_view dialect) {
+Result<Selection> resolved(const Family& family, const Selection& selection, std::string_view dialect) {
     if (!selection.names_nothing()) return selection;
     Selection meant = selection;
     if (!family.default_selection) {
-        KeySpaceLimits all;
-        meant.all = KeySpace(family, dialect, all).count() <= small_family;
+        GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, {}));
+        meant.all = space.count() <= small_family;
         meant.cover = meant.all ? 0 : 2;
         return meant;
     }
@@ -83,71 +78,78 @@ Selection resolved(const Family& family, const Selection& selection, std::string
 
 /// A bound on the keys that a cover needs at least: the product of the most values that `strength` features
 /// take somewhere in the space. Rules may make it fewer.
-std::uint64_t largest_product(const KeySpace& space, int strength) {
+std::uint64_t largest_product(const KeySpace& space, std::size_t strength) {
+    const OpenPaths paths(space);
     std::vector<std::uint64_t> counts;
     for (std::size_t feature = 0; feature < space.feature_count(); ++feature) {
-        PartialKey key(space.feature_count(), -1);
-        std::uint64_t count = 0;
-        for (int value = 0; value < space.value_count(feature); ++value) {
-            key[feature] = value;
-            count += space.contains(key) ? 1 : 0;
-        }
-        counts.push_back(count);
+        const std::vector<char> allowed = paths.allowed(feature);
+        counts.push_back(std::count(allowed.begin(), allowed.end(), 1));
     }
     std::sort(counts.rbegin(), counts.rend());
+    counts.resize(std::min(counts.size(), strength));
     std::uint64_t product = 1;
-    for (std::size_t i = 0; i < counts.size() && i < static_cast<std::size_t>(strength); ++i) {
-        product *= counts[i];
-        if (product > most_keys) break;  // before it could overflow
-    }
+    for (std::size_t i = 0; i < counts.size() && product <= most_keys; ++i) product *= counts[i];
     return product;
 }
 
-Result<std::vector<Key>> keys_of_space(const KeySpace& space, const Selection& selection) {
-    std::vector<Key> keys;
-    if (selection.all && space.count() > most_keys) {
-        return fail(Fault::usage, fmt::format("--all means {} keys, more than {}", space.count(), most_keys),
+/// How many combinations of the values of `strength` features there are.
+double combinations(const KeySpace& space, std::size_t strength) {
+    std::vector<double> of(strength + 1, 0);  // by the number of features, of those up to here
+    of[0] = 1;
+    for (std::size_t feature = 0; feature < space.feature_count(); ++feature)
+        for (std::size_t chosen = strength; chosen > 0; --chosen)
+            of[chosen] += of[chosen - 1] * static_cast<double>(space.value_count(feature));
+    return of[strength];
+}
+
+/// What `all` and `cover` give.
+Result<std::vector<Key>> keys_of_space(const Family& family, const Selection& selection,
+                                       const KeySpaceLimits& limits, std::string_view dialect) {
+    if (!selection.all && selection.cover <= 0) return std::vector<Key>{};
+    GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, limits));
+    const std::uint64_t count = space.count();
+    if (selection.all && count > most_keys)
+        return fail(Fault::usage, fmt::format("--all means {} keys, more than {}", count, most_keys),
                     "name the features to vary with --over, or a condition with --where");
-    }
     if (selection.all) return space.keys();
-    if (selection.cover > 0 && space.count() > most_keys &&
-        largest_product(space, selection.cover) > most_keys) {
+    const char* const help =
+        "lower the strength, name the features to vary with --over, or a condition with --where";
+    if (count > most_keys && largest_product(space, selection.cover) > most_keys)
         return fail(Fault::usage,
-                    fmt::format("--cover {} takes more than {} keys", selection.cover, most_keys),
-                    "lower the strength, name the features to vary with --over, or a condition with --where");
-    }
-    if (selection.cover > 0) return cover(space, selection.cover);
-    return keys;
+                    fmt::format("--cover {} takes more than {} keys", selection.cover, most_keys), help);
+    if (selection.cover < std::ssize(family.features) &&
+        combinations(space, selection.cover) > most_combinations)
+        return fail(Fault::usage,
+                    fmt::format("--cover {} means {:.1e} combinations of values, more than {:.0e}",
+                                selection.cover, combinations(space, selection.cover), most_combinations),
+                    help);
+    return cover(space, selection.cover);
 }
 
 }  // namespace
 
 Result<std::vector<Key>> select(const Family& family, const Selection& asked, std::string_view dialect) {
-    const Selection selection = resolved(family, asked, dialect);
-    const Result<KeySpaceLimits> limits = limits_of(family, selection);
-    if (!limits) return tl::unexpected(limits.error());
-    Result<std::vector<Key>> keys = keys_of_space(KeySpace(family, dialect, *limits), selection);
-    if (!keys) return keys;
+    GOBO_TRY(const Selection selection, resolved(family, asked, dialect));
+    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection));
+    GOBO_TRY(std::vector<Key> keys, keys_of_space(family, selection, limits, dialect));
     for (const NamedKey& named : selection.keys) {
-        Result<Key> key = named_key(family, named, dialect);
-        if (!key) return tl::unexpected(key.error());
-        if (limits->where.empty() || holds(limits->where.front(), *key)) keys->push_back(std::move(*key));
+        GOBO_TRY(Key key, named_key(family, named, dialect));
+        if (limits.where.empty() || holds(limits.where.front(), key)) keys.push_back(std::move(key));
     }
-    std::sort(keys->begin(), keys->end());
-    keys->erase(std::unique(keys->begin(), keys->end()), keys->end());
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     return keys;
 }
 
 Result<std::uint64_t> count_selected(const Family& family, const Selection& asked, std::string_view dialect) {
-    const Selection selection = resolved(family, asked, dialect);
-    if (selection.all && selection.keys.empty()) {
-        const Result<KeySpaceLimits> limits = limits_of(family, selection);
-        if (!limits) return tl::unexpected(limits.error());
-        return KeySpace(family, dialect, *limits).count();
+    GOBO_TRY(const Selection selection, resolved(family, asked, dialect));
+    if (!selection.all || !selection.keys.empty()) {
+        GOBO_TRY(const std::vector<Key> keys, select(family, selection, dialect));
+        return keys.size();
     }
-    const Result<std::vector<Key>> keys = select(family, selection, dialect);
-    if (!keys) return tl::unexpected(keys.error());
-    return keys->size();
+    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection));
+    GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, limits));
+    return space.count();
 }
 
 std::vector<NamedKey> keys_of_text(std::string_view text, const std::string& path) {

@@ -23,7 +23,7 @@ struct Selection {
     int cover = 0;                  ///< strength; 0: no cover
     std::vector<std::string> over;  ///< features that `all` and `cover` range over; empty: all of them
     std::string where;
-    bool retired = false;
+    bool excluded = false;  ///< `all` and `cover` take excluded values too
 
     [[nodiscard]] bool names_nothing() const { return keys.empty() && !all && cover == 0; }
 };

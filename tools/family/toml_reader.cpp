@@ -59,10 +59,6 @@ Place TomlReader::place_of(const toml::source_region& region) const {
             static_cast<int>(region.begin.column)};
 }
 
-Place TomlReader::place_of(const toml::node& node) const {
-    return place_of(node.source());
-}
-
 void TomlReader::error(const Place& place, std::string message, std::string help) {
     if (failed()) return;
     Diagnostic diagnostic;
@@ -93,27 +89,34 @@ void TomlReader::wrong_type(const toml::node& node, std::string_view name, std::
     error(node, fmt::format("'{}' must be {}", name, wanted), fmt::format("write {} = ...", name));
 }
 
-std::optional<std::string> TomlReader::string(const toml::table& table, std::string_view name) {
+template <class T>
+std::optional<T> TomlReader::value(const toml::table& table, std::string_view name, std::string_view wanted) {
     const toml::node* node = table.get(name);
     if (node == nullptr) return std::nullopt;
-    if (const auto* text = node->as_string()) return text->get();
-    wrong_type(*node, name, "a string");
+    if (const auto* found = node->as<T>()) return found->get();
+    wrong_type(*node, name, wanted);
     return std::nullopt;
+}
+
+std::optional<std::string> TomlReader::string(const toml::table& table, std::string_view name) {
+    return value<std::string>(table, name, "a string");
 }
 
 std::optional<std::int64_t> TomlReader::integer(const toml::table& table, std::string_view name) {
-    const toml::node* node = table.get(name);
-    if (node == nullptr) return std::nullopt;
-    if (const auto* number = node->as_integer()) return number->get();
-    wrong_type(*node, name, "a whole number");
-    return std::nullopt;
+    return value<std::int64_t>(table, name, "a whole number");
 }
 
 std::optional<bool> TomlReader::boolean(const toml::table& table, std::string_view name) {
-    const toml::node* node = table.get(name);
-    if (node == nullptr) return std::nullopt;
-    if (const auto* value = node->as_boolean()) return value->get();
-    wrong_type(*node, name, "true or false");
+    return value<bool>(table, name, "true or false");
+}
+
+std::optional<std::size_t> TomlReader::one_of(const toml::table& table, std::string_view what,
+                                              std::string_view name, const std::vector<std::string>& known) {
+    const std::optional<std::string> text = string(table, name);
+    if (!text) return std::nullopt;
+    const auto found = std::find(known.begin(), known.end(), *text);
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    error(*table.get(name), fmt::format("{} has no {} '{}'", what, name, *text), suggestion(*text, known));
     return std::nullopt;
 }
 
@@ -121,18 +124,15 @@ std::vector<std::string> TomlReader::strings(const toml::table& table, std::stri
     const toml::node* node = table.get(name);
     if (node == nullptr) return {};
     std::vector<std::string> values;
-    const toml::array* array = node->as_array();
-    if (array == nullptr) {
+    const auto add = [&](const toml::node& element) {
+        const auto* text = element.as_string();
+        if (text == nullptr) return wrong_type(element, name, "an array of strings");
+        values.push_back(text->get());
+    };
+    if (const toml::array* array = node->as_array())
+        for (const toml::node& element : *array) add(element);
+    else
         wrong_type(*node, name, "an array of strings");
-        return {};
-    }
-    for (const toml::node& element : *array) {
-        if (const auto* text = element.as_string()) {
-            values.push_back(text->get());
-        } else {
-            wrong_type(element, name, "an array of strings");
-        }
-    }
     return values;
 }
 
@@ -145,35 +145,43 @@ std::vector<double> TomlReader::numbers_of(const toml::node& node, std::string_v
     std::vector<double> values;
     const auto add = [&](const toml::node& element) {
         const std::optional<double> value = element.value<double>();
-        if (!element.is_number() || !value || !std::isfinite(*value)) {
-            wrong_type(element, name, "finite numbers");
-        } else {
-            values.push_back(*value);
-        }
+        if (!element.is_number() || !value || !std::isfinite(*value))
+            return wrong_type(element, name, "finite numbers");
+        values.push_back(*value);
     };
-    if (const toml::array* array = node.as_array()) {
+    if (const toml::array* array = node.as_array())
         for (const toml::node& element : *array) add(element);
-    } else {
+    else
         add(node);
-    }
     return values;
 }
 
 const toml::table* TomlReader::table(const toml::table& parent, std::string_view name) {
     const toml::node* node = parent.get(name);
-    if (node == nullptr) return nullptr;
-    if (const toml::table* found = node->as_table()) return found;
-    wrong_type(*node, name, "a table");
-    return nullptr;
+    if (node != nullptr && !node->is_table()) wrong_type(*node, name, "a table");
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+std::vector<const toml::table*> TomlReader::tables(const toml::table& parent, std::string_view name,
+                                                   std::string_view one) {
+    std::vector<const toml::table*> found;
+    const toml::node* node = parent.get(name);
+    if (node == nullptr || failed()) return found;
+    const toml::array* array = node->as_array();
+    if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
+        error(*node, fmt::format("'{}' must be an array of tables", name),
+              fmt::format("write each {} under [[{}]]", one, name));
+        return found;
+    }
+    for (const toml::node& element : *array) found.push_back(element.as_table());
+    return found;
 }
 
 std::string TomlReader::required_string(const toml::table& table, std::string_view what,
                                         std::string_view name) {
-    const bool present = table.contains(name);
-    const std::optional<std::string> value = string(table, name);
-    if (!present)
+    if (!table.contains(name))
         error(table, fmt::format("{} lacks '{}'", what, name), fmt::format("add {} = \"...\"", name));
-    return value.value_or("");
+    return string(table, name).value_or("");
 }
 
 }  // namespace gobo

@@ -29,7 +29,7 @@ class TomlReader {
     [[nodiscard]] const toml::table& root() const { return root_; }
     [[nodiscard]] bool failed() const { return !errors_.empty(); }
     [[nodiscard]] const Diagnostics& errors() const { return errors_; }
-    [[nodiscard]] Place place_of(const toml::node& node) const;
+    [[nodiscard]] Place place_of(const toml::node& node) const { return place_of(node.source()); }
 
     /// Refuses names that are not in `known`, suggesting the nearest. `what` names the table in messages.
     void only(const toml::table& table, std::string_view what, const std::vector<std::string>& known);
@@ -41,6 +41,14 @@ class TomlReader {
     [[nodiscard]] std::vector<std::string> strings(const toml::table& table, std::string_view name);
     [[nodiscard]] std::vector<double> numbers(const toml::table& table, std::string_view name);
     [[nodiscard]] const toml::table* table(const toml::table& parent, std::string_view name);
+
+    /// The index in `known` of the string that the table has; an error where it is none of them.
+    [[nodiscard]] std::optional<std::size_t> one_of(const toml::table& table, std::string_view what,
+                                                    std::string_view name,
+                                                    const std::vector<std::string>& known);
+    /// The tables of `[[name]]`, each being `one`.
+    [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& parent, std::string_view name,
+                                                         std::string_view one);
 
     /// As string(), and an error where it is absent.
     [[nodiscard]] std::string required_string(const toml::table& table, std::string_view what,
@@ -58,6 +66,9 @@ class TomlReader {
   private:
     [[nodiscard]] toml::table parse(std::string_view text, const std::string& path);
     [[nodiscard]] Place place_of(const toml::source_region& region) const;
+    template <class T>
+    [[nodiscard]] std::optional<T> value(const toml::table& table, std::string_view name,
+                                         std::string_view wanted);
     void wrong_type(const toml::node& node, std::string_view name, std::string_view wanted);
 
     std::map<std::string, std::string_view> texts_;  ///< of the documents, by path

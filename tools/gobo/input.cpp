@@ -17,11 +17,6 @@
 namespace gobo {
 namespace {
 
-std::string folder_of(const std::string& path) {
-    const auto slash = path.rfind('/');
-    return slash == std::string::npos ? "" : path.substr(0, slash);
-}
-
 tl::unexpected<Diagnostics> fail_at(const std::string& file, std::string message, std::string help = {}) {
     auto failure = fail(Fault::input, std::move(message), std::move(help));
     failure.value().front().place.file = file;
@@ -178,7 +173,8 @@ OptionGroup selection_options(SelectionOptions& options) {
               &options.more.over},
              {"--where", "EXPR", "Condition on the keys, such as 'point <= 2 && fog != none'",
               &options.more.where},
-             {"--retired", "", "Let --all and --cover take retired values too", &options.more.retired}}};
+             {"--excluded", "", "Let --all and --cover take values that the family excludes by default",
+              &options.more.excluded}}};
 }
 
 Selection to_selection(const SelectionOptions& options) {

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <spirv-tools/libspirv.hpp>
 
-#include "family/diagnostic_groups.hpp"
+#include "family/key.hpp"
 #include "reflect/interface.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/glslang_stage.hpp"

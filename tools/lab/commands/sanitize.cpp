@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "family/key.hpp"
-#include "family/read_domains.hpp"
+#include "family/read_family.hpp"
 #include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/sanitize/precision_report.hpp"

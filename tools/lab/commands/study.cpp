@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "budget/qualities.hpp"
-#include "core/append_file.hpp"
+#include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/commands.hpp"

@@ -13,7 +13,6 @@
 #include "core/html.hpp"
 #include "core/parallel.hpp"
 #include "core/text_template.hpp"
-#include "family/diagnostic_groups.hpp"
 #include "family/key.hpp"
 
 namespace gobo::gallery {

@@ -9,7 +9,6 @@
 #define XXH_INLINE_ALL  // one hash is no reason to link a library
 #include <xxhash.h>
 
-#include "family/diagnostic_groups.hpp"
 #include "family/key.hpp"
 
 namespace gobo {

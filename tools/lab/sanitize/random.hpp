@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/random_bits.hpp"
+#include "core/random.hpp"
 
 namespace gobo::sanitize {
 

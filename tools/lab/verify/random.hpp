@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/random_bits.hpp"
+#include "core/random.hpp"
 
 namespace gobo::verify {
 
