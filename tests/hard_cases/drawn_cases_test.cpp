@@ -1,5 +1,5 @@
 // The hard cases as OpenGL draws them. Mesa's renderer hides most failures, which is why the evaluator has
-// the first word; here it is the witness: finite, in bounds, and near what the evaluator gives.
+// the first word; here it is the cross-check: finite, in bounds, and near what the evaluator gives.
 #include <cmath>
 #include <limits>
 

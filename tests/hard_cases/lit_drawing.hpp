@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "lit_under_test.hpp"
 #include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
+#include "lit_under_test.hpp"
 
 namespace gobo {
 
 /// Draws one permutation with the inputs of a case: as a point of one pixel, by its own vertex stage, or
-/// where the case names what the fragment stage is given, by a vertex stage that hands on exactly that.
+/// where the case names what the fragment stage is given, by a vertex stage that writes exactly that.
 class LitDrawing {
   public:
     /// Compiles the permutation; failing fails the test.

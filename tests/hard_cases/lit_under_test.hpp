@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lab/sanitize/machine.hpp"
 #include "validate/glslang_stage.hpp"
 
@@ -56,7 +56,7 @@ class LitUnderTest {
     [[nodiscard]] std::size_t size() const { return composition_.permutations.size(); }
     [[nodiscard]] std::string key(std::size_t permutation) const;
     /// A white surface at (0, 0, -5) that faces the viewer, lights in front of it; `inputs` overrule that.
-    /// The fragment stage is given what the vertex stage hands on, unless `inputs` name it.
+    /// The fragment stage is given what the vertex stage writes, unless `inputs` name it.
     [[nodiscard]] Shaded shade(std::size_t permutation, const Inputs& inputs, Mode mode) const;
     /// The same without watching for traps.
     [[nodiscard]] Shaded shade_unwatched(std::size_t permutation, const Inputs& inputs, Mode mode) const;

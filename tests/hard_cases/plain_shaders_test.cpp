@@ -15,7 +15,7 @@
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
 #include "lab/evaluate/eval_file.hpp"
-#include "lab/sanitize/output_bounds.hpp"
+#include "lab/sanitize/bounds.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "validate/validate.hpp"
 

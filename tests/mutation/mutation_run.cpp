@@ -13,8 +13,8 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
+#include "lab/verify/on_mesh.hpp"
 #include "lab/verify/parallel.hpp"
-#include "lab/verify/test_meshes.hpp"
 #include "mutants.hpp"
 
 namespace gobo {

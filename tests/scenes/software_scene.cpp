@@ -4,43 +4,36 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/verify/rasterise.hpp"
+#include "lab/raster/rasterise.hpp"
 
 namespace gobo::scene {
 namespace {
 
-using verify::Fragment;
-using verify::SoftwareObject;
-using verify::SoftwareProgram;
+using raster::Fragment;
+using raster::Pipeline;
+using raster::RasterObject;
 
 /// The least difference of depths that a map of 32-bit floats tells apart near 1, times the renderer's
 /// `units`.
 constexpr double least_offset = 4.0 / (1 << 24);
-
-/// The largest change of depth from one texel to the next on a triangle.
-double slope_of(const verify::Interpolator& triangle, double x, double y) {
-    const double depth = triangle.at(x, y).depth;
-    return std::max(std::abs(triangle.at(x + 1, y).depth - depth),
-                    std::abs(triangle.at(x, y + 1).depth - depth));
-}
 
 void draw_depths(const ShadowCamera& camera, const Object& object, double slope, int side, double* depths) {
     const gobo::Mesh& mesh = object.mesh;
     std::vector<glm::dvec4> positions;
     for (const glm::vec3& position : mesh.positions)
         positions.push_back(camera.projection * camera.view * object.model * glm::dvec4(position, 1));
-    for (const Fragment& fragment : verify::rasterise(positions, mesh.indices, side, side)) {
+    for (const Fragment& fragment : raster::rasterise(positions, mesh.indices, side, side)) {
         if (!fragment.is_covered) continue;
         if (object.culls_back_faces && fragment.is_front_facing == object.is_mirrored()) continue;
         const std::size_t first = 3 * std::size_t{fragment.triangle};
-        const verify::Interpolator triangle(
+        const raster::Interpolator triangle(
             {positions[mesh.indices[first]], positions[mesh.indices[first + 1]],
              positions[mesh.indices[first + 2]]},
             side, side);
         const double x = fragment.x + 0.5;
         const double y = fragment.y + 0.5;
         const double moved =
-            std::min(fragment.weights.depth + slope * slope_of(triangle, x, y) + least_offset, 1.0);
+            std::min(fragment.weights.depth + slope * triangle.depth_slope(x, y) + least_offset, 1.0);
         double& nearest = depths[fragment.y * side + fragment.x];
         nearest = std::min(nearest, moved);
     }
@@ -67,12 +60,12 @@ double filtered(const AlphaMap& map, double s, double t) {
 }
 
 /// Whether the depth of a fragment is that of its triangle, and the fragment certain to be drawn.
-bool is_plain(const SoftwareProgram& program) {
+bool is_plain(const Pipeline& program) {
     const auto& outputs = program.fragment.outputs;
     const bool writes_depth = std::any_of(outputs.begin(), outputs.end(), [](const evaluate::Port& port) {
         return port.name == "gl_FragDepth";
     });
-    return !writes_depth && !program.link.may_discard;
+    return !writes_depth && !program.may_discard;
 }
 
 class Canvas {
@@ -88,7 +81,7 @@ class Canvas {
     }
 
     /// Notes what hides what lies behind it, before anything is shaded.
-    void occlude(const SoftwareObject& object) {
+    void occlude(const RasterObject& object) {
         if (hidden_behind_.empty()) hidden_behind_ = depths_;
         for (const Fragment& fragment : object.fragments) {
             double& nearest = hidden_behind_[index(fragment)];
@@ -97,7 +90,7 @@ class Canvas {
     }
 
     /// Leaves only fragments that may be seen.
-    void cull(SoftwareObject& object) const {
+    void cull(RasterObject& object) const {
         std::erase_if(object.fragments, [&](const Fragment& fragment) {
             const bool is_hidden =
                 !hidden_behind_.empty() && fragment.weights.depth > hidden_behind_[index(fragment)];
@@ -105,9 +98,12 @@ class Canvas {
         });
     }
 
-    [[nodiscard]] evaluate::Counts& operations() { return picture_.operations; }
+    void count(const raster::Work& work) {
+        for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)
+            picture_.operations[kind] += work.fragments[kind] + work.helpers[kind];
+    }
 
-    void draw(const SoftwareObject& object, const std::vector<verify::Shaded>& shaded, int number) {
+    void draw(const RasterObject& object, const std::vector<raster::Shaded>& shaded, int number) {
         picture_.fragments += shaded.size();
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const std::size_t pixel = index(object.fragments[i]);
@@ -183,8 +179,8 @@ Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
     SoftwarePrograms programs;
     for (const Permutation& permutation : shaders.composition.permutations) {
         const auto& stages = shaders.validated.stages;
-        auto program = verify::software_program(stages[static_cast<std::size_t>(permutation.vertex)].spirv,
-                                                stages[static_cast<std::size_t>(permutation.fragment)].spirv);
+        auto program = raster::pipeline_of(stages[static_cast<std::size_t>(permutation.vertex)].spirv,
+                                           stages[static_cast<std::size_t>(permutation.fragment)].spirv);
         if (!program) return tl::unexpected(program.error());
         programs.push_back(std::move(*program));
     }
@@ -199,7 +195,7 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
     const ShadowPlan plan = images.maps
                                 ? shadow_plan(images.images.lights, images.casters, view.view, images.side)
                                 : ShadowPlan();
-    std::vector<SoftwareObject> rasterised(objects.size());
+    std::vector<RasterObject> rasterised(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
@@ -208,9 +204,9 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
             const std::vector<RenderValue> shadows = shadow_values(plan.values, images.images.shadows[i]);
             add(images.renamed ? images.renamed(i, shadows) : shadows, with_shadows.values);
         }
-        auto object = verify::rasterise_object(
+        auto object = raster::rasterise_object(
             programs[*permutation], shaders.interfaces[*permutation], with_shadows,
-            verify::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));
+            raster::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));
         if (!object) return tl::unexpected(object.error());
         give_images(images, i, object->uniforms);
         rasterised[i] = std::move(*object);
@@ -219,12 +215,12 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
-        const SoftwareProgram& program = programs[*permutation];
+        const Pipeline& program = programs[*permutation];
         if (is_plain(program)) canvas.cull(rasterised[i]);
-        const auto shaded =
-            verify::shade(program, rasterised[i], {}, counts ? &canvas.operations() : nullptr);
-        if (!shaded) return tl::unexpected(shaded.error());
-        canvas.draw(rasterised[i], *shaded, static_cast<int>(i));
+        raster::Work work;
+        GOBO_TRY(const auto shaded, raster::shade<float>(program, rasterised[i], counts ? &work : nullptr));
+        canvas.count(work);
+        canvas.draw(rasterised[i], shaded, static_cast<int>(i));
     }
     return std::move(canvas).picture();
 }

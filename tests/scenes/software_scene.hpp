@@ -8,7 +8,7 @@
 #include "lab/evaluate/images.hpp"
 #include "lab/render/image.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/verify/shade.hpp"
+#include "lab/raster/shade.hpp"
 
 namespace gobo::scene {
 
@@ -39,7 +39,7 @@ struct SoftwarePicture {
 };
 
 /// One program for each permutation.
-using SoftwarePrograms = std::vector<verify::SoftwareProgram>;
+using SoftwarePrograms = std::vector<raster::Pipeline>;
 
 [[nodiscard]] Result<SoftwarePrograms> software_programs(const SceneShaders& shaders);
 

@@ -1,6 +1,6 @@
 #include "held_out_scenes.hpp"
 
-#include "lab/verify/random.hpp"
+#include "lab/raster/random.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {
@@ -19,13 +19,13 @@ std::vector<double> numbers_of(const glm::dvec3& vector) {
 }
 
 /// A point above the floor, around the object.
-glm::dvec3 place(verify::Random& random) {
+glm::dvec3 place(Random& random) {
     const glm::dvec3 direction = random.direction();
     return glm::dvec3(2.2, 1.2, 2.2) * direction + glm::dvec3(0, 1.6, 0);
 }
 
 /// Lights of every kind, moved and coloured anew, and another material.
-std::vector<RenderValue> other_values(verify::Random& random) {
+std::vector<RenderValue> other_values(Random& random) {
     std::vector<RenderValue> values;
     for (int i = 0; i < 8; ++i) {
         const std::string directional = "DirectionalLights.lights[" + std::to_string(i) + "].";
@@ -57,7 +57,7 @@ StudyScene scene(const std::string& name, const std::string& mesh, int detail, i
     made.detail = detail;
     made.floor_cells = floor_cells;
     made.camera = camera;
-    verify::Random random(seed);
+    Random random(seed);
     made.values = other_values(random);
     made.values.push_back(value("Material.shininess", {shininess}));
     return made;

@@ -7,7 +7,7 @@
 #include "compose/compose.hpp"
 #include "family/key.hpp"
 #include "lab/verify/decoded.hpp"
-#include "lab/verify/feed.hpp"
+#include "lab/verify/inputs.hpp"
 #include "lab/verify/sample.hpp"
 #include "settings.hpp"
 #include "uber_ports.hpp"
@@ -35,7 +35,7 @@ class Fragments {
         const int stage = composition_.permutations[permutation].fragment;
         const auto program =
             evaluate::decode(validated_.stages[static_cast<std::size_t>(stage)].spirv).value();
-        return evaluate::run<float>(program, verify::feed(program, samples).value()).value();
+        return evaluate::run<float>(program, verify::bind_inputs(program, samples).value()).value();
     }
 
   private:

@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "lab/verify/field_access.hpp"
+#include "lab/verify/inputs.hpp"
 
 namespace gobo::uber {
 namespace {
 
 using oracle::Model;
-using verify::element_name;
 
 template <class Choice>
 int number(Choice value) {
@@ -118,12 +117,20 @@ UberPort member_of(const Model& model, const std::optional<Light>& light, std::s
     return {fmt::format("{}.lights[{}].{}", kinds[light->kind].block, light->of_kind, member), 0};
 }
 
+/// "axis" of "LoopedLights.spot[0].axis".
+std::optional<verify::ElementName> element_name(std::string_view name, std::string_view array) {
+    auto element = verify::element_name(name);
+    if (!element || element->array != array) return std::nullopt;
+    if (element->rest.starts_with(".")) element->rest.remove_prefix(1);
+    return element;
+}
+
 std::optional<UberPort> light_port(const Model& model, std::string_view name) {
     if (const auto light = element_name(name, "SwitchedLights.lights"))
-        return member_of(model, switched_light(model, light->index), light->member);
+        return member_of(model, switched_light(model, light->index), light->rest);
     for (std::size_t kind = 0; kind < kinds.size(); ++kind)
         if (const auto light = element_name(name, fmt::format("LoopedLights.{}", kinds[kind].array)))
-            return member_of(model, looped_light(model, kind, light->index), light->member);
+            return member_of(model, looped_light(model, kind, light->index), light->rest);
     return std::nullopt;
 }
 
@@ -140,7 +147,7 @@ std::optional<UberPort> uber_port(const Model& model, std::string_view name) {
         return UberPort{fmt::format("ToonThresholds.{}", name.substr(name.find('.') + 1)), 0};
     const auto row = element_name(name, "Materials.rows");
     if (row && row->index == 0 && model.material == oracle::MaterialChoice::uniform)
-        return UberPort{fmt::format("Material.{}", row->member), 0};
+        return UberPort{fmt::format("Material.{}", row->rest), 0};
     return light_port(model, name);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "lab/verify/feed.hpp"
+#include "lab/verify/inputs.hpp"
 
 namespace gobo::uber {
 

@@ -3,8 +3,8 @@
 
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
-#include "validate/validate.hpp"
 #include "lab/verify/verify.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lit_library.hpp"
 #include "lab/verify/expectation.hpp"
-#include "lab/verify/figures_json.hpp"
+#include "lab/verify/verify.hpp"
+#include "lit_library.hpp"
 
 namespace gobo {
 namespace {

@@ -1,4 +1,4 @@
-// How far a renderer's interpolation is from exact, in the roundings that the witness grants it. Each row
+// How far a renderer's interpolation is from exact, in the roundings that the cross-check grants it. Each row
 // prints what it found, and holds the limit between that and four times that.
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
+#include "lab/raster/interpolation_spread.hpp"
 #include "lab/render/mesh.hpp"
 #include "lab/render/render.hpp"
-#include "lab/verify/interpolation_spread.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
 
@@ -86,18 +86,17 @@ double largest_error(const Context& context, const Row& row, int side) {
                               .value()
                               .color;
     const auto program =
-        verify::software_program(shown.spirv_of(permutation.vertex), shown.spirv_of(permutation.fragment))
-            .value();
-    const std::vector<verify::SoftwareObject> rasterised =
-        verify::rasterise_objects(program, interface, objects, shown.family.render, view).value();
+        raster::pipeline_of(shown.spirv_of(permutation.vertex), shown.spirv_of(permutation.fragment)).value();
+    const std::vector<raster::RasterObject> rasterised =
+        raster::rasterise_objects(program, interface, objects, shown.family.render, view).value();
     std::vector<Nearest> pixels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    for (const verify::SoftwareObject& object : rasterised) {
+    for (const raster::RasterObject& object : rasterised) {
         const auto varyings = evaluate::run<float>(program.vertex, object.vertices).value();
-        const auto inputs =
-            verify::fragment_inputs(program, object, verify::shading_places(program, object), varyings);
-        const auto rounding = verify::interpolation_rounding(program, object, varyings);
+        const auto inputs = raster::fragment_inputs(program, object,
+                                                    raster::places_of(object, program.needs_quads), varyings);
+        const auto rounding = raster::interpolation_rounding(program, object, varyings);
         for (std::size_t i = 0; i < object.fragments.size(); ++i) {
-            const verify::Fragment& fragment = object.fragments[i];
+            const raster::Fragment& fragment = object.fragments[i];
             Nearest& pixel = pixels[static_cast<std::size_t>(fragment.y * side + fragment.x)];
             if (fragment.is_near_edge) pixel = {-1, 0};  // drawn or not: nobody knows
             if (!fragment.is_covered || fragment.weights.depth >= pixel.depth) continue;
@@ -119,10 +118,10 @@ TEST(InterpolationPrecision, IsWithinTheRoundingsGranted) {
         for (const int side : {64, 256, 1024}) {
             const double found = largest_error(context, row, side);
             fmt::print("{} at {} x {}: {:.1f} roundings\n", row.name, side, side, found);
-            EXPECT_LE(found, verify::kInterpolationRoundings) << row.name << " at " << side;
+            EXPECT_LE(found, raster::kInterpolationRoundings) << row.name << " at " << side;
             largest = std::max(largest, found);
         }
-    EXPECT_GE(4 * largest, verify::kInterpolationRoundings) << "more is granted than the renderer needs";
+    EXPECT_GE(4 * largest, raster::kInterpolationRoundings) << "more is granted than the renderer needs";
 }
 
 }  // namespace

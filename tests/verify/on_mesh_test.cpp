@@ -1,8 +1,9 @@
 // That whole pipelines are tried on meshes, and that what joins their stages wrongly is found there.
+#include "lab/verify/on_mesh.hpp"
+
 #include <gtest/gtest.h>
 
 #include "lit_library.hpp"
-#include "lab/verify/test_meshes.hpp"
 
 namespace gobo {
 namespace {

@@ -1,9 +1,9 @@
 // The software rasteriser against what can be said of triangles without one.
-#include "lab/verify/rasterise.hpp"
+#include "lab/raster/rasterise.hpp"
 
 #include <gtest/gtest.h>
 
-namespace gobo::verify {
+namespace gobo::raster {
 namespace {
 
 constexpr int kSide = 8;
@@ -75,4 +75,4 @@ TEST(Rasterise, LeavesOutWhatHasNoArea) {
 }
 
 }  // namespace
-}  // namespace gobo::verify
+}  // namespace gobo::raster

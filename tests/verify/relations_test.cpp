@@ -9,7 +9,7 @@
 #include "lab/evaluate/evaluate.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/render/mesh.hpp"
-#include "lab/verify/feed.hpp"
+#include "lab/verify/inputs.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
 
@@ -31,7 +31,8 @@ Colors evaluate_at(const std::string& key, StageKind stage, const std::string& o
     const Permutation& permutation = composition.permutations.front();
     const int index = stage == StageKind::vertex ? permutation.vertex : permutation.fragment;
     const auto program = evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv).value();
-    const auto outputs = evaluate::run<double>(program, verify::feed(program, samples).value()).value();
+    const auto outputs =
+        evaluate::run<double>(program, verify::bind_inputs(program, samples).value()).value();
     const std::vector<double>& values = outputs.values.at(output);
     Colors colors;
     for (std::size_t i = 0; i < samples.size(); ++i)

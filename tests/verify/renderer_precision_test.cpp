@@ -1,6 +1,6 @@
-// What the witness's limits pay for, measured on the renderer: how far its own functions, its interpolation
-// and its filtering are from exact. Each row prints what it found, and holds the limit between that and four
-// times that.
+// What the cross-check's limits pay for, measured on the renderer: how far its own functions, its
+// interpolation and its filtering are from exact. Each row prints what it found, and holds the limit between
+// that and four times that.
 #include <cmath>
 #include <functional>
 
@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "lab/evaluate/images.hpp"
+#include "lab/raster/compare_picture.hpp"
+#include "lab/raster/random.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/texture.hpp"
-#include "lab/verify/compare_picture.hpp"
-#include "lab/verify/random.hpp"
 
 namespace gobo {
 namespace {
@@ -94,15 +94,15 @@ const FunctionRow kFunctions[] = {
      [](double x) {
          return std::exp(90 * std::log(static_cast<double>(0.9F + 0.1F * static_cast<float>(x))));
      },
-     verify::kPowerError},
-    {"exp(-x)", "exp(-7.0 * x)", [](double x) { return std::exp(-7 * x); }, verify::kPowerError},
+     raster::kPowerError},
+    {"exp(-x)", "exp(-7.0 * x)", [](double x) { return std::exp(-7 * x); }, raster::kPowerError},
     {"pow(x, 48)", "pow(0.875 + 0.125 * x, 48.0)", [](double x) { return std::pow(0.875 + 0.125 * x, 48); },
-     verify::kPowerError},
-    {"atan(y, x)", "atan(x, 1.0 - x)", [](double x) { return std::atan2(x, 1 - x); }, verify::kPowerError},
-    {"sin", "sin(1.5 * x)", [](double x) { return std::sin(1.5 * x); }, verify::kPowerError},
-    {"inversesqrt", "inversesqrt(x)", [](double x) { return 1 / std::sqrt(x); }, verify::kArithmeticError},
-    {"sqrt", "sqrt(x)", [](double x) { return std::sqrt(x); }, verify::kArithmeticError},
-    {"division", "1.0 / (x + 1.0)", [](double x) { return 1 / (x + 1); }, verify::kArithmeticError},
+     raster::kPowerError},
+    {"atan(y, x)", "atan(x, 1.0 - x)", [](double x) { return std::atan2(x, 1 - x); }, raster::kPowerError},
+    {"sin", "sin(1.5 * x)", [](double x) { return std::sin(1.5 * x); }, raster::kPowerError},
+    {"inversesqrt", "inversesqrt(x)", [](double x) { return 1 / std::sqrt(x); }, raster::kArithmeticError},
+    {"sqrt", "sqrt(x)", [](double x) { return std::sqrt(x); }, raster::kArithmeticError},
+    {"division", "1.0 / (x + 1.0)", [](double x) { return 1 / (x + 1); }, raster::kArithmeticError},
 };
 
 TEST(RendererPrecision, OfFunctionsIsWithinTheLimits) {
@@ -121,7 +121,7 @@ TEST(RendererPrecision, OfFunctionsIsWithinTheLimits) {
 /// Every texel another colour, from 0 to 1.
 Image patchwork(int width, int height) {
     Image image(width, height, 4);
-    verify::Random random(5);
+    Random random(5);
     for (float& value : image.values) value = static_cast<float>(random.unit());
     return image;
 }
@@ -178,8 +178,8 @@ TEST(RendererPrecision, OfFilteringIsWithinTheLimits) {
                                                          2 * fraction(91 * x) - 1, 0};
                         });
     fmt::print("between texels: {:.1e} of their contrast; of a cube's: {:.1e}\n", of_flat, of_cube);
-    EXPECT_LE(of_flat, verify::kFilteringError);
-    EXPECT_LE(of_cube, verify::kFilteringError);
+    EXPECT_LE(of_flat, raster::kFilteringError);
+    EXPECT_LE(of_cube, raster::kFilteringError);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 #include "core/file_system.hpp"
 #include "lab/evaluate/evaluate.hpp"
-#include "lab/verify/ask_oracle.hpp"
-#include "lab/verify/feed.hpp"
-#include "lab/verify/random.hpp"
+#include "lab/raster/random.hpp"
+#include "lab/verify/expectation.hpp"
+#include "lab/verify/inputs.hpp"
+#include "lab/verify/on_mesh.hpp"
 #include "lab/verify/sample.hpp"
-#include "lab/verify/test_meshes.hpp"
 #include "lit_library.hpp"
 #include "validate/validate.hpp"
 
@@ -147,7 +147,7 @@ TEST(Verify, AsksTheOracleAboutAnyInvocation) {
     const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
     const oracle::Model model = oracle::model_of(family, keys[0]).value();
     const auto samples = verify::make_samples(model, StageKind::fragment, 1, 3);
-    const auto invocation = verify::feed(program, samples).value();
+    const auto invocation = verify::bind_inputs(program, samples).value();
     const auto outputs = evaluate::run<double>(program, invocation).value();
     const auto answers = verify::ask_oracle(family, keys[0], StageKind::fragment, program, invocation);
     ASSERT_TRUE(answers.has_value());
@@ -165,7 +165,7 @@ TEST(Verify, KeepsTheWorstPoints) {
     for (const double ratio : {2.0, 5.0, 3.0, 9.0, 4.0}) {
         verify::Failure failure;
         failure.ratio = ratio;
-        verify::add_failure(report, failure);
+        report.add(failure);
     }
     std::vector<double> kept;
     for (const verify::Failure& failure : report.worst) kept.push_back(failure.ratio);
@@ -173,7 +173,7 @@ TEST(Verify, KeepsTheWorstPoints) {
 }
 
 TEST(Verify, DrawsTheSameNumbersOnEveryMachine) {
-    verify::Random random(1);
+    Random random(1);
     EXPECT_EQ(random.bits(), 0x910A2DEC89025CC1U) << "the published sequence of SplitMix64 from seed 1";
     EXPECT_EQ(random.bits(), 0xBEEB8DA1658EEC67U);
 }

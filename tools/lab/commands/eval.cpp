@@ -4,7 +4,7 @@
 #include "lab/commands/commands.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
-#include "lab/verify/ask_oracle.hpp"
+#include "lab/verify/expectation.hpp"
 
 namespace gobo {
 namespace {

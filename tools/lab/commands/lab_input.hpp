@@ -9,7 +9,7 @@
 #include "gobo/input.hpp"
 #include "lab/render/image.hpp"
 #include "lab/study/study.hpp"
-#include "lab/verify/shadow_witness.hpp"
+#include "lab/verify/shadow_map_check.hpp"
 
 namespace gobo {
 

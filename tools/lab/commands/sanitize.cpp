@@ -10,7 +10,7 @@
 #include "family/read_family.hpp"
 #include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
-#include "lab/sanitize/precision_report.hpp"
+#include "lab/sanitize/precision.hpp"
 
 namespace gobo {
 namespace {

@@ -9,8 +9,7 @@
 #include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
-#include "lab/verify/figures_json.hpp"
-#include "lab/verify/test_meshes.hpp"
+#include "lab/verify/on_mesh.hpp"
 #include "lab/verify/verify.hpp"
 
 namespace gobo {

@@ -9,7 +9,7 @@
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/image_file.hpp"
 #include "lab/render/render.hpp"
-#include "lab/verify/witness.hpp"
+#include "lab/verify/cross_check.hpp"
 
 namespace gobo {
 namespace {
@@ -23,13 +23,13 @@ constexpr float kWhiteDifference = 1e-3F;
 constexpr int kMapSide = 64;
 
 Diagnostics report_failure(const World& world, const std::string& folder, const std::string& key,
-                           const verify::PictureReport& report) {
+                           const raster::PictureReport& report) {
     Diagnostic error;
     error.subject = key;
     error.message =
         fmt::format("{} of {} pixels are not what the evaluation gives, {} at an edge, rms {:.1e}",
                     report.wrong, report.pixels, report.edges, report.root_mean_square);
-    for (const verify::WrongPixel& pixel : report.worst)
+    for (const raster::WrongPixel& pixel : report.worst)
         error.message +=
             fmt::format("\n  pixel ({}, {}): drawn {:.7g}, evaluated {:.7g}, {:.3g} times the limit", pixel.x,
                         pixel.y, fmt::join(pixel.actual, " "), fmt::join(pixel.expected, " "), pixel.ratio);
@@ -71,7 +71,7 @@ std::string totals_text(const Totals& totals, std::size_t permutations, const st
         permutations, renderer, totals.largest_error, totals.root_mean_square);
 }
 
-void add(const verify::PictureReport& picture, Totals& totals) {
+void add(const raster::PictureReport& picture, Totals& totals) {
     totals.largest_error = std::max(totals.largest_error, picture.largest_error);
     totals.root_mean_square = std::max(totals.root_mean_square, picture.root_mean_square);
     totals.largest_ratio = std::max(totals.largest_ratio, picture.largest_ratio);
@@ -101,7 +101,7 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
                                  const Composition& composition, const Validated& validated) {
     GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
-    verify::WitnessScene scene;  // what gobo render shows, smaller
+    verify::CrossCheckScene scene;  // what gobo render shows, smaller
     scene.objects = demo_objects(std::move(teapot));
     scene.values = family.render;
     scene.family = &family;
@@ -114,11 +114,11 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         scene.shadow_pass = &*shadow_pass;
     }
     GOBO_TRY(const Context context, open_context(backend));
-    const auto report = verify::witness(context, composition, validated, scene, world.jobs());
+    const auto report = verify::cross_check(context, composition, validated, scene, world.jobs());
     Outcome outcome;
     outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     Totals totals;
-    for (const verify::PictureReport& picture : report.pictures) {
+    for (const raster::PictureReport& picture : report.pictures) {
         const std::string key = key_text(family, picture.key);
         Diagnostics problems = picture.diagnostics;
         for (Diagnostic& problem : problems) problem.subject = key;

@@ -94,7 +94,7 @@ Result<Entry> make_entry(const Context& context, const Scene& scene, const Famil
         }
         return entry;
     }
-    const verify::PictureReport& report = evaluation->report;
+    const raster::PictureReport& report = evaluation->report;
     entry.largest_error = report.largest_error;
     entry.root_mean_square = report.root_mean_square;
     entry.edges = report.edges;

@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
-#include "lab/verify/render_feed.hpp"
-#include "lab/verify/shade.hpp"
-#include "lab/verify/witness_textures.hpp"
+#include "lab/raster/raster_object.hpp"
+#include "lab/raster/shade.hpp"
+#include "lab/raster/shared_textures.hpp"
 
 namespace gobo::gallery {
 namespace {
@@ -35,7 +35,7 @@ Result<Drawing> draw(const Context& context, const Scene& scene, const Family& f
     Drawing drawing;
     drawing.interface = interface_of(validated, permutation);
     drawing.values = with_usual_textures(drawing.interface, family.render);
-    verify::WitnessTextures textures(context);
+    raster::SharedTextures textures(context);
     GOBO_TRY_DO(textures.add(drawing.interface, drawing.values, scene.cube_maps));
     drawing.images = textures.images();
     GivenTextures given = textures.given();
@@ -46,7 +46,7 @@ Result<Drawing> draw(const Context& context, const Scene& scene, const Family& f
                                                     scene.view.camera.view()));
         maps.emplace(std::move(drawn));
         drawing.values.insert(drawing.values.end(), maps->values().begin(), maps->values().end());
-        drawing.images["shadowMaps"] = verify::depths_of(*maps, lights);
+        drawing.images["shadowMaps"] = raster::depths_of(*maps, lights);
         given["shadowMaps"] = maps->texture();
     }
     GOBO_TRY(Picture picture,
@@ -62,17 +62,17 @@ Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, 
     const auto spirv = [&](int stage) -> const SpirvModule& {
         return validated.stages[static_cast<std::size_t>(stage)].spirv;
     };
-    GOBO_TRY(const verify::SoftwareProgram program,
-             verify::software_program(spirv(permutation.vertex), spirv(permutation.fragment)));
+    GOBO_TRY(const raster::Pipeline program,
+             raster::pipeline_of(spirv(permutation.vertex), spirv(permutation.fragment)));
     const auto objects_in = [&](const View& view) {
-        return verify::rasterise_objects(program, drawing.interface, scene.objects,
-                                         verify::with_plain_textures(drawing.interface, drawing.values), view,
+        return raster::rasterise_objects(program, drawing.interface, scene.objects,
+                                         raster::with_plain_textures(drawing.interface, drawing.values), view,
                                          drawing.images);
     };
     GOBO_TRY(const auto seen, objects_in(scene.view));
     Evaluation evaluation;
-    evaluation.report = verify::compare_picture(drawing.color, program, seen, scene.view.background,
-                                                verify::KeptPictures::all);
+    evaluation.report = raster::compare_picture(drawing.color, program, seen, scene.view.background,
+                                                raster::KeptPictures::all);
     if (!evaluation.report.diagnostics.empty()) return tl::unexpected(evaluation.report.diagnostics);
 
     // Costs are averages: a picture this small tells them to a few parts in a hundred.
@@ -80,11 +80,11 @@ Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, 
     small.width = 80;
     small.height = 60;
     GOBO_TRY(const auto objects, objects_in(small));
-    verify::Work work;
+    raster::Work work;
     std::size_t fragments = 0;
     std::size_t vertices = 0;
-    for (const verify::SoftwareObject& object : objects) {
-        GOBO_TRY(const auto shaded, verify::shade_in<float>(program, object, &work));
+    for (const raster::RasterObject& object : objects) {
+        GOBO_TRY(const auto shaded, raster::shade<float>(program, object, &work));
         fragments += shaded.size();
         vertices += shaded.empty() ? 0 : object.positions.size();
     }

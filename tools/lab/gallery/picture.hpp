@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "compose/composition.hpp"
+#include "lab/raster/compare_picture.hpp"
 #include "lab/render/render.hpp"
 #include "lab/study/weights.hpp"
-#include "lab/verify/compare_picture.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::gallery {
@@ -39,7 +39,7 @@ struct Drawing {
                                    const Permutation& permutation);
 
 struct Evaluation {
-    verify::PictureReport report;  ///< how far the drawing is from it, with its pictures
+    raster::PictureReport report;  ///< how far the drawing is from it, with its pictures
     double fragment_cost = 0;      ///< of a fragment on average, in the weights' unit
     double vertex_cost = 0;        ///< of a vertex
 };

@@ -23,7 +23,7 @@ std::uint32_t code_of(const Operation& operation) {
 std::uint32_t address(const Step& step, std::uint32_t base, std::uint32_t offset_slot, std::size_t lane) {
     evaluate::Slice offset;
     offset.slot = offset_slot;
-    return base + static_cast<std::uint32_t>(whole_row(step, offset, 0)[lane]);
+    return base + static_cast<std::uint32_t>(int_row(step, offset, 0)[lane]);
 }
 
 }  // namespace
@@ -60,48 +60,56 @@ Lanes Definedness::after(const Step& step) {
 }
 
 Lanes Definedness::move(const Step& step, const Operation& operation) {
+    const std::uint32_t* words = program_.words.data() + operation.extra;
+    const auto& operands = operation.operands;
+    scratch_.clear();
     switch (code_of(operation)) {
         case spv::OpStore:
-            copy(operation.result, operation.operands[0], operation.count, step.lanes);
+            copy(operation.result, operands[0], operation.count, step.lanes);
             return 0;
         case spv::OpLoad:
         case spv::OpCopyObject:
         case spv::OpCompositeExtract:
-            copy(operation.result, operation.operands[0], operation.count, kAll);
+            copy(operation.result, operands[0], operation.count, kAll);
             return 0;
         case evaluate::kGather:
             gather(step, operation);
             return 0;
         case evaluate::kScatter:
-            scatter(step, operation);
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                if ((step.lanes >> lane & 1U) != 0)
+                    copy(address(step, operation.result, operands[1], lane), operands[0], operation.count,
+                         Lanes{1} << lane);
             return 0;
         case spv::OpCompositeConstruct:
-            construct(operation);
-            return 0;
+            for (const std::uint32_t* part = words; part < words + operation.extras; part += 2)
+                scratch_.insert(scratch_.end(), undefined_.begin() + part[0],
+                                undefined_.begin() + part[0] + part[1]);
+            break;
         case spv::OpVectorShuffle:
-            shuffle(operation);
-            return 0;
+            for (std::uint32_t i = 0; i < operation.count; ++i) scratch_.push_back(undefined_[words[i]]);
+            break;
         case spv::OpCompositeInsert:
-            insert(operation);
+            copy(operation.result, operands[1], operation.count, kAll);
+            copy(operation.result + words[0], operands[0], words[1], kAll);
             return 0;
-        case spv::OpSelect:
-            select(operation);
-            return 0;
+        case spv::OpSelect:  // only where both are unwritten, whichever is chosen
+            for (std::uint32_t i = 0; i < operation.count; ++i)
+                scratch_.push_back(undefined_[operands[1] + i] & undefined_[operands[2] + i]);
+            break;
         case spv::OpAccessChain:
             return 0;  // an address: nothing is read
         default:
             return compute(step);
     }
+    std::copy(scratch_.begin(), scratch_.end(), undefined_.begin() + operation.result);
+    return 0;
 }
 
 void Definedness::copy(std::uint32_t to, std::uint32_t from, std::uint32_t count, Lanes lanes) {
     if (to == from) return;
     for (std::uint32_t i = 0; i < count; ++i)
         undefined_[to + i] = (undefined_[to + i] & ~lanes) | (undefined_[from + i] & lanes);
-}
-
-void Definedness::define(const evaluate::Slice& slice) {
-    std::fill_n(undefined_.begin() + slice.slot, slice.count, 0);
 }
 
 void Definedness::gather(const Step& step, const Operation& operation) {
@@ -116,47 +124,11 @@ void Definedness::gather(const Step& step, const Operation& operation) {
     }
 }
 
-void Definedness::scatter(const Step& step, const Operation& operation) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        if ((step.lanes >> lane & 1U) == 0) continue;
-        const std::uint32_t to = address(step, operation.result, operation.operands[1], lane);
-        copy(to, operation.operands[0], operation.count, Lanes{1} << lane);
-    }
-}
-
-void Definedness::construct(const Operation& operation) {
-    scratch_.clear();
-    for (std::uint32_t at = operation.extra; at < operation.extra + operation.extras; at += 2)
-        for (std::uint32_t i = 0; i < program_.words[at + 1]; ++i)
-            scratch_.push_back(undefined_[program_.words[at] + i]);
-    std::copy(scratch_.begin(), scratch_.end(), undefined_.begin() + operation.result);
-}
-
-void Definedness::shuffle(const Operation& operation) {
-    scratch_.clear();
-    for (std::uint32_t component = 0; component < operation.count; ++component)
-        scratch_.push_back(undefined_[program_.words[operation.extra + component]]);
-    std::copy(scratch_.begin(), scratch_.end(), undefined_.begin() + operation.result);
-}
-
-void Definedness::insert(const Operation& operation) {
-    copy(operation.result, operation.operands[1], operation.count, kAll);
-    copy(operation.result + program_.words[operation.extra], operation.operands[0],
-         program_.words[operation.extra + 1], kAll);
-}
-
-/// Only where both are unwritten, whichever is chosen.
-void Definedness::select(const Operation& operation) {
-    for (std::uint32_t i = 0; i < operation.count; ++i)
-        undefined_[operation.result + i] =
-            undefined_[operation.operands[1] + i] & undefined_[operation.operands[2] + i];
-}
-
 Lanes Definedness::compute(const Step& step) {
     Lanes lanes = 0;
     for (const evaluate::Slice& operand : step.info().operands)
         lanes |= undefined_in(operand.slot, operand.count);
-    define(step.info().result);
+    std::fill_n(undefined_.begin() + step.info().result.slot, step.info().result.count, 0);
     return lanes & step.lanes;
 }
 

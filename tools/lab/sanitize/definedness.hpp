@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lab/sanitize/trap_rules.hpp"
+#include "lab/sanitize/rules.hpp"
 
 namespace gobo::sanitize {
 
@@ -22,13 +22,7 @@ class Definedness {
 
   private:
     void copy(std::uint32_t to, std::uint32_t from, std::uint32_t count, Lanes lanes);
-    void define(const evaluate::Slice& slice);
     void gather(const evaluate::Step<float>& step, const evaluate::Operation& operation);
-    void scatter(const evaluate::Step<float>& step, const evaluate::Operation& operation);
-    void construct(const evaluate::Operation& operation);
-    void shuffle(const evaluate::Operation& operation);
-    void insert(const evaluate::Operation& operation);
-    void select(const evaluate::Operation& operation);
     [[nodiscard]] Lanes move(const evaluate::Step<float>& step, const evaluate::Operation& operation);
     [[nodiscard]] Lanes compute(const evaluate::Step<float>& step);
 

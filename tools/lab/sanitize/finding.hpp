@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "compose/composition.hpp"
 #include "lab/evaluate/eval_file.hpp"
+#include "lab/sanitize/bounds.hpp"
 #include "lab/sanitize/machine.hpp"
+#include "lab/sanitize/observers.hpp"
 
 namespace gobo::sanitize {
 
@@ -32,5 +34,13 @@ struct Finding {
 
 /// The finding's message with the operation's values.
 [[nodiscard]] std::string to_text(const Finding& finding);
+
+/// The traps of one stage at the given points; the stage's kind is left to the caller. An output that nothing
+/// ever stores to has no place. `bounds` are those of OutputBounds::at(), or empty: points that trap are not
+/// held to them. `reach` watches beside the traps.
+[[nodiscard]] Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
+                                                      const evaluate::Invocations& invocations,
+                                                      Machine machine, std::span<const Interval> bounds = {},
+                                                      ReachObserver* reach = nullptr);
 
 }  // namespace gobo::sanitize

@@ -1,21 +1,31 @@
 #include "lab/sanitize/input_space.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 
 #include "lab/evaluate/images.hpp"
-#include "lab/sanitize/input_range.hpp"
+#include "lab/verify/random_points.hpp"
 
 namespace gobo::sanitize {
 namespace {
+
+Domain plain_domain(const std::string& name, double low, double high) {
+    Domain domain;
+    domain.name = name;
+    domain.low = low;
+    domain.high = high;
+    return domain;
+}
+
+constexpr double kAboveOne = 1.00000012;  // a float's neighbours of 1
+constexpr double kBelowOne = 0.99999994;
 
 void add_field(InputSpace& space, InputField field) {
     field.first = space.numbers;
     space.numbers += field.components;
     if (field.is_vector() && !field.is_texture) space.vectors.push_back(space.fields.size());
-    if (field.is_number()) space.reals.push_back(space.fields.size());
+    if (field.is_number()) space.floats.push_back(space.fields.size());
     space.fields.push_back(std::move(field));
 }
 
@@ -53,8 +63,53 @@ evaluate::Image one_colour_at_each_point(std::size_t first, const PointSet& poin
 
 }  // namespace
 
+double length_of(std::span<const double> vector) {
+    double square = 0;
+    for (const double component : vector) square += component * component;
+    return std::sqrt(square);
+}
+
+Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
+    const std::string name = verify::without_subscripts(port.name);
+    const auto declared =
+        std::find_if(domains.begin(), domains.end(), [&](const Domain& d) { return d.name == name; });
+    if (declared != domains.end()) return *declared;
+    if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
+    if (port.scalar == evaluate::Scalar::uint32) return plain_domain(name, 0, 100);
+    if (name == "gl_FragCoord" || name == "gl_PointCoord" || name == "gl_SamplePosition")
+        return plain_domain(name, 0, 1);
+    if (name.starts_with("gl_")) return plain_domain(name, 0, 100);
+    return plain_domain(name, -100, 100);
+}
+
+bool holds(const Domain& domain, double number) {
+    return (number >= domain.low && number <= domain.high) ||
+           std::find(domain.also.begin(), domain.also.end(), number) != domain.also.end();
+}
+
+std::vector<double> hard_numbers(const Domain& domain) {
+    std::vector<double> numbers;
+    for (const double size : {kSmallest, 0.25, 0.5, 0.75, kBelowOne, 1.0, kAboveOne, 2.0, 1e3})
+        for (const double number : {size, -size})
+            if (holds(domain, number)) numbers.push_back(number);
+    numbers.insert(numbers.end(), {domain.low, domain.high});
+    numbers.insert(numbers.end(), domain.also.begin(), domain.also.end());
+    if (holds(domain, 0)) numbers.insert(numbers.end(), {0, 0, 0});  // the hardest of all
+    return numbers;
+}
+
+double ordinary_number(const Domain& domain, Random& random) {
+    if (random.one_in(2)) return random.between(domain.low, domain.high);
+    const double largest = std::max(std::abs(domain.low), std::abs(domain.high));
+    const double smallest = domain.low > 0 ? domain.low : std::min(kSmallest, largest);
+    if (smallest <= 0) return domain.low;
+    const double size = smallest * std::pow(largest / smallest, random.unit());
+    const double number = domain.low < 0 && random.one_in(2) ? -size : size;
+    return std::clamp(number, domain.low, domain.high);
+}
+
 bool InputField::is_vector() const {
-    return is_real() && (type == "vec2" || type == "vec3" || type == "vec4");
+    return is_float() && (type == "vec2" || type == "vec3" || type == "vec4");
 }
 
 Domain InputField::last_domain() const {
@@ -88,9 +143,7 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
             static_cast<double>(static_cast<float>(nearest_allowed(field.last_domain(), all.back())));
     const std::span<double> numbers = all.first(field.ranged());
     if (field.domain.of_length) {
-        double square = 0;
-        for (const double number : numbers) square += number * number;
-        const double length = std::sqrt(square);
+        const double length = length_of(numbers);
         const double allowed = nearest_allowed(field.domain, length);
         if (length == 0 && allowed != 0) numbers[0] = allowed;
         for (double& number : numbers)
@@ -99,7 +152,7 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
         for (double& number : numbers) number = nearest_allowed(field.domain, number);
     }
     for (double& number : numbers)
-        number = field.is_real() ? static_cast<double>(static_cast<float>(number)) : std::round(number);
+        number = field.is_float() ? static_cast<double>(static_cast<float>(number)) : std::round(number);
 }
 
 evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points) {

@@ -1,15 +1,37 @@
-// All that a stage reads, as one flat list of numbers: what searches draw, change, and simplify.
+// All that a stage reads, as one flat list of numbers within the domains of its inputs: what searches draw,
+// change, and simplify.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
+#include "lab/sanitize/random.hpp"
 
 namespace gobo::sanitize {
+
+/// Numbers nearer to 0 than this are drawn only where a domain's own bounds are: coordinates and lengths
+/// below it occur as exactly 0.
+inline constexpr double kSmallest = 1e-6;
+
+/// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
+/// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
+[[nodiscard]] Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains);
+
+/// Whether a component may hold the number. Not for domains of a length.
+[[nodiscard]] bool holds(const Domain& domain, double number);
+
+/// The numbers where shaders fail: 0, the bounds, the smallest, 1 and its neighbours, halves, band edges.
+/// Of a component, or of a length where the domain is of one.
+[[nodiscard]] std::vector<double> hard_numbers(const Domain& domain);
+
+/// A number of the domain: evenly spread, or every power of ten as likely as any other.
+[[nodiscard]] double ordinary_number(const Domain& domain, Random& random);
+
+[[nodiscard]] double length_of(std::span<const double> vector);
 
 /// An input, a uniform, or the colour that a texture answers with.
 struct InputField {
@@ -22,21 +44,21 @@ struct InputField {
     std::size_t first = 0;     ///< of its numbers in a point
     std::size_t components = 1;
 
-    [[nodiscard]] bool is_real() const { return scalar == evaluate::Scalar::float32; }
+    [[nodiscard]] bool is_float() const { return scalar == evaluate::Scalar::float32; }
     [[nodiscard]] bool is_vector() const;
     /// Components that the domain's range is of: all but a last one that is a quantity of its own.
     [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }
     /// The domain of that last component.
     [[nodiscard]] Domain last_domain() const;
-    [[nodiscard]] bool is_number() const { return is_real() && components == 1; }
+    [[nodiscard]] bool is_number() const { return is_float() && components == 1; }
 };
 
 /// The fields of a stage.
 struct InputSpace {
     std::vector<InputField> fields;
     std::size_t numbers = 0;           ///< of a point
-    std::vector<std::size_t> vectors;  ///< fields that are vectors of reals
-    std::vector<std::size_t> reals;    ///< fields that are single reals
+    std::vector<std::size_t> vectors;  ///< fields that are vectors of floats
+    std::vector<std::size_t> floats;   ///< fields that are single floats
 };
 
 /// Points of one stage, each `InputSpace::numbers` numbers, one after the other.

@@ -1,9 +1,9 @@
-// Machines that GLSL allows: what is watched on one may not happen on another.
+// Variants of arithmetic that GLSL allows: what is watched on one may not happen on another.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "lab/evaluate/evaluate.hpp"
 
@@ -21,34 +21,41 @@ enum class Machine {
     errors_down,  ///< too small by as much
 };
 
-inline constexpr Machine kMachines[] = {Machine::ieee,        Machine::flushed,   Machine::nan_kept,
-                                        Machine::nan_dropped, Machine::fused,     Machine::regrouped,
-                                        Machine::reordered,   Machine::errors_up, Machine::errors_down};
+struct MachineRow {
+    Machine machine;
+    std::string_view name;
+    evaluate::Options options;
+};
+inline constexpr MachineRow kMachineRows[] = {
+    {Machine::ieee, "ieee", {}},
+    {Machine::flushed, "flushed", {.flush_denormals = true}},
+    {Machine::nan_kept, "nan_kept", {.nans = evaluate::NaNs::kept}},
+    {Machine::nan_dropped, "nan_dropped", {.nans = evaluate::NaNs::dropped}},
+    {Machine::fused, "fused", {.sums = evaluate::Sums::fused}},
+    {Machine::regrouped, "regrouped", {.sums = evaluate::Sums::regrouped}},
+    {Machine::reordered, "reordered", {.sums = evaluate::Sums::reordered}},
+    {Machine::errors_up, "errors_up", {.errors = evaluate::Errors::largest_up}},
+    {Machine::errors_down, "errors_down", {.errors = evaluate::Errors::largest_down}},
+};
 
-/// As the enumerators are called: "ieee", "flushed", ...
 [[nodiscard]] constexpr std::string_view name_of(Machine machine) {
-    constexpr std::string_view kNames[] = {"ieee",      "flushed",   "nan_kept",  "nan_dropped", "fused",
-                                           "regrouped", "reordered", "errors_up", "errors_down"};
-    return kNames[static_cast<std::size_t>(machine)];
+    return kMachineRows[static_cast<std::size_t>(machine)].name;
+}
+
+[[nodiscard]] constexpr evaluate::Options options_of(Machine machine) {
+    return kMachineRows[static_cast<std::size_t>(machine)].options;
 }
 
 [[nodiscard]] constexpr std::optional<Machine> machine_named(std::string_view name) {
-    for (const Machine machine : kMachines)
-        if (name_of(machine) == name) return machine;
+    for (const MachineRow& row : kMachineRows)
+        if (row.name == name) return row.machine;
     return std::nullopt;
 }
 
-[[nodiscard]] inline evaluate::Options options_of(Machine machine) {
-    evaluate::Options options;
-    options.flush_denormals = machine == Machine::flushed;
-    if (machine == Machine::nan_kept) options.nans = evaluate::NaNs::kept;
-    if (machine == Machine::nan_dropped) options.nans = evaluate::NaNs::dropped;
-    if (machine == Machine::fused) options.sums = evaluate::Sums::fused;
-    if (machine == Machine::regrouped) options.sums = evaluate::Sums::regrouped;
-    if (machine == Machine::reordered) options.sums = evaluate::Sums::reordered;
-    if (machine == Machine::errors_up) options.errors = evaluate::Errors::largest_up;
-    if (machine == Machine::errors_down) options.errors = evaluate::Errors::largest_down;
-    return options;
-}
+inline constexpr auto kMachines = [] {
+    std::array<Machine, std::size(kMachineRows)> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = kMachineRows[i].machine;
+    return all;
+}();
 
 }  // namespace gobo::sanitize

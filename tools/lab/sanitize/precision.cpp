@@ -1,20 +1,73 @@
 #include "lab/sanitize/precision.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 
+#include <nlohmann/json.hpp>
+#include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
+#include "family/key.hpp"
 #include "lab/evaluate/instruction_table.hpp"
-#include "lab/sanitize/decision_observer.hpp"
-#include "lab/sanitize/hard_inputs.hpp"
-#include "lab/sanitize/point_changer.hpp"
+#include "lab/sanitize/hard_points.hpp"
+#include "lab/verify/parallel.hpp"
 
 namespace gobo::sanitize {
 namespace {
+
+/// What makes a number jump.
+bool is_step(std::uint32_t code) {
+    switch (code) {
+        case spv::OpConvertFToS:
+        case spv::OpConvertFToU:
+        case evaluate::kExtended + GLSLstd450Floor:
+        case evaluate::kExtended + GLSLstd450Ceil:
+        case evaluate::kExtended + GLSLstd450Round:
+        case evaluate::kExtended + GLSLstd450RoundEven:
+        case evaluate::kExtended + GLSLstd450Trunc:
+        case evaluate::kExtended + GLSLstd450FSign:
+        case evaluate::kExtended + GLSLstd450Step:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// A number for all that an invocation decided: every comparison, and every step from reals to whole numbers.
+/// Where it is the same in fp32 and fp64, what the outputs differ by is rounding; otherwise one of them may
+/// stand on the other side of a jump.
+template <class T>
+class DecisionObserver final : public evaluate::Observer<T> {
+  public:
+    DecisionObserver(const evaluate::Program& program, std::size_t invocations) : decided_(invocations) {
+        for (std::size_t at = 0; at < program.operations.size(); ++at) {
+            const evaluate::Row& row = evaluate::instruction_table()[program.operations[at].row];
+            const bool makes_truth = program.infos[at].result.scalar == evaluate::Scalar::boolean;
+            decides_.push_back(is_step(row.code) || (makes_truth && row.kind == evaluate::Kind::compare));
+        }
+    }
+    void after(const evaluate::Step<T>& step) override {
+        if (!decides_[step.operation]) return;
+        const evaluate::Slice& result = step.info().result;
+        for (std::size_t lane = 0; lane < evaluate::kLanes; ++lane) {
+            if ((step.lanes >> lane & 1U) == 0) continue;
+            std::uint64_t& decided = decided_[step.first_invocation + lane];
+            for (std::uint32_t c = 0; c < result.count; ++c) {
+                const auto value = static_cast<float>(step.value(result, c, lane));
+                decided = (decided ^ std::bit_cast<std::uint32_t>(value) ^ step.operation) * 0x100000001b3U;
+            }
+        }
+    }
+    [[nodiscard]] std::uint64_t of(std::size_t invocation) const { return decided_[invocation]; }
+
+  private:
+    std::vector<bool> decides_;  ///< of each operation
+    std::vector<std::uint64_t> decided_;
+};
 
 constexpr std::size_t kPoints = 1024;  ///< made and run at a time
 
@@ -69,45 +122,38 @@ class Measurement {
         for (std::size_t done = 0; done < points; done += kPoints) {
             const std::size_t count = std::min(kPoints, points - done);
             const bool is_fresh = done < points / 2 || space_.numbers == 0;
-            const Result<bool> ran =
-                measure(is_fresh ? hard_points(space_, count, seed_++) : steps_from_worst(count));
-            if (!ran) return tl::unexpected(ran.error());
+            GOBO_TRY_DO(measure(is_fresh ? hard_points(space_, count, seed_++) : steps_from_worst(count)));
         }
-        for (std::size_t output = 0; output < worst_.size(); ++output) {
-            if (worst_[output].error == 0) continue;
-            Result<OutputLoss> loss = explain(output);
-            if (!loss) return tl::unexpected(loss.error());
-            report_.outputs.push_back(std::move(*loss));
+        for (Worst& worst : worst_) {
+            if (worst.loss.error == 0) continue;
+            GOBO_TRY_DO(explain(worst));
+            report_.outputs.push_back(std::move(worst.loss));
         }
         return std::move(report_);
     }
 
   private:
+    /// The worst of an output.
     struct Worst {
-        double error = 0;
-        std::uint32_t component = 0;
-        double fp32 = 0;
-        double fp64 = 0;
+        OutputLoss loss;
         std::vector<double> point;
     };
 
-    Result<bool> measure(const PointSet& points) {
+    Result<void> measure(const PointSet& points) {
         const evaluate::Invocations invocations = invocations_of(space_, points);
         DecisionObserver<float> decided32(program_, points.count());
         DecisionObserver<double> decided64(program_, points.count());
-        const auto fp32 = evaluate::run<float>(program_, invocations, {}, &decided32);
-        if (!fp32) return tl::unexpected(fp32.error());
-        const auto fp64 = evaluate::run<double>(program_, invocations, {}, &decided64);
-        if (!fp64) return tl::unexpected(fp64.error());
+        GOBO_TRY(const auto fp32, evaluate::run<float>(program_, invocations, {}, &decided32));
+        GOBO_TRY(const auto fp64, evaluate::run<double>(program_, invocations, {}, &decided64));
         for (std::size_t i = 0; i < points.count(); ++i) {
             ++report_.points;
-            if (fp64->discarded[i] || fp32->discarded[i]) continue;
+            if (fp64.discarded[i] || fp32.discarded[i]) continue;
             if (decided32.of(i) != decided64.of(i))
                 ++report_.decided_otherwise;
             else
-                judge(*fp32, *fp64, points, i);
+                judge(fp32, fp64, points, i);
         }
-        return true;
+        return {};
     }
 
     void judge(const evaluate::Outputs& fp32, const evaluate::Outputs& fp64, const PointSet& points,
@@ -117,11 +163,11 @@ class Measurement {
             const std::vector<double>& values32 = fp32.values.at(port.name);
             const std::vector<double>& values64 = fp64.values.at(port.name);
             const Difference found = difference(values32, values64, port.components, fp64.count, index);
-            if (found.error <= worst_[output].error) continue;
+            Worst& worst = worst_[output];
+            if (found.error <= worst.loss.error) continue;
             const std::size_t at = found.component * fp64.count + index;
-            const std::span<const double> point = points[index];
-            worst_[output] = {
-                found.error, found.component, values32[at], values64[at], {point.begin(), point.end()}};
+            worst.loss = {port.name, found.component, values32[at], values64[at], found.error, {}, {}, 0};
+            worst.point.assign(points[index].begin(), points[index].end());
         }
     }
 
@@ -140,10 +186,8 @@ class Measurement {
 
     /// Evaluates the worst point in fp64 once for each operation, with the results of only this one rounded
     /// to floats: what that changes is the operation's contribution.
-    Result<OutputLoss> explain(std::size_t output) {
-        const Worst& worst = worst_[output];
-        const evaluate::Port& port = program_.outputs[output];
-        OutputLoss loss{port.name, worst.component, worst.fp32, worst.fp64, worst.error, {}, {}, 0};
+    Result<void> explain(Worst& worst) {
+        OutputLoss& loss = worst.loss;
         const std::size_t operations = program_.operations.size();
         const evaluate::Invocations invocations = invocations_of(space_, repeated(worst.point, operations));
         loss.point = point_of(program_, invocations, 0);
@@ -152,12 +196,11 @@ class Measurement {
             rounded_in[at] = rounds(program_.operations[at]) ? static_cast<std::int64_t>(at) : -1;
         evaluate::Options options;
         options.rounded_in = &rounded_in;
-        const auto outputs = evaluate::run<double>(program_, invocations, options);
-        if (!outputs) return tl::unexpected(outputs.error());
-        const double* values = outputs->values.at(port.name).data() + worst.component * operations;
+        GOBO_TRY(const auto outputs, evaluate::run<double>(program_, invocations, options));
+        const double* values = outputs.values.at(loss.output).data() + loss.component * operations;
         std::map<std::tuple<std::string, int, std::string>, Contribution> contributions;
         for (std::uint32_t at = 0; at < operations; ++at) {
-            const double change = std::abs(values[at] - worst.fp64);
+            const double change = std::abs(values[at] - loss.fp64);
             if (!(change > 0)) continue;
             const Place& place = program_.place_of(at);
             const std::string name(evaluate::instruction_table()[program_.operations[at].row].name);
@@ -170,7 +213,7 @@ class Measurement {
         for (auto& [where, contribution] : contributions) loss.contributions.push_back(contribution);
         std::stable_sort(loss.contributions.begin(), loss.contributions.end(),
                          [](const Contribution& a, const Contribution& b) { return a.change > b.change; });
-        return loss;
+        return {};
     }
 
     const evaluate::Program& program_;
@@ -182,11 +225,120 @@ class Measurement {
     PrecisionReport report_;
 };
 
+using Json = nlohmann::ordered_json;
+
+struct Line {
+    const StagePrecision* stage;
+    const OutputLoss* loss;
+};
+
+/// The largest error first; the rest of the order only keeps it the same.
+std::vector<Line> sorted_lines(const std::vector<StagePrecision>& stages) {
+    std::vector<Line> lines;
+    for (const StagePrecision& stage : stages)
+        for (const OutputLoss& loss : stage.report.outputs) lines.push_back({&stage, &loss});
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const Line& a, const Line& b) { return a.loss->error > b.loss->error; });
+    return lines;
+}
+
+double share_of(const Contribution& contribution, const OutputLoss& loss) {
+    return contribution.change / loss.all_contributions;
+}
+
+std::string component_text(const OutputLoss& loss) {
+    return fmt::format("{}[{}]", loss.output, loss.component);
+}
+
+/// "fog/linear.glsl:15 FSub, 87 %"; a loss that no single rounding makes has no place.
+std::string place_text(const OutputLoss& loss) {
+    if (loss.contributions.empty()) return "-";
+    const Contribution& most = loss.contributions.front();
+    return fmt::format("{}:{} {}, {:.0f} %", most.place.file, most.place.line, most.operation,
+                       100 * share_of(most, loss));
+}
+
+std::string keys_text(const StagePrecision& stage) {
+    if (stage.keys.empty()) return "";
+    const std::string first = stage.keys.front().empty() ? "default" : stage.keys.front();
+    return stage.keys.size() == 1 ? first : fmt::format("{} and {} more", first, stage.keys.size() - 1);
+}
+
+Json json_of(const OutputLoss& loss) {
+    Json contributions = Json::array();
+    for (const Contribution& one : loss.contributions)
+        contributions.push_back({{"file", one.place.file},
+                                 {"line", one.place.line},
+                                 {"operation", one.operation},
+                                 {"change", one.change},
+                                 {"share", share_of(one, loss)}});
+    return contributions;
+}
+
 }  // namespace
 
 Result<PrecisionReport> measure_precision(const evaluate::Program& program, const InputSpace& space,
                                           std::size_t points, std::uint64_t seed) {
     return Measurement(program, space, seed).run(points);
+}
+
+Result<std::vector<StagePrecision>> measure_precision(const Family& family, const Composition& composition,
+                                                      const Validated& validated,
+                                                      const SanitizeOptions& options) {
+    std::vector<StagePrecision> stages(composition.stages.size());
+    std::vector<Diagnostics> errors(stages.size());
+    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+        stages[i].stage = composition.stages[i].kind;
+        for (const std::size_t permutation : permutations_of(composition, i))
+            stages[i].keys.push_back(key_text(family, composition.permutations[permutation].key));
+        const Result<evaluate::Program> program = evaluate::decode(validated.stages[i].spirv);
+        if (!program) {
+            errors[i] = program.error();
+            return;
+        }
+        const InputSpace space = input_space_of(*program, family.domains);
+        Result<PrecisionReport> report = measure_precision(*program, space, options.points, options.seed);
+        if (report)
+            stages[i].report = std::move(*report);
+        else
+            errors[i] = report.error();
+    });
+    for (Diagnostics& error : errors)
+        if (!error.empty()) return tl::unexpected(std::move(error));
+    return stages;
+}
+
+std::string precision_text(const std::vector<StagePrecision>& stages) {
+    std::string text = fmt::format("{:<10} {:<14} {:<14} {:<18} {:<52} {}\n", "error", "fp32", "fp64",
+                                   "output", "most of it from", "keys");
+    for (const auto& [stage, loss] : sorted_lines(stages))
+        text += fmt::format("{:<10.3g} {:<14.8g} {:<14.8g} {:<18} {:<52} {}\n", loss->error, loss->fp32,
+                            loss->fp64, component_text(*loss), place_text(*loss), keys_text(*stage));
+    std::uint64_t points = 0;
+    std::uint64_t otherwise = 0;
+    for (const StagePrecision& stage : stages) {
+        points += stage.report.points;
+        otherwise += stage.report.decided_otherwise;
+    }
+    return text + fmt::format("{} points, {} of them left out: fp32 took another side of a comparison\n",
+                              points, otherwise);
+}
+
+std::string precision_json(const std::vector<StagePrecision>& stages) {
+    Json outputs = Json::array();
+    for (const auto& [stage, loss] : sorted_lines(stages))
+        outputs.push_back({{"keys", stage->keys},
+                           {"stage", name_of(stage->stage)},
+                           {"output", loss->output},
+                           {"component", loss->component},
+                           {"error", loss->error},
+                           {"fp32", loss->fp32},
+                           {"fp64", loss->fp64},
+                           {"contributions", json_of(*loss)},
+                           {"inputs", loss->point.inputs},
+                           {"uniforms", loss->point.uniforms},
+                           {"samplers", loss->point.samplers}});
+    return Json{{"outputs", outputs}}.dump(2) + "\n";
 }
 
 }  // namespace gobo::sanitize

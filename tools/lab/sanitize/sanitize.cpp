@@ -9,12 +9,11 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "lab/evaluate/functions.hpp"
 #include "family/key.hpp"
-#include "lab/sanitize/hard_inputs.hpp"
-#include "lab/sanitize/input_range.hpp"
-#include "lab/sanitize/stage_search.hpp"
-#include "lab/sanitize/stages.hpp"
+#include "lab/evaluate/functions.hpp"
+#include "lab/sanitize/search.hpp"
+#include "lab/verify/parallel.hpp"
+#include "lab/verify/random_points.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -42,36 +41,23 @@ StageReport open_stage(const Family& family, const Composition& composition, con
     return report;
 }
 
-/// Whether the stage can still be searched; otherwise its diagnostics say why not.
-bool keep(StageReport& report, const Result<bool>& ran) {
-    if (!ran) report.diagnostics = ran.error();
-    return ran.has_value();
-}
-
-/// Calls run(first, count) for portion after portion of so many points.
-void in_portions(StageReport& report, std::size_t points,
-                 const std::function<Result<bool>(std::size_t, std::size_t)>& run) {
-    if (!report.search || !report.diagnostics.empty()) return;
-    for (std::size_t done = 0; done < points; done += kPortion)
-        if (!keep(report, run(done, std::min(kPortion, points - done)))) return;
-}
-
 /// Hard points of each stage.
 std::size_t points_of_stage(const SanitizeOptions& options, std::size_t stages) {
     if (options.total == 0 || stages == 0) return options.points;
     return (options.total + stages - 1) / stages;
 }
 
-void search(StageReport& report, const SanitizeOptions& options, std::size_t points) {
-    in_portions(report, points, [&](std::size_t first, std::size_t count) {
-        return report.search->run(
-            hard_points(report.search->space(), count, options.seed + first / kPortion));
-    });
+/// Runs so many points, portion after portion, as long as nothing fails.
+void search(StageReport& report, std::size_t points,
+            const std::function<Result<void>(StageSearch&, std::size_t first, std::size_t count)>& run) {
+    for (std::size_t done = 0; done < points && report.search && report.diagnostics.empty(); done += kPortion)
+        if (const auto ran = run(*report.search, done, std::min(kPortion, points - done)); !ran)
+            report.diagnostics = ran.error();
 }
 
 void search_guided(StageReport& report, std::size_t points) {
-    in_portions(report, points,
-                [&](std::size_t, std::size_t count) { return report.search->run_guided(count); });
+    search(report, points,
+           [](StageSearch& stage, std::size_t, std::size_t count) { return stage.run_guided(count); });
 }
 
 /// What stages share is reported once.
@@ -98,27 +84,32 @@ std::vector<StageReport> sanitize_stages(const Family& family, const Composition
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
     std::vector<StageReport> stages(composition.stages.size());
-    for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
         stages[i] = open_stage(family, composition, validated, i, options);
-        search(stages[i], options, points_of_stage(options, stages.size()));
+        search(stages[i], points_of_stage(options, stages.size()),
+               [&](StageSearch& stage, std::size_t first, std::size_t count) {
+                   return stage.run(hard_points(stage.space(), count, options.seed + first / kPortion));
+               });
         search_guided(stages[i], options.guided);
     });
     while (Clock::now() < end)
-        for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+        verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
             if (Clock::now() < end) search_guided(stages[i], kPortion);
         });
     return stages;
 }
 
-/// Gives each finding that is reported a simpler input.
-void simplify(SanitizeReport& report, std::vector<StageReport>& stages, int jobs) {
-    for_each_index(stages.size(), jobs, [&](std::size_t stage) {
-        for (SharedFinding& shared : report.findings)
-            if (shared.stage == stage) shared.finding = stages[stage].search->simplified(shared.finding);
-    });
-}
-
 }  // namespace
+
+std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage) {
+    std::vector<std::size_t> permutations;
+    for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
+        const Permutation& permutation = composition.permutations[i];
+        if (permutation.vertex == static_cast<int>(stage) || permutation.fragment == static_cast<int>(stage))
+            permutations.push_back(i);
+    }
+    return permutations;
+}
 
 SanitizeReport sanitize(const Family& family, const Composition& composition, const Validated& validated,
                         const SanitizeOptions& options) {
@@ -134,7 +125,10 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
         }
         if (stages[i].search) add(report, *stages[i].search, i, permutations);
     }
-    simplify(report, stages, options.jobs);
+    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t stage) {
+        for (SharedFinding& shared : report.findings)
+            if (shared.stage == stage) shared.finding = stages[stage].search->simplified(shared.finding);
+    });
     std::sort(report.findings.begin(), report.findings.end(),
               [](const SharedFinding& a, const SharedFinding& b) {
                   return signature_of(a.finding) < signature_of(b.finding);
@@ -147,7 +141,7 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validat
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
-                for (const evaluate::Port& port : *ports) names.insert(name_of_domain(port.name));
+                for (const evaluate::Port& port : *ports) names.insert(verify::without_subscripts(port.name));
     Diagnostics errors;
     for (const Domain& domain : domains)
         if (!names.contains(domain.name))

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/diagnostic.hpp"
 #include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
 #include "family/family.hpp"
-#include "lab/sanitize/find_traps.hpp"
+#include "lab/sanitize/finding.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::sanitize {
@@ -44,5 +44,8 @@ struct SanitizeReport {
 
 /// An error at each of the domains that no stage reads anything of.
 [[nodiscard]] Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validated& validated);
+
+/// The permutations that share the stage, as indices.
+[[nodiscard]] std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage);
 
 }  // namespace gobo::sanitize

@@ -62,21 +62,21 @@ ErrorFigures error_between(const ScenePoints& points, const Colors& actual, cons
 }
 
 template <class T>
-Result<Colors> shade_points(const ScenePoints& points, const Variant& variant, verify::Work* work) {
+Result<Colors> shade_points(const ScenePoints& points, const Variant& variant, raster::Work* work) {
     Colors colors;
     for (const ObjectPoints& part : points.objects) {
         std::vector<Color>& of_object = colors.emplace_back();
         if (part.fragments.empty()) continue;
-        GOBO_TRY(const verify::SoftwareObject object, shaded_object(variant, points.scene, part));
-        GOBO_TRY(const auto shaded, verify::shade_in<T>(variant.program, object, work));
-        for (const verify::Shaded& one : shaded)
+        GOBO_TRY(const raster::RasterObject object, shaded_object(variant, points.scene, part));
+        GOBO_TRY(const auto shaded, raster::shade<T>(variant.program, object, work));
+        for (const raster::Shaded& one : shaded)
             of_object.push_back(one.is_discarded ? Color{} : Color{one.color[0], one.color[1], one.color[2]});
     }
     return colors;
 }
 
-template Result<Colors> shade_points<float>(const ScenePoints&, const Variant&, verify::Work*);
-template Result<Colors> shade_points<double>(const ScenePoints&, const Variant&, verify::Work*);
+template Result<Colors> shade_points<float>(const ScenePoints&, const Variant&, raster::Work*);
+template Result<Colors> shade_points<double>(const ScenePoints&, const Variant&, raster::Work*);
 
 Result<Measurement> measure(const ScenePoints& points, const Variant& variant, const Variant& at_full_rate) {
     Measurement measurement;

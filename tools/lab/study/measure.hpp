@@ -31,7 +31,7 @@ struct Measurement {
     ErrorFigures approximation;  ///< fp64 at full shading rate against the reference
     ErrorFigures rate;           ///< fp64 against fp64 at full shading rate
     double relative = 0;         ///< largest relative error of the total
-    verify::Work work;
+    raster::Work work;
     std::size_t pixels = 0;
     std::size_t edges = 0;
     std::size_t shown_vertices = 0;  ///< work.vertices is theirs
@@ -47,6 +47,6 @@ struct Measurement {
 /// The colours of a variant at the points, in arithmetic of T.
 template <class T>
 [[nodiscard]] Result<Colors> shade_points(const ScenePoints& points, const Variant& variant,
-                                          verify::Work* work = nullptr);
+                                          raster::Work* work = nullptr);
 
 }  // namespace gobo::study

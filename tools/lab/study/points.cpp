@@ -11,9 +11,9 @@
 #include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
+#include "lab/raster/raster_object.hpp"
 #include "lab/verify/expectation.hpp"
-#include "lab/verify/feed.hpp"
-#include "lab/verify/render_feed.hpp"
+#include "lab/verify/inputs.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::study {
@@ -24,7 +24,7 @@ Result<Variant> decode(const Validated& validated, const Permutation& permutatio
         return fail(Fault::input, "a study needs a vertex stage and a fragment stage");
     const SpirvModule& vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
     const SpirvModule& fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
-    GOBO_TRY(verify::SoftwareProgram program, verify::software_program(vertex, fragment));
+    GOBO_TRY(raster::Pipeline program, raster::pipeline_of(vertex, fragment));
     const XXH64_hash_t hash =
         XXH3_64bits_withSeed(fragment.data(), fragment.size() * sizeof fragment[0],
                              XXH3_64bits(vertex.data(), vertex.size() * sizeof vertex[0]));
@@ -63,12 +63,12 @@ struct VaryingField {
 /// The oracle's radiance at the fragments of an object, and where something was decided within a rounding of
 /// its edge. False where the oracle does not know the variant's model, or the object's uniforms mean nothing
 /// to it.
-Result<bool> refer_to_oracle(const Family& family, const Variant& variant,
-                             const verify::SoftwareObject& object, ObjectPoints& part) {
+Result<bool> refer_to_oracle(const Family& family, const Variant& variant, const raster::RasterObject& object,
+                             ObjectPoints& part) {
     const auto model = oracle::model_of(family, variant.key);
     if (!model) return false;
     const evaluate::Program& program = variant.program.fragment;
-    GOBO_TRY(const evaluate::Invocations inputs, verify::exact_fragment_inputs(variant.program, object));
+    GOBO_TRY(const evaluate::Invocations inputs, raster::exact_fragment_inputs(variant.program, object));
     evaluate::Invocations first = inputs;
     first.count = 1;
     std::vector<VaryingField> varyings;
@@ -113,12 +113,12 @@ struct Nearest {
 
 /// Which fragments the depth test leaves, object by object, in order.
 Result<std::vector<std::vector<std::size_t>>> visible_fragments(
-    const verify::SoftwareProgram& program, const std::vector<verify::SoftwareObject>& objects) {
+    const raster::Pipeline& program, const std::vector<raster::RasterObject>& objects) {
     std::map<std::pair<int, int>, Nearest> pixels;
     for (std::size_t o = 0; o < objects.size(); ++o) {
-        GOBO_TRY(const auto shaded, verify::shade_in<double>(program, objects[o]));
+        GOBO_TRY(const auto shaded, raster::shade<double>(program, objects[o]));
         for (std::size_t i = 0; i < shaded.size(); ++i) {
-            const verify::Fragment& fragment = objects[o].fragments[i];
+            const raster::Fragment& fragment = objects[o].fragments[i];
             if (!fragment.is_covered || shaded[i].is_discarded) continue;
             Nearest& nearest = pixels[{fragment.y, fragment.x}];
             if (shaded[i].depth < nearest.depth) nearest = {o, i, shaded[i].depth};
@@ -139,7 +139,7 @@ class PartOfObject {
         part.object.values = object.values;
     }
 
-    void add(verify::Fragment fragment, const Color& reference, bool at_edge) {
+    void add(raster::Fragment fragment, const Color& reference, bool at_edge) {
         fragment.triangle = triangle(fragment.triangle);
         part.fragments.push_back(fragment);
         part.reference.push_back(reference);
@@ -184,13 +184,13 @@ void give_shadow_maps(evaluate::Invocations& invocations, const evaluate::Image&
 }
 
 /// The permutation's own colours in fp64, and where a shadow is decided within a rounding.
-Result<void> refer_to_fp64(const Variant& accurate, verify::SoftwareObject object, const DrawnScene& scene,
+Result<void> refer_to_fp64(const Variant& accurate, raster::RasterObject object, const DrawnScene& scene,
                            ObjectPoints& part) {
     const auto mark = [&part](std::size_t invocation) { part.at_edge[invocation] = true; };
     // In quads, invocations are not the fragments alone.
-    if (scene.shadow_maps && !accurate.program.link.needs_quads)
+    if (scene.shadow_maps && !accurate.program.needs_quads)
         give_shadow_maps(object.uniforms, image_of(scene.shadow_maps, mark));
-    GOBO_TRY(const auto shaded, verify::shade_in<double>(accurate.program, object));
+    GOBO_TRY(const auto shaded, raster::shade<double>(accurate.program, object));
     for (std::size_t i = 0; i < shaded.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) part.reference[i][c] = shaded[i].color[c];
     return {};
@@ -200,7 +200,7 @@ Result<void> refer_to_fp64(const Variant& accurate, verify::SoftwareObject objec
 Result<void> add_reference(const Family& family, const Variant& accurate, ScenePoints& points) {
     for (ObjectPoints& part : points.objects) {
         if (part.fragments.empty()) continue;
-        GOBO_TRY(verify::SoftwareObject object, shaded_object(accurate, points.scene, part));
+        GOBO_TRY(raster::RasterObject object, shaded_object(accurate, points.scene, part));
         GOBO_TRY(points.from_oracle, refer_to_oracle(family, accurate, object, part));
         if (points.from_oracle) continue;
         GOBO_TRY_DO(refer_to_fp64(accurate, std::move(object), points.scene, part));
@@ -240,8 +240,8 @@ Result<ScenePoints> find_points(const Family& family, const Variant& accurate, D
     scene = with_shadows(family, accurate.key, std::move(scene));
     GOBO_TRY(
         const auto objects,
-        verify::rasterise_objects(accurate.program, accurate.interface, scene.objects,
-                                  verify::with_plain_textures(accurate.interface, scene.values), scene.view));
+        raster::rasterise_objects(accurate.program, accurate.interface, scene.objects,
+                                  raster::with_plain_textures(accurate.interface, scene.values), scene.view));
     GOBO_TRY(const auto visible, visible_fragments(accurate.program, objects));
     ScenePoints points;
     for (std::size_t o = 0; o < objects.size(); ++o) {
@@ -272,25 +272,19 @@ ScenePoints thinned(const ScenePoints& points, std::size_t count_wanted) {
     return thin;
 }
 
-Result<verify::SoftwareObject> shaded_object(const Variant& variant, const DrawnScene& scene,
-                                             const ObjectPoints& points) {
+Result<raster::RasterObject> shaded_object(const Variant& variant, const DrawnScene& scene,
+                                           const ObjectPoints& points) {
     ViewedObject viewed = viewed_from(scene.view);
     viewed.model = points.object.model;
-    std::vector<RenderValue> values = verify::with_plain_textures(variant.interface, scene.values);
+    std::vector<RenderValue> values = raster::with_plain_textures(variant.interface, scene.values);
     values.insert(values.end(), points.object.values.begin(), points.object.values.end());
-    verify::SoftwareObject object;
-    GOBO_TRY(object.vertices, verify::uniforms_of(variant.program.vertex, variant.interface, values, viewed));
-    GOBO_TRY(object.uniforms,
-             verify::uniforms_of(variant.program.fragment, variant.interface, values, viewed));
-    verify::add_attributes(variant.program.vertex, points.object.mesh, values, object.vertices);
+    GOBO_TRY(raster::RasterObject object,
+             raster::object_inputs(variant.program, variant.interface, points.object.mesh, values, viewed));
     if (scene.shadow_maps)
         for (evaluate::Invocations* stage : {&object.vertices, &object.uniforms})
             give_shadow_maps(*stage, image_of(scene.shadow_maps));
-    object.indices = points.object.mesh.indices;
     object.positions = points.positions;
     object.fragments = points.fragments;
-    object.width = scene.view.width;
-    object.height = scene.view.height;
     return object;
 }
 

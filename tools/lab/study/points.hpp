@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "compose/compose.hpp"
+#include "lab/raster/shade.hpp"
 #include "lab/study/scenes.hpp"
-#include "lab/verify/shade.hpp"
 
 namespace gobo::study {
 
@@ -24,7 +24,7 @@ struct Subject {
 /// A permutation ready to be evaluated.
 struct Variant {
     Key key;
-    verify::SoftwareProgram program;
+    raster::Pipeline program;
     Interface interface;
     std::uint64_t hash = 0;  ///< of both stages' SPIR-V
 };
@@ -50,7 +50,7 @@ using Color = std::array<double, 3>;
 struct ObjectPoints {
     Object object;
     std::vector<glm::dvec4> positions;  ///< gl_Position of each vertex
-    std::vector<verify::Fragment> fragments;
+    std::vector<raster::Fragment> fragments;
     std::vector<Color> reference;  ///< of each fragment
     std::vector<bool> at_edge;     ///< a question decided within a rounding: either answer is right
 };
@@ -74,7 +74,7 @@ struct ScenePoints {
 [[nodiscard]] ScenePoints thinned(const ScenePoints& points, std::size_t count);
 
 /// The object's points as a variant shades them.
-[[nodiscard]] Result<verify::SoftwareObject> shaded_object(const Variant& variant, const DrawnScene& scene,
-                                                           const ObjectPoints& points);
+[[nodiscard]] Result<raster::RasterObject> shaded_object(const Variant& variant, const DrawnScene& scene,
+                                                         const ObjectPoints& points);
 
 }  // namespace gobo::study

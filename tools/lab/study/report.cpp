@@ -49,7 +49,7 @@ Image picture_of(const ScenePoints& points, const ColorOf& color_of) {
     for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = i % 4 == 3 ? 1.0F : 0.2F;
     for (std::size_t o = 0; o < points.objects.size(); ++o) {
         for (std::size_t i = 0; i < points.objects[o].fragments.size(); ++i) {
-            const verify::Fragment& fragment = points.objects[o].fragments[i];
+            const raster::Fragment& fragment = points.objects[o].fragments[i];
             const Color color = color_of(o, i);
             std::copy(color.begin(), color.end(), &image.at(fragment.x, kMapHeight - 1 - fragment.y, 0));
         }

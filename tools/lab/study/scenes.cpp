@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "lab/raster/rasterise.hpp"
 #include "lab/render/shadow_maps.hpp"
-#include "lab/verify/rasterise.hpp"
 
 namespace gobo::study {
 namespace {
@@ -37,10 +37,10 @@ void draw_depth(const Object& object, const ShadowCamera& camera, double* texels
     for (const auto& position : object.mesh.positions)
         positions.push_back(to_clip * glm::dvec4(glm::dvec3(position), 1));
     const std::vector<std::uint32_t>& indices = object.mesh.indices;
-    for (const verify::Fragment& fragment : verify::rasterise(positions, indices, kShadowSide, kShadowSide)) {
+    for (const raster::Fragment& fragment : raster::rasterise(positions, indices, kShadowSide, kShadowSide)) {
         if (!fragment.is_covered) continue;
         const std::size_t corner = 3 * std::size_t{fragment.triangle};
-        const verify::Interpolator triangle(
+        const raster::Interpolator triangle(
             {positions[indices[corner]], positions[indices[corner + 1]], positions[indices[corner + 2]]},
             kShadowSide, kShadowSide);
         const double x = fragment.x + 0.5;

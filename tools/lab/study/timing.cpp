@@ -6,8 +6,8 @@
 #include <ctime>
 #include <numeric>
 
-#include "lab/verify/random.hpp"
-#include "lab/verify/render_feed.hpp"
+#include "lab/raster/random.hpp"
+#include "lab/raster/raster_object.hpp"
 
 namespace gobo::study {
 namespace {
@@ -75,7 +75,7 @@ TimedGroup group_of(const std::vector<Timed>& all, int rounds, const std::string
 std::vector<std::size_t> order_of(std::size_t count, int round) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    verify::Random random(static_cast<std::uint64_t>(round) + 1);
+    Random random(static_cast<std::uint64_t>(round) + 1);
     for (std::size_t i = count; i > 1; --i)
         std::swap(order[i - 1], order[static_cast<std::size_t>(random.whole(0, static_cast<int>(i) - 1))]);
     return order;
@@ -117,7 +117,7 @@ double count_fragments(const Context& context, const DrawList& list) {
 Result<DrawList> draw_list_of(const Context& context, const Program& program, const Variant& variant,
                               const DrawnScene& scene) {
     return make_draw_list(context, program, variant.interface, scene.objects,
-                          verify::with_plain_textures(variant.interface, scene.values),
+                          raster::with_plain_textures(variant.interface, scene.values),
                           viewed_from(scene.view));
 }
 

@@ -9,7 +9,7 @@ namespace gobo::study {
 namespace {
 
 Result<ByKind> counts_of(const ScenePoints& points, const Variant& variant) {
-    verify::Work work;
+    raster::Work work;
     GOBO_TRY_DO(shade_points<float>(points, variant, &work));
     ByKind counts{};
     for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind)

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lab/verify/report.hpp"
 
 namespace gobo::verify {

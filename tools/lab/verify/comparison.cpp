@@ -4,21 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/verify/inputs.hpp"
+
 namespace gobo::verify {
 namespace {
 
 /// More questions than this near their edges at one point do not happen; the sides of so many are tried.
 constexpr int kMostOpen = 6;
 
-/// The component that is furthest out, measured by its tolerance.
+/// How far outputs are out.
 struct Deviation {
-    double ratio = 0;
+    Failure worst;          ///< the component that is furthest out, measured by its tolerance
     double of_largest = 0;  ///< error relative to the largest term, over all components
-    std::string output;
-    std::uint32_t component = 0;
-    double expected = 0;
-    double actual = 0;
-    double tolerance = 0;
 };
 
 double ratio_of(double error, double limit) {
@@ -27,85 +24,99 @@ double ratio_of(double error, double limit) {
                                                                     : std::numeric_limits<double>::infinity();
 }
 
-void compare(const Expected& expected, const std::vector<double>& actual, std::size_t count,
-             std::size_t index, Precision precision, Deviation& worst) {
-    for (std::uint32_t c = 0; c < expected.components; ++c) {
-        const double value = actual[c * count + index];
-        const double error = std::abs(value - expected.value[c]);
-        const double tolerance =
-            precision == Precision::fp64 ? kDoubleTolerance * expected.largest[c] : expected.float_error[c];
-        const double ratio = ratio_of(error, tolerance);
-        worst.of_largest = std::max(worst.of_largest, ratio_of(error, expected.largest[c]));
-        if (ratio > worst.ratio) {
-            worst = {ratio, worst.of_largest, expected.output, c, expected.value[c], value, tolerance};
-        }
-    }
+void compare(const Expected& expected, std::uint32_t component, double actual, Deviation& deviation) {
+    Failure& worst = deviation.worst;
+    const double error = std::abs(actual - expected.value[component]);
+    const double tolerance = worst.precision == Precision::fp64
+                                 ? kDoubleTolerance * expected.largest[component]
+                                 : expected.float_error[component];
+    const double ratio = ratio_of(error, tolerance);
+    deviation.of_largest = std::max(deviation.of_largest, ratio_of(error, expected.largest[component]));
+    if (ratio <= worst.ratio) return;
+    worst = {worst.stage, worst.precision, expected.output, component, expected.value[component],
+             actual,      tolerance,       ratio,           {}};
 }
 
-Deviation deviation(const std::vector<Expected>& all, const evaluate::Outputs& outputs, std::size_t index,
-                    Precision precision) {
-    Deviation worst;
+Deviation deviation_of(const std::vector<Expected>& all, const evaluate::Outputs& outputs, std::size_t index,
+                       StageKind stage, Precision precision) {
+    Deviation deviation;
+    deviation.worst.stage = stage;
+    deviation.worst.precision = precision;
     for (const Expected& expected : all) {
-        if (expected.output == kDiscard) {
-            const double is_discarded = outputs.discarded[index] ? 1 : 0;
-            compare(expected, {is_discarded}, 1, 0, precision, worst);
-            continue;
-        }
+        if (expected.output == kDiscard) compare(expected, 0, outputs.discarded[index] ? 1 : 0, deviation);
         const auto found = outputs.values.find(expected.output);
-        if (found != outputs.values.end())
-            compare(expected, found->second, outputs.count, index, precision, worst);
+        if (found == outputs.values.end()) continue;
+        for (std::uint32_t c = 0; c < expected.components; ++c)
+            compare(expected, c, found->second[c * outputs.count + index], deviation);
     }
-    return worst;
-}
-
-std::size_t count_of(const std::vector<bool>& marks) {
-    return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), true));
+    return deviation;
 }
 
 }  // namespace
 
-Result<evaluate::Outputs> Comparison::run(const evaluate::Invocations& invocations) const {
-    return precision_ == Precision::fp64 ? evaluate::run<double>(program_, invocations)
-                                         : evaluate::run<float>(program_, invocations);
-}
-
-std::vector<Expected> Comparison::judge(const Sample& sample, const evaluate::Invocations& invocations,
-                                        const evaluate::Outputs& outputs, std::size_t index, Marks& marks,
-                                        std::size_t mark) {
+std::vector<Expected> StageCheck::judge(Precision precision, const Sample& sample,
+                                        const evaluate::Invocations& invocations,
+                                        const evaluate::Outputs& outputs, std::size_t index,
+                                        std::size_t point) {
     oracle::Decisions decisions;
     std::vector<Expected> expected = expect(model_, stage_, sample, decisions);
-    const Deviation plain = deviation(expected, outputs, index, precision_);
-    Deviation least = plain;
-    if (decisions.open() > 0) marks.at_edge[mark] = true;
+    Deviation least = deviation_of(expected, outputs, index, stage_, precision);
+    Failure plain = least.worst;
+    if (decisions.open() > 0) at_edge_[point] = true;
     const std::uint32_t sides = 1U << std::min(decisions.open(), kMostOpen);
-    for (std::uint32_t flipped = 1; flipped < sides && least.ratio > 1; ++flipped) {
+    for (std::uint32_t flipped = 1; flipped < sides && least.worst.ratio > 1; ++flipped) {
         oracle::Decisions other(flipped);
         std::vector<Expected> there = expect(model_, stage_, sample, other);
-        const Deviation deviated = deviation(there, outputs, index, precision_);
-        if (deviated.ratio >= least.ratio) continue;
-        least = deviated;
+        Deviation deviated = deviation_of(there, outputs, index, stage_, precision);
+        if (deviated.worst.ratio >= least.worst.ratio) continue;
+        least = std::move(deviated);
         expected = std::move(there);
     }
-    note_largest(least.of_largest, least.ratio);
-    if (least.ratio <= 1) return expected;
-    marks.failed[mark] = true;
-    add_failure(report_, {stage_, precision_, plain.output, plain.component, plain.expected, plain.actual,
-                          plain.tolerance, plain.ratio, evaluate::point_of(program_, invocations, index)});
+    Figures& figures = report_.figures;
+    const bool is_double = precision == Precision::fp64;
+    double& largest = is_double ? figures.largest_fp64_error : figures.largest_fp32_error;
+    largest = std::max(largest, least.of_largest);
+    if (!is_double) figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, least.worst.ratio);
+    if (least.worst.ratio <= 1) return expected;
+    failed_[point] = true;
+    plain.point = evaluate::point_of(program_, invocations, index);
+    report_.add(std::move(plain));
     return expected;
 }
 
-void Comparison::note_largest(double error, double ratio) {
-    Figures& figures = report_.figures;
-    double& largest = precision_ == Precision::fp64 ? figures.largest_fp64_error : figures.largest_fp32_error;
-    largest = std::max(largest, error);
-    if (precision_ == Precision::fp32)
-        figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, ratio);
+Result<StageCheck::Judged> StageCheck::run(Precision precision, std::span<const Sample> samples,
+                                           const evaluate::Invocations& invocations,
+                                           const std::vector<std::size_t>& own) {
+    Judged judged;
+    GOBO_TRY(judged.outputs, precision == Precision::fp64 ? evaluate::run<double>(program_, invocations)
+                                                          : evaluate::run<float>(program_, invocations));
+    for (std::size_t i = 0; i < failed_.size(); ++i) {
+        const std::size_t index = own.empty() ? i : own[i];
+        judged.expected = judge(precision, samples[index], invocations, judged.outputs, index, i);
+    }
+    return judged;
 }
 
-void count(const Marks& marks, StageReport& report) {
-    report.figures.points += marks.failed.size();
-    report.figures.edges += count_of(marks.at_edge);
-    report.failed_points += count_of(marks.failed);
+StageReport StageCheck::report() && {
+    const auto marked = [](const std::vector<bool>& marks) {
+        return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), true));
+    };
+    report_.figures.points = failed_.size();
+    report_.figures.edges = marked(at_edge_);
+    report_.failed_points = marked(failed_);
+    return std::move(report_);
+}
+
+Result<StageReport> check_against_oracle(const evaluate::Program& program, StageKind stage,
+                                         const oracle::Model& model, int count, std::uint64_t seed) {
+    const std::vector<Sample> exact = make_samples(model, stage, count, seed);
+    StageCheck check(program, stage, model, exact.size());
+    for (const Precision precision : {Precision::fp64, Precision::fp32}) {
+        const std::vector<Sample> samples = precision == Precision::fp64 ? exact : rounded_to_float(exact);
+        GOBO_TRY(const auto invocations, bind_inputs(program, samples));
+        GOBO_TRY_DO(check.run(precision, samples, invocations));
+    }
+    return std::move(check).report();
 }
 
 }  // namespace gobo::verify

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lab/evaluate/evaluate.hpp"
@@ -11,42 +12,44 @@
 
 namespace gobo::verify {
 
-/// What is known of each sample, of either precision.
-struct Marks {
-    explicit Marks(std::size_t samples) : at_edge(samples), failed(samples) {}
-    std::vector<bool> at_edge;
-    std::vector<bool> failed;
-};
-
-/// Judges one stage's outputs in one precision.
-class Comparison {
+/// One stage judged at a number of points, in one precision after the other.
+class StageCheck {
   public:
-    Comparison(const evaluate::Program& program, StageKind stage, const oracle::Model& model,
-               Precision precision, StageReport& report)
-        : program_(program), stage_(stage), model_(model), precision_(precision), report_(report) {}
+    StageCheck(const evaluate::Program& program, StageKind stage, const oracle::Model& model,
+               std::size_t points)
+        : program_(program), stage_(stage), model_(model), at_edge_(points), failed_(points) {}
 
-    /// Runs the stage for these invocations.
-    [[nodiscard]] Result<evaluate::Outputs> run(const evaluate::Invocations& invocations) const;
+    struct Judged {
+        evaluate::Outputs outputs;
+        std::vector<Expected> expected;  ///< at the last point
+    };
+    /// Runs the stage for the invocations that the samples stand for, and judges each point: number i is
+    /// invocation own[i], or i where `own` is empty. At a discontinuity either side is right; the answer is
+    /// what is expected on the side that the stage took.
+    [[nodiscard]] Result<Judged> run(Precision precision, std::span<const Sample> samples,
+                                     const evaluate::Invocations& invocations,
+                                     const std::vector<std::size_t>& own = {});
 
-    /// Judges invocation `index`, which stands for the sample: reports it where it is out of tolerance, and
-    /// marks what is known of it at `mark`. At a discontinuity either side is right; the answer is what is
-    /// expected on the side that the stage took.
-    std::vector<Expected> judge(const Sample& sample, const evaluate::Invocations& invocations,
-                                const evaluate::Outputs& outputs, std::size_t index, Marks& marks,
-                                std::size_t mark);
+    /// Of all runs; a point counts as failed, or at an edge, where it was so in any of them.
+    [[nodiscard]] StageReport report() &&;
 
   private:
-    /// `error` is relative to the largest term, `ratio` to the tolerance.
-    void note_largest(double error, double ratio);
+    std::vector<Expected> judge(Precision precision, const Sample& sample,
+                                const evaluate::Invocations& invocations, const evaluate::Outputs& outputs,
+                                std::size_t index, std::size_t point);
 
     const evaluate::Program& program_;
     StageKind stage_;
     const oracle::Model& model_;
-    Precision precision_;
-    StageReport& report_;
+    std::vector<bool> at_edge_;
+    std::vector<bool> failed_;
+    StageReport report_;
 };
 
-/// Adds up the marks: points, edges, failed points.
-void count(const Marks& marks, StageReport& report);
+/// Evaluates the stage at `count` samples, as fp64 where they are and as fp32 where their floats are, and
+/// compares every output with the oracle's answer for the same numbers.
+[[nodiscard]] Result<StageReport> check_against_oracle(const evaluate::Program& program, StageKind stage,
+                                                       const oracle::Model& model, int count,
+                                                       std::uint64_t seed);
 
 }  // namespace gobo::verify

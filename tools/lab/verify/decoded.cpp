@@ -10,17 +10,13 @@ Decoded::Decoded(const Composition& composition, const Validated& validated, int
                    [&](std::size_t i) { programs_[i] = evaluate::decode(validated.stages[i].spirv); });
 }
 
-Result<Pipeline> Decoded::pipeline(const Permutation& permutation) const {
+Result<raster::Pipeline> Decoded::pipeline(const Permutation& permutation) const {
     if (permutation.vertex < 0 || permutation.fragment < 0)
         return fail(Fault::input, "a permutation of one stage has nothing to join");
-    const Result<evaluate::Program>& vertex = stage(permutation.vertex);
-    if (!vertex) return tl::unexpected(vertex.error());
-    const Result<evaluate::Program>& fragment = stage(permutation.fragment);
-    if (!fragment) return tl::unexpected(fragment.error());
-    Result<Link> joined =
-        link(*vertex, *fragment, validated_.stages[static_cast<std::size_t>(permutation.fragment)].spirv);
-    if (!joined) return tl::unexpected(joined.error());
-    return Pipeline{*vertex, *fragment, std::move(*joined)};
+    GOBO_TRY(const evaluate::Program& vertex, stage(permutation.vertex));
+    GOBO_TRY(const evaluate::Program& fragment, stage(permutation.fragment));
+    return raster::join(vertex, fragment,
+                        validated_.stages[static_cast<std::size_t>(permutation.fragment)].spirv);
 }
 
 }  // namespace gobo::verify

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "compose/composition.hpp"
+#include "lab/raster/pipeline.hpp"
 #include "validate/validate.hpp"
-#include "lab/verify/pipeline.hpp"
 
 namespace gobo::verify {
 
@@ -24,8 +24,8 @@ class Decoded {
     [[nodiscard]] StageKind kind_of(int index) const {
         return composition_.stages[static_cast<std::size_t>(index)].kind;
     }
-    /// Both stages joined; errors of decoding and of link(), and of a permutation that lacks a stage.
-    [[nodiscard]] Result<Pipeline> pipeline(const Permutation& permutation) const;
+    /// Both stages joined; errors of decoding and of raster::join(), and of a permutation that lacks a stage.
+    [[nodiscard]] Result<raster::Pipeline> pipeline(const Permutation& permutation) const;
 
   private:
     const Composition& composition_;

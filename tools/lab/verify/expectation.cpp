@@ -8,9 +8,9 @@
 #include <glm/matrix.hpp>
 
 #include "lab/oracle/oracle.hpp"
-#include "lab/verify/cosines.hpp"
-#include "lab/verify/hybrid.hpp"
+#include "lab/verify/inputs.hpp"
 #include "lab/verify/rounding.hpp"
+#include "lab/verify/sample_effects.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -75,8 +75,69 @@ EyeNormal eye_normal(const Sample& sample) {
     return {oracle::direction_of(normal), length > 0 ? 3 * kUnitRoundoff * glm::length(largest) / length : 0};
 }
 
-/// What the vertex stage hands on as it is.
-void add_handed_on(const Sample& sample, std::vector<Expected>& outputs) {
+Expected expect_ray(std::size_t index, const oracle::IncidentLight& incident, const IncidentErrors& errors) {
+    Expected result = expected(fmt::format("lightRays[{}]", index), incident.to_light, glm::dvec3(1),
+                               glm::dvec3(errors.direction));
+    result.components = 4;
+    result.value[3] = incident.radiance.x;
+    result.largest[3] = incident.unshaped.x;
+    result.float_error[3] = errors.radiance.x;
+    return result;
+}
+
+Expected expect_halfway(std::size_t index, const glm::dvec3& half, double error) {
+    // As a double evaluation is judged by the largest term, which is what the sum was divided by.
+    const double largest = std::max(1 / std::max(glm::length(half), 1e-6), 1.0);
+    return expected(fmt::format("lightsHalfways[{}]", index), oracle::direction_of(half), glm::dvec3(largest),
+                    glm::dvec3(error));
+}
+
+/// The rays to the local lights and the half vectors of all lights, which hybrid shading interpolates, as the
+/// vertex stage writes them at a position that is itself off by so much.
+std::vector<Expected> expect_interpolated_lights(const oracle::Model& model, const oracle::Scene& scene,
+                                                 const glm::dvec3& position, double position_error,
+                                                 oracle::Decisions& decisions) {
+    std::vector<Expected> outputs;
+    const glm::dvec3 to_viewer = oracle::to_viewer(model, position);
+    const double viewer = viewer_error(model, position, position_error);
+    const oracle::Scene white = with_white_lights(scene);
+    std::size_t number = 0;
+    for (const oracle::IncidentLight& incident : oracle::incident_lights(model, white, position, decisions)) {
+        const IncidentErrors errors = incident_errors(model, incident, position_error);
+        if (number >= scene.directional.size())
+            outputs.push_back(expect_ray(number - scene.directional.size(), incident, errors));
+        const glm::dvec3 half = incident.to_light + to_viewer;
+        outputs.push_back(
+            expect_halfway(number, half, halfway_error(errors.direction, viewer, glm::length(half))));
+        ++number;
+    }
+    return outputs;
+}
+
+/// The cosines of all lights as the vertex stage writes them, four to a vector and 0 behind the last, at a
+/// position and a unit normal that are off by so much. Each is a dot product of two such vectors, and three
+/// roundings of at most 1.
+std::vector<Expected> expect_cosines(const oracle::Model& model, const oracle::Scene& scene,
+                                     const oracle::SurfacePoint& vertex, double position_error,
+                                     double normal_error, oracle::Decisions& decisions) {
+    std::vector<Expected> outputs;
+    std::size_t light = 0;
+    for (const oracle::IncidentLight& incident :
+         oracle::incident_lights(model, scene, vertex.position, decisions)) {
+        const std::size_t component = light++ % 4;
+        if (component == 0)
+            outputs.push_back({fmt::format("lightCosines[{}]", outputs.size()), 4, {}, {}, {}});
+        Expected& element = outputs.back();
+        element.value[component] = glm::dot(vertex.normal, incident.to_light);
+        element.largest[component] = 1;
+        element.float_error[component] =
+            normal_error + incident_errors(model, incident, position_error).direction + 3 * kUnitRoundoff;
+    }
+    return outputs;
+}
+
+/// What the vertex stage passes on as it is.
+void add_passed_on(const Sample& sample, std::vector<Expected>& outputs) {
     const glm::dvec4& color = sample.surface.color;
     const glm::dvec2& uv = sample.texture_coordinate;
     outputs.push_back({"vertexColor", 4, {color.r, color.g, color.b, color.a}, {}, {}});
@@ -103,24 +164,20 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expect_clip_position(sample, placed),
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
-    add_handed_on(sample, outputs);
+    add_passed_on(sample, outputs);
     oracle::SurfacePoint point = sample.surface;
     point.position = placed.value;
     point.normal = normal.value;
     const PointErrors errors{glm::length(position_error), normal.error};
-    if (model.shading == oracle::Shading::fragment) {
-        if (model.n_dot_l == oracle::NDotL::fragment) return outputs;
-        for (Expected& intensity : expect_cosines(model, sample.scene, point, errors.position,
-                                                  errors.normal + kDirectionError, decisions))
-            outputs.push_back(std::move(intensity));
-        return outputs;
-    }
-    if (model.shading == oracle::Shading::hybrid) {
-        for (Expected& handed_on :
-             expect_handed_on(model, sample.scene, placed.value, errors.position, decisions))
-            outputs.push_back(std::move(handed_on));
-        return outputs;
-    }
+    const auto add = [&](const std::vector<Expected>& more) {
+        outputs.insert(outputs.end(), more.begin(), more.end());
+    };
+    if (model.shading == oracle::Shading::fragment && model.n_dot_l != oracle::NDotL::fragment)
+        add(expect_cosines(model, sample.scene, point, errors.position, errors.normal + kDirectionError,
+                           decisions));
+    if (model.shading == oracle::Shading::hybrid)
+        add(expect_interpolated_lights(model, sample.scene, placed.value, errors.position, decisions));
+    if (model.is_per_fragment()) return outputs;
     const bool is_flat = model.shading == oracle::Shading::flat;
     for (const bool is_back : {false, true}) {
         if (is_back && model.sides == oracle::Sides::one) break;
@@ -173,12 +230,47 @@ std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& 
     return outputs;
 }
 
+std::string numbers_text(const std::vector<double>& numbers) {
+    std::string text;
+    for (const double number : numbers) text += fmt::format("{:<25.17g}", number);
+    return text.erase(text.find_last_not_of(' ') + 1);
+}
+
 }  // namespace
 
 std::vector<Expected> expect(const oracle::Model& model, StageKind stage, const Sample& sample,
                              oracle::Decisions& decisions) {
     return stage == StageKind::vertex ? expect_vertex(model, sample, decisions)
                                       : expect_fragment(model, sample, decisions);
+}
+
+std::optional<std::vector<Answer>> ask_oracle(const Family& family, const Key& key, StageKind stage,
+                                              const evaluate::Program& program,
+                                              const evaluate::Invocations& invocation) {
+    const auto model = oracle::model_of(family, key);
+    const std::optional<Sample> sample = sample_of(program, invocation);
+    if (!model || !sample) return std::nullopt;
+    std::vector<Answer> answers;
+    oracle::Decisions decisions;
+    for (const Expected& expected : expect(*model, stage, *sample, decisions)) {
+        const bool is_there =
+            std::any_of(program.outputs.begin(), program.outputs.end(),
+                        [&](const evaluate::Port& port) { return port.name == expected.output; });
+        if (!is_there) continue;
+        answers.push_back(
+            {std::string(expected.output),
+             {expected.value.begin(), expected.value.begin() + expected.components},
+             {expected.float_error.begin(), expected.float_error.begin() + expected.components}});
+    }
+    return answers;
+}
+
+std::string to_text(const std::vector<Answer>& answers) {
+    std::string text;
+    for (const Answer& answer : answers)
+        text += fmt::format("{} as the oracle has it\n  exact       {}\n  fp32 bound  {}\n", answer.output,
+                            numbers_text(answer.value), numbers_text(answer.float_error));
+    return text;
 }
 
 }  // namespace gobo::verify

@@ -1,13 +1,16 @@
-// What the oracle expects of a stage's outputs at a sample, and how near is near enough.
+// The oracle asked: what it expects of a stage's outputs at a sample, and how near is near enough.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compose/composition.hpp"
+#include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lab/oracle/lights.hpp"
 #include "lab/verify/sample.hpp"
 
@@ -35,5 +38,21 @@ inline constexpr std::string_view kDiscard = "discard";
 /// not have are of no concern.
 [[nodiscard]] std::vector<Expected> expect(const oracle::Model& model, StageKind stage, const Sample& sample,
                                            oracle::Decisions& decisions);
+
+/// What one output ought to be.
+struct Answer {
+    std::string output;
+    std::vector<double> value;
+    std::vector<double> float_error;  ///< bound of a float evaluation's error
+};
+
+/// The answers for the outputs that the stage has; nothing where the oracle does not know the key's model or
+/// an input of the stage. Inputs that are not given are 0.
+[[nodiscard]] std::optional<std::vector<Answer>> ask_oracle(const Family& family, const Key& key,
+                                                            StageKind stage, const evaluate::Program& program,
+                                                            const evaluate::Invocations& invocation);
+
+/// One line for each answer and one for its bound.
+[[nodiscard]] std::string to_text(const std::vector<Answer>& answers);
 
 }  // namespace gobo::verify

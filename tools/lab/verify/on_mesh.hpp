@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lab/oracle/model.hpp"
+#include "lab/raster/shade.hpp"
 #include "lab/render/mesh.hpp"
-#include "lab/verify/pipeline.hpp"
 #include "lab/verify/report.hpp"
 
 namespace gobo::verify {
@@ -20,8 +20,12 @@ namespace gobo::verify {
 ///
 /// The reports are the vertex stage's and the fragment stage's. An error for a varying of which the oracle
 /// does not say what it ought to be.
-[[nodiscard]] Result<std::vector<StageReport>> check_on_mesh(const Pipeline& pipeline,
+[[nodiscard]] Result<std::vector<StageReport>> check_on_mesh(const raster::Pipeline& pipeline,
                                                              const oracle::Model& model, const Mesh& mesh,
                                                              std::uint64_t seed);
+
+/// A coarse sphere, torus and plane, an open bowl that shows both of its sides, and the given mesh, all
+/// within about 1 of the origin: triangles of many pixels, where shading rates differ, and of one.
+[[nodiscard]] std::vector<Mesh> test_meshes(Mesh teapot);
 
 }  // namespace gobo::verify

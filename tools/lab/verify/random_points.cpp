@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/verify/random.hpp"
+#include "lab/raster/random.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -55,6 +55,20 @@ class Drawer {
     Random random_;
 };
 
+/// Every number of type float moved up or down, at random, by `step` relative to itself.
+evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base,
+                            double step, std::uint64_t seed) {
+    Random random(seed);
+    evaluate::Invocations result = base;
+    for (const evaluate::Port& port : ports) {
+        if (port.scalar != evaluate::Scalar::float32) continue;
+        const auto values = result.values.find(port.name);
+        if (values == result.values.end()) continue;
+        for (double& value : values->second) value *= random.one_in(2) ? 1 + step : 1 - step;
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string without_subscripts(const std::string& name) {
@@ -85,17 +99,22 @@ evaluate::Invocations draw_points(const evaluate::Program& program, const std::v
     return invocations;
 }
 
-evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base,
-                            double step, std::uint64_t seed) {
-    Random random(seed);
-    evaluate::Invocations result = base;
-    for (const evaluate::Port& port : ports) {
-        if (port.scalar != evaluate::Scalar::float32) continue;
-        const auto values = result.values.find(port.name);
-        if (values == result.values.end()) continue;
-        for (double& value : values->second) value *= random.one_in(2) ? 1 + step : 1 - step;
+Result<NamedValues> spread(const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base,
+                           const NamedValues& outputs, double step, std::uint64_t seed,
+                           const std::function<Result<NamedValues>(const evaluate::Invocations&)>& run) {
+    constexpr std::uint64_t kMoves = 6;  // each input goes either way in some of them
+    NamedValues widest;
+    for (std::uint64_t i = 0; i < kMoves; ++i) {
+        GOBO_TRY(const NamedValues there, run(moved(ports, base, step, seed + i)));
+        for (const auto& [name, values] : outputs) {
+            std::vector<double>& most = widest[name];
+            most.resize(values.size());
+            const std::vector<double>& other = there.at(name);
+            for (std::size_t k = 0; k < values.size(); ++k)
+                most[k] = std::max(most[k], std::abs(other[k] - values[k]));
+        }
     }
-    return result;
+    return widest;
 }
 
 }  // namespace gobo::verify

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
-#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
 
 namespace gobo::verify {
 
@@ -18,8 +21,18 @@ namespace gobo::verify {
                                                 const std::vector<Domain>& domains, std::size_t count,
                                                 std::uint64_t seed);
 
-/// Every number of type float moved up or down, at random, by `step` relative to itself.
-[[nodiscard]] evaluate::Invocations moved(const std::vector<evaluate::Port>& ports,
-                                          const evaluate::Invocations& base, double step, std::uint64_t seed);
+/// By name, component by component, as evaluate::Outputs::values.
+using NamedValues = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// How far outputs move, at most, as the points are moved by `step` a few times: `run` evaluates points,
+/// `outputs` are those where nothing is moved.
+[[nodiscard]] Result<NamedValues> spread(
+    const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base, const NamedValues& outputs,
+    double step, std::uint64_t seed,
+    const std::function<Result<NamedValues>(const evaluate::Invocations&)>& run);
+
+/// Of a spread measured with roundings of 2^-24, or explained by a step: moving inputs so far crosses it.
+inline constexpr double kRoundingStep = 0x1p-24;
+inline constexpr double kEdgeStep = 1e-5;
 
 }  // namespace gobo::verify

@@ -1,7 +1,6 @@
 #include "lab/verify/relation_sides.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -9,7 +8,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "lab/verify/random.hpp"
+#include "lab/raster/random.hpp"
+#include "lab/verify/inputs.hpp"
 #include "lab/verify/random_points.hpp"
 
 namespace gobo::verify {
@@ -17,20 +17,10 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// An element of an array: "uLights[2].color" of "uLights" is 2 and ".color".
-struct Element {
-    std::size_t index = 0;
-    std::string member;
-};
-
-std::optional<Element> element_of(const std::string& name, const std::string& array) {
-    if (!name.starts_with(array + "[")) return std::nullopt;
-    const char* first = name.data() + array.size() + 1;
-    const char* last = name.data() + name.size();
-    Element element;
-    const auto [end, error] = std::from_chars(first, last, element.index);
-    if (error != std::errc() || end == last || *end != ']') return std::nullopt;
-    element.member.assign(end + 1, last);
+/// The element of that array; nothing for other names.
+std::optional<ElementName> element_of(const std::string& name, const std::string& array) {
+    auto element = element_name(name);
+    if (element && element->array != array) element.reset();
     return element;
 }
 
@@ -41,7 +31,7 @@ std::size_t elements_of(const std::string& array, const std::vector<evaluate::Po
     return count;
 }
 
-std::string name_of(const std::string& array, std::size_t index, const std::string& member) {
+std::string name_of(const std::string& array, std::size_t index, std::string_view member) {
     return fmt::format("{}[{}]{}", array, index, member);
 }
 
@@ -54,7 +44,7 @@ std::optional<Sides> reordered(const std::string& array, const std::vector<evalu
     for (const evaluate::Port& port : ports)
         if (const auto element = element_of(port.name, array))
             sides.other.values[port.name] =
-                points.values.at(name_of(array, (element->index + 1) % count, element->member));
+                points.values.at(name_of(array, (element->index + 1) % count, element->rest));
     return sides;
 }
 
@@ -82,13 +72,13 @@ std::optional<Sides> added_up(const std::string& name, const std::vector<evaluat
         if (!element || element->index != last) continue;
         Values& one = sides.one.values[port.name];
         Values& other = sides.other.values[port.name];
-        if (element->member == member) {
+        if (element->rest == member) {
             std::fill(other.begin(), other.end(), 0);
             if (count == 1) std::fill(one.begin(), one.end(), 0);
         } else if (count == 1) {
             other = of_others(one, points.count);
         } else {
-            one = points.values.at(name_of(array, 0, element->member));
+            one = points.values.at(name_of(array, 0, element->rest));
         }
     }
     if (count > 1) {
@@ -99,33 +89,20 @@ std::optional<Sides> added_up(const std::string& name, const std::vector<evaluat
     return sides;
 }
 
-/// What is turned, as the columns that the rotation is applied to.
-bool turn_columns(Values& values, std::uint32_t components, std::size_t count, const glm::dmat3& rotation) {
+/// Turns the columns of a vector or matrix, or with `by_row` its rows, as of a matrix that leads out of the
+/// space that is turned: times the inverse rotation. False for what is neither of three nor of four
+/// dimensions.
+bool turn(Values& values, std::uint32_t components, std::size_t count, const glm::dmat3& rotation,
+          bool by_row) {
     const std::uint32_t rows = components == 16 || components == 4 ? 4 : 3;
-    if (components % rows != 0 || components < 3) return false;
-    for (std::uint32_t column = 0; column < components / rows; ++column)
+    if (components % rows != 0 || components < 3 || (by_row && components != rows * rows)) return false;
+    for (std::uint32_t first = 0; first < components / rows; ++first)
         for (std::size_t i = 0; i < count; ++i) {
-            const auto at = [&](std::uint32_t row) -> double& {
-                return values[(column * rows + row) * count + i];
+            const auto at = [&](std::uint32_t c) -> double& {
+                return values[(by_row ? c * rows + first : first * rows + c) * count + i];
             };
             const glm::dvec3 turned = rotation * glm::dvec3(at(0), at(1), at(2));
-            for (std::uint32_t row = 0; row < 3; ++row) at(row) = turned[static_cast<int>(row)];
-        }
-    return true;
-}
-
-/// A matrix that leads out of the space that is turned: times the inverse rotation.
-bool turn_rows_back(Values& values, std::uint32_t components, std::size_t count, const glm::dmat3& rotation) {
-    if (components != 9 && components != 16) return false;
-    const std::uint32_t rows = components == 9 ? 3 : 4;
-    for (std::uint32_t row = 0; row < rows; ++row)
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto at = [&](std::uint32_t column) -> double& {
-                return values[(column * rows + row) * count + i];
-            };
-            const glm::dvec3 turned = rotation * glm::dvec3(at(0), at(1), at(2));
-            for (std::uint32_t column = 0; column < 3; ++column)
-                at(column) = turned[static_cast<int>(column)];
+            for (std::uint32_t c = 0; c < 3; ++c) at(c) = turned[static_cast<int>(c)];
         }
     return true;
 }
@@ -148,9 +125,9 @@ std::optional<Sides> turned(const Relation& relation, const std::vector<evaluate
         if (found == sides.other.values.end()) continue;
         Values& values = found->second;
         if (names(relation.names, port.name))
-            is_there = turn_columns(values, port.components, points.count, rotation) || is_there;
+            is_there |= turn(values, port.components, points.count, rotation, false);
         else if (names(relation.turned_back, port.name))
-            is_there = turn_rows_back(values, port.components, points.count, rotation) || is_there;
+            is_there |= turn(values, port.components, points.count, rotation, true);
     }
     if (!is_there) return std::nullopt;
     return sides;

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "lab/evaluate/evaluate.hpp"
 #include "family/family.hpp"
+#include "lab/evaluate/evaluate.hpp"
 
 namespace gobo::verify {
 

@@ -4,16 +4,81 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
+#include "lab/raster/shade.hpp"
+#include "lab/render/render.hpp"
 #include "lab/verify/alone.hpp"
+#include "lab/verify/inputs.hpp"
 #include "lab/verify/random_points.hpp"
 #include "lab/verify/relation_sides.hpp"
+#include "lab/verify/sample.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::verify {
 namespace {
+
+using raster::Pipeline;
+
+/// What is given to a pipeline: the vertex stage's inputs, both stages' uniforms, gl_FragCoord and the like;
+/// each name once, sorted.
+std::vector<evaluate::Port> given_ports(const Pipeline& pipeline) {
+    std::map<std::string, evaluate::Port> by_name;
+    for (const auto* ports :
+         {&pipeline.vertex.inputs, &pipeline.vertex.uniforms, &pipeline.fragment.uniforms})
+        for (const evaluate::Port& port : *ports) by_name.emplace(port.name, port);
+    for (const evaluate::Port& port : pipeline.fragment.inputs)
+        if (port.name.starts_with("gl_")) by_name.emplace(port.name, port);
+    std::vector<evaluate::Port> ports;
+    for (auto& [name, port] : by_name) ports.push_back(std::move(port));
+    return ports;
+}
+
+/// The part of `points` that a stage reads.
+evaluate::Invocations part_of(const evaluate::Program& program, const evaluate::Invocations& points) {
+    evaluate::Invocations part;
+    part.count = points.count;
+    for (const auto* ports : {&program.inputs, &program.uniforms})
+        for (const evaluate::Port& port : *ports)
+            if (const auto found = points.values.find(port.name); found != points.values.end())
+                part.values.insert(*found);
+    for (const evaluate::ImagePort& image : program.images)
+        if (const auto found = points.images.find(image.name); found != points.images.end())
+            part.images.insert(*found);
+    return part;
+}
+
+/// What the fragment stage is given at points, and what the vertex stage gave.
+struct FragmentsAtPoints {
+    evaluate::Invocations invocations;
+    evaluate::Outputs vertices;
+};
+
+Result<FragmentsAtPoints> fragments_at_points(const Pipeline& pipeline, const evaluate::Invocations& points) {
+    FragmentsAtPoints fragments;
+    GOBO_TRY(fragments.vertices, evaluate::run<double>(pipeline.vertex, part_of(pipeline.vertex, points)));
+    fragments.invocations = part_of(pipeline.fragment, points);
+    for (const raster::Varying& varying : pipeline.varyings)
+        fragments.invocations.values[varying.input] = fragments.vertices.values.at(varying.output);
+    return fragments;
+}
+
+/// Runs the vertex stage in fp64, and the fragment stage on what it wrote, as at a vertex. `points` may hold
+/// more than the stages read. The fragment stage's outputs, gl_Position, and "discard", 1 where the fragment
+/// is discarded and all its outputs 0.
+Result<NamedValues> run_at_points(const Pipeline& pipeline, const evaluate::Invocations& points) {
+    GOBO_TRY(const FragmentsAtPoints fragments, fragments_at_points(pipeline, points));
+    GOBO_TRY(const auto shaded, evaluate::run<double>(pipeline.fragment, fragments.invocations));
+    NamedValues outputs = shaded.values;
+    for (auto& [name, values] : outputs)
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (shaded.discarded[k % points.count]) values[k] = 0;
+    outputs["discard"].assign(shaded.discarded.begin(), shaded.discarded.end());
+    const auto position = fragments.vertices.values.find("gl_Position");
+    if (position != fragments.vertices.values.end()) outputs.insert(*position);
+    return outputs;
+}
 
 /// A component of an output whose two sides are too far apart.
 struct Difference {
@@ -26,28 +91,13 @@ struct Difference {
 };
 using Differences = std::vector<std::optional<Difference>>;  ///< of each point
 
-constexpr int kMoves = 6;  // each input goes either way in some of them
-/// The outputs' spread is measured by moving the inputs by this much, and taken to be proportional to it.
-constexpr double kProbe = 0x1p-24;
 constexpr double kDoubleRounding = 0x1p-53;
-constexpr double kEdge = 1e-5;
 
 /// How far the outputs move with the inputs.
-Result<PointOutputs> spread(const Pipeline& pipeline, const evaluate::Invocations& points,
-                            const PointOutputs& outputs, double step, std::uint64_t seed) {
-    PointOutputs widest;
-    for (int i = 0; i < kMoves; ++i) {
-        const Result<PointOutputs> there = run_at_points(
-            pipeline, moved(pipeline.given(), points, step, seed + static_cast<std::uint64_t>(i)));
-        if (!there) return tl::unexpected(there.error());
-        for (const auto& [name, values] : outputs) {
-            std::vector<double>& most = widest[name];
-            most.resize(values.size());
-            for (std::size_t k = 0; k < values.size(); ++k)
-                most[k] = std::max(most[k], std::abs(there->at(name)[k] - values[k]));
-        }
-    }
-    return widest;
+Result<NamedValues> spread_of(const Pipeline& pipeline, const evaluate::Invocations& points,
+                              const NamedValues& outputs, double step, std::uint64_t seed) {
+    return spread(given_ports(pipeline), points, outputs, step, seed,
+                  [&](const evaluate::Invocations& moved) { return run_at_points(pipeline, moved); });
 }
 
 /// The largest component of an output at a point.
@@ -66,9 +116,9 @@ double ratio_of(double difference, double limit) {
 /// Both sides evaluated.
 struct Evaluated {
     const Sides& sides;
-    PointOutputs one;
-    PointOutputs other;
-    PointOutputs known_to;  ///< spread of `one` at kProbe
+    NamedValues one;
+    NamedValues other;
+    NamedValues known_to;  ///< spread of `one` at kRoundingStep
 };
 
 /// The worst component of each point; outputs that only one side has are no concern.
@@ -82,7 +132,7 @@ Differences differences(const Evaluated& both) {
             const double one = values[k];
             const double other = there->second[k];
             if (one == other || (std::isnan(one) && std::isnan(other))) continue;
-            const double known_to = both.known_to.at(name)[k] * (kDoubleRounding / kProbe) +
+            const double known_to = both.known_to.at(name)[k] * (kDoubleRounding / kRoundingStep) +
                                     kDoubleRounding * size_at(values, count, k % count);
             const double limit = kConditionFactor * known_to + std::numeric_limits<double>::min();
             const double ratio = ratio_of(std::abs(one - other), limit);
@@ -95,32 +145,30 @@ Differences differences(const Evaluated& both) {
 }
 
 /// Points whose difference a step explains: moving the inputs by 1e-5 spreads the output as far.
-Result<bool> leave_out_edges(const Pipeline& pipeline, const Evaluated& both, std::uint64_t seed,
+Result<void> leave_out_edges(const Pipeline& pipeline, const Evaluated& both, std::uint64_t seed,
                              Differences& broken, RelationReport& report) {
     if (std::none_of(broken.begin(), broken.end(), [](const auto& one) { return one.has_value(); }))
-        return true;
-    const Result<PointOutputs> far = spread(pipeline, both.sides.one, both.one, kEdge, seed);
-    if (!far) return tl::unexpected(far.error());
+        return {};
+    GOBO_TRY(const NamedValues far, spread_of(pipeline, both.sides.one, both.one, kEdgeStep, seed));
     for (std::size_t i = 0; i < broken.size(); ++i) {
         if (!broken[i]) continue;
-        const double steps = far->at(broken[i]->output)[broken[i]->component * broken.size() + i];
+        const double steps = far.at(broken[i]->output)[broken[i]->component * broken.size() + i];
         if (!(std::abs(broken[i]->one - broken[i]->other) <= 2 * steps)) continue;
         ++report.edges;
         broken[i].reset();
     }
-    return true;
+    return {};
 }
 
 /// What the stage that writes `output` is given at a point.
 Result<evaluate::EvalPoint> given(const Pipeline& pipeline, const evaluate::Invocations& points,
                                   StageKind stage, std::size_t index) {
     if (stage == StageKind::vertex) return evaluate::point_of(pipeline.vertex, points, index);
-    const auto fragments = fragments_at_points(pipeline, points);
-    if (!fragments) return tl::unexpected(fragments.error());
-    return evaluate::point_of(pipeline.fragment, fragments->invocations, index);
+    GOBO_TRY(const FragmentsAtPoints fragments, fragments_at_points(pipeline, points));
+    return evaluate::point_of(pipeline.fragment, fragments.invocations, index);
 }
 
-Result<bool> describe(const Pipeline& one, const Pipeline& other, const Sides& sides,
+Result<void> describe(const Pipeline& one, const Pipeline& other, const Sides& sides,
                       const Differences& broken, RelationReport& report) {
     std::size_t worst = broken.size();
     for (std::size_t i = 0; i < broken.size(); ++i) {
@@ -128,37 +176,124 @@ Result<bool> describe(const Pipeline& one, const Pipeline& other, const Sides& s
         ++report.failed;
         if (worst == broken.size() || broken[i]->ratio > broken[worst]->ratio) worst = i;
     }
-    if (report.failed == 0) return true;
+    if (report.failed == 0) return {};
     const Difference& difference = *broken[worst];
     report.found = fmt::format("{}[{}] is {} on one side and {} on the other, which may differ by {:.2g}",
                                difference.output, difference.component, difference.one, difference.other,
                                difference.limit);
-    const StageKind stage = difference.output == "gl_Position" ? StageKind::vertex : StageKind::fragment;
-    Result<evaluate::EvalPoint> here = given(one, sides.one, stage, worst);
-    if (!here) return tl::unexpected(here.error());
-    Result<evaluate::EvalPoint> there = given(other, sides.other, stage, worst);
-    if (!there) return tl::unexpected(there.error());
-    report.worst = BrokenPoint{stage, std::move(*here), std::move(*there)};
-    return true;
+    BrokenPoint& point = report.worst.emplace();
+    point.stage = difference.output == "gl_Position" ? StageKind::vertex : StageKind::fragment;
+    GOBO_TRY(point.one, given(one, sides.one, point.stage, worst));
+    GOBO_TRY(point.other, given(other, sides.other, point.stage, worst));
+    return {};
 }
 
 Result<RelationReport> compare(const Pipeline& one, const Pipeline& other, const Sides& sides,
                                std::uint64_t seed) {
-    Result<PointOutputs> here = run_at_points(one, sides.one);
-    if (!here) return tl::unexpected(here.error());
-    Result<PointOutputs> there = run_at_points(other, sides.other);
-    if (!there) return tl::unexpected(there.error());
-    Result<PointOutputs> known_to = spread(one, sides.one, *here, kProbe, seed);
-    if (!known_to) return tl::unexpected(known_to.error());
-    const Evaluated both{sides, std::move(*here), std::move(*there), std::move(*known_to)};
+    Evaluated both{sides, {}, {}, {}};
+    GOBO_TRY(both.one, run_at_points(one, sides.one));
+    GOBO_TRY(both.other, run_at_points(other, sides.other));
+    GOBO_TRY(both.known_to, spread_of(one, sides.one, both.one, kRoundingStep, seed));
     Differences broken = differences(both);
     RelationReport report;
     report.points = sides.one.count;
-    if (const auto left = leave_out_edges(one, both, seed, broken, report); !left)
-        return tl::unexpected(left.error());
-    if (const auto told = describe(one, other, sides, broken, report); !told)
-        return tl::unexpected(told.error());
+    GOBO_TRY_DO(leave_out_edges(one, both, seed, broken, report));
+    GOBO_TRY_DO(describe(one, other, sides, broken, report));
     return report;
+}
+
+// The relation `finer`: on finer meshes a key that computes more per vertex approaches one that does not.
+
+constexpr int kCoarse = 8;  // stacks of a sphere
+constexpr int kFine = 32;
+/// A mesh four times as fine must at least come this much nearer. What is interpolated linearly is off by the
+/// square of an edge's length, a sixteenth; what is flat by its length, a quarter; and where a band's or a
+/// cone's rim runs through triangles, by the root of their share, a half, which meshes that do not fall on it
+/// alike make a little more.
+constexpr double kNearer = 0.7;
+/// Of colours this small a difference is rounding, however large the other difference is.
+constexpr double kColorRounding = 1e-12;
+
+/// A permutation with what the family's [render] values need to reach it.
+struct Drawable {
+    const Pipeline& pipeline;
+    Interface interface;
+};
+
+/// What the fragment stage makes of each triangle's centre, in fp64, lit as `gobo render` shows the family;
+/// component by component.
+Result<std::vector<double>> colors(const Drawable& drawn, const Mesh& mesh,
+                                   const std::vector<RenderValue>& values) {
+    const Camera camera = demo_camera();
+    ViewedObject view;
+    view.view = camera.view();
+    view.projection = camera.projection(1);
+    view.viewport = {64, 64};
+    const Pipeline& pipeline = drawn.pipeline;
+    GOBO_TRY(raster::RasterObject object,
+             raster::object_inputs(pipeline, drawn.interface, mesh,
+                                   raster::with_plain_textures(drawn.interface, values), view));
+    raster::Fragment centre;
+    centre.is_front_facing = true;
+    centre.weights.perspective = centre.weights.linear = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    for (; centre.triangle < mesh.indices.size() / 3; ++centre.triangle) object.fragments.push_back(centre);
+    GOBO_TRY(const auto inputs, raster::exact_fragment_inputs(pipeline, object));
+    GOBO_TRY(const auto shaded, evaluate::run<double>(pipeline.fragment, inputs));
+    const auto found = shaded.values.find(pipeline.color);
+    return found == shaded.values.end() ? std::vector<double>{} : found->second;
+}
+
+/// How far two keys are apart, by the root mean square of their colours at the centres of a sphere's
+/// triangles.
+Result<double> distance(const Drawable& one, const Drawable& other, const std::vector<RenderValue>& values,
+                        const Mesh& mesh) {
+    GOBO_TRY(const auto here, colors(one, mesh, values));
+    GOBO_TRY(const auto there, colors(other, mesh, values));
+    double sum = 0;
+    for (std::size_t k = 0; k < here.size(); ++k) sum += std::pow(here[k] - there.at(k), 2);
+    return here.empty() ? 0 : std::sqrt(sum / static_cast<double>(here.size()));
+}
+
+Result<RelationReport> compare_finer(const Drawable& one, const Drawable& other,
+                                     const std::vector<RenderValue>& values) {
+    const Mesh mesh = make_sphere(2 * kFine, kFine);
+    GOBO_TRY(const double coarse, distance(one, other, values, make_sphere(2 * kCoarse, kCoarse)));
+    GOBO_TRY(const double fine, distance(one, other, values, mesh));
+    RelationReport report;
+    report.points = mesh.indices.size() / 3;
+    if (fine <= std::max(kNearer * coarse, kColorRounding)) return report;
+    report.failed = report.points;
+    report.found = fmt::format(
+        "a sphere of 8 stacks is {:.3g} away from the other key's (root mean square), and one of 32 "
+        "stacks {:.3g}",
+        coarse, fine);
+    return report;
+}
+
+/// Adds what `more` gives, but for what is already there.
+void merge(evaluate::Invocations& points, const evaluate::Invocations& more) {
+    points.count = more.count;
+    points.values.insert(more.values.begin(), more.values.end());
+    points.images.insert(more.images.begin(), more.images.end());
+}
+
+/// The samples made for the oracle where it knows the key, else points drawn from the family's domains.
+Result<evaluate::Invocations> points_for(const Family& family, const Pipeline& pipeline, const Key& key,
+                                         std::uint64_t seed) {
+    evaluate::Invocations points;
+    const auto model = oracle::model_of(family, key);
+    if (!model) {
+        merge(points, draw_points(pipeline.vertex, family.domains, kRelationPoints, seed));
+        merge(points, draw_points(pipeline.fragment, family.domains, kRelationPoints, seed + 1));
+        return points;
+    }
+    const std::vector<Sample> samples =
+        make_samples(*model, StageKind::vertex, static_cast<int>(kRelationPoints), seed);
+    for (const evaluate::Program* program : {&pipeline.vertex, &pipeline.fragment}) {
+        GOBO_TRY(const auto bound, bind_inputs(*program, samples));
+        merge(points, bound);
+    }
+    return points;
 }
 
 /// The value of the relation's feature where that is a count; else 0.
@@ -166,6 +301,13 @@ int count_of(const Family& family, const Relation& relation, const Key& key) {
     if (relation.feature < 0) return 0;
     const auto feature = static_cast<std::size_t>(relation.feature);
     return family.features[feature].kind == FeatureKind::count ? key[feature] : 0;
+}
+
+/// The permutation of that key; null where the composition has none.
+const Permutation* find(const Composition& composition, const std::optional<Key>& key) {
+    const auto found = std::find_if(composition.permutations.begin(), composition.permutations.end(),
+                                    [&](const Permutation& permutation) { return permutation.key == key; });
+    return found == composition.permutations.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -201,18 +343,38 @@ std::vector<Key> partners(const Family& family, const std::vector<Key>& keys, st
     return found;
 }
 
-Result<std::optional<RelationReport>> try_relation(const Family& family, std::size_t relation, const Key& key,
-                                                   const Pipeline& pipeline, const Pipeline* partner,
-                                                   const evaluate::Invocations& points, std::uint64_t seed) {
-    const Relation& stated = family.relations[relation];
-    const bool needs_partner = stated.feature >= 0;
-    if (!speaks_of(stated, key) || (needs_partner && partner == nullptr)) return std::nullopt;
-    const auto sides = sides_of(stated, pipeline.given(), count_of(family, stated, key), points, seed);
-    if (!sides) return std::nullopt;
-    Result<RelationReport> report = compare(pipeline, needs_partner ? *partner : pipeline, *sides, seed);
-    if (!report) return tl::unexpected(report.error());
-    report->relation = relation;
-    return std::optional(std::move(*report));
+Result<std::vector<RelationReport>> try_relations(const Family& family, const Decoded& decoded,
+                                                  const Permutation& permutation, const Pipeline& pipeline,
+                                                  std::uint64_t seed) {
+    if (family.relations.empty()) return std::vector<RelationReport>{};
+    const Composition& composition = decoded.composition();
+    GOBO_TRY(const auto points, points_for(family, pipeline, permutation.key, seed));
+    std::vector<RelationReport> reports;
+    for (std::size_t i = 0; i < family.relations.size(); ++i) {
+        const Relation& relation = family.relations[i];
+        const Permutation* other =
+            find(composition, partner_of(family, relation, permutation.key, name_of(composition.dialect)));
+        const bool needs_partner = relation.feature >= 0;
+        if (needs_partner ? other == nullptr : !speaks_of(relation, permutation.key)) continue;
+        std::optional<Pipeline> partner;
+        if (needs_partner) {
+            GOBO_TRY(partner, decoded.pipeline(*other));
+        }
+        RelationReport report;
+        if (needs_partner && relation.kind == Relation::Kind::finer) {
+            GOBO_TRY(report,
+                     compare_finer({pipeline, interface_of(decoded.validated(), permutation)},
+                                   {*partner, interface_of(decoded.validated(), *other)}, family.render));
+        } else {
+            const auto sides = sides_of(relation, given_ports(pipeline),
+                                        count_of(family, relation, permutation.key), points, seed);
+            if (!sides) continue;
+            GOBO_TRY(report, compare(pipeline, partner ? *partner : pipeline, *sides, seed));
+        }
+        report.relation = i;
+        reports.push_back(std::move(report));
+    }
+    return reports;
 }
 
 }  // namespace gobo::verify

@@ -9,7 +9,7 @@
 
 #include "core/diagnostic.hpp"
 #include "family/family.hpp"
-#include "lab/verify/pipeline.hpp"
+#include "lab/verify/decoded.hpp"
 #include "lab/verify/report.hpp"
 
 namespace gobo::verify {
@@ -47,15 +47,16 @@ inline constexpr std::size_t kRelationPoints = evaluate::kLanes;
 [[nodiscard]] std::vector<Key> partners(const Family& family, const std::vector<Key>& keys,
                                         std::string_view dialect);
 
-/// Tries one relation, but for `finer`, at the points. `partner` is the pipeline of partner_of(), where the
-/// relation needs one. Nothing where the stages do not have what the relation speaks of.
+/// Tries each relation that speaks of the permutation, whose pipeline is given, and finds in it what it
+/// speaks of; those that compare it with another key, where that is among the composition's. The points are
+/// the samples made for the oracle where it knows the key, else drawn from the family's domains.
 ///
 /// Both sides are evaluated in fp64. They may differ by kConditionFactor times what the outputs are known to,
-/// as check_alone() measures it, in double roundings.
-[[nodiscard]] Result<std::optional<RelationReport>> try_relation(const Family& family, std::size_t relation,
-                                                                 const Key& key, const Pipeline& pipeline,
-                                                                 const Pipeline* partner,
-                                                                 const evaluate::Invocations& points,
-                                                                 std::uint64_t seed);
+/// as check_alone() measures it, in double roundings. Where an effect is computed per vertex (`finer`), both
+/// keys are compared on a coarse and on a fine sphere, lit as `gobo render` shows the family.
+[[nodiscard]] Result<std::vector<RelationReport>> try_relations(const Family& family, const Decoded& decoded,
+                                                                const Permutation& permutation,
+                                                                const raster::Pipeline& pipeline,
+                                                                std::uint64_t seed);
 
 }  // namespace gobo::verify

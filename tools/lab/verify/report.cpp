@@ -18,11 +18,17 @@ Figures& Figures::operator+=(const Figures& other) {
     return *this;
 }
 
-void add_failure(StageReport& report, Failure failure) {
-    const auto place = std::find_if(report.worst.begin(), report.worst.end(),
+void StageReport::add(Failure failure, std::size_t most) {
+    const auto place = std::find_if(worst.begin(), worst.end(),
                                     [&](const Failure& other) { return other.ratio < failure.ratio; });
-    report.worst.insert(place, std::move(failure));
-    if (report.worst.size() > kWorstPoints) report.worst.pop_back();
+    worst.insert(place, std::move(failure));
+    if (worst.size() > most) worst.pop_back();
+}
+
+void StageReport::add(StageReport other, std::size_t most) {
+    figures += other.figures;
+    failed_points += other.failed_points;
+    for (Failure& failure : other.worst) add(std::move(failure), most);
 }
 
 std::string to_text(const Failure& failure) {

@@ -40,17 +40,19 @@ struct Figures {
     Figures& operator+=(const Figures& other);
 };
 
+inline constexpr std::size_t kWorstPoints = 3;
+
 /// Of a stage.
 struct StageReport {
     Figures figures;
     std::size_t failed_points = 0;
     std::vector<Failure> worst;  ///< at most kWorstPoints, largest ratio first
+
+    /// Keeps the failure if it is among so many worst.
+    void add(Failure failure, std::size_t most = kWorstPoints);
+    /// Adds up figures and points, and keeps so many worst.
+    void add(StageReport other, std::size_t most = kWorstPoints);
 };
-
-inline constexpr std::size_t kWorstPoints = 3;
-
-/// Keeps the failure if it is among the worst.
-void add_failure(StageReport& report, Failure failure);
 
 /// The failing point as an input file of `gobo eval`, numbers in full precision. `key` is the permutation's
 /// text.

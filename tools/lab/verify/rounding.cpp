@@ -6,24 +6,88 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "lab/verify/power_rounding.hpp"
+#include "lab/oracle/response.hpp"
 
 namespace gobo::verify {
 namespace {
 
 constexpr double kU = kUnitRoundoff;
 
+/// 1 - cos of an angle, known to within `error`.
+struct OneMinusCosine {
+    double value = 0;
+    double error = 0;
+};
+
+/// Results below this may be flushed to 0.
+constexpr double kSmallestFloat = 0x1p-126;
+
+/// What computing 1 - u costs: nothing where a formula takes u as it is; otherwise one rounding of 1.
+double subtraction_error(oracle::Power power, const OneMinusCosine& u) {
+    switch (power) {
+        case oracle::Power::exact:
+        case oracle::Power::near_exact:
+            return u.value < 0.1 ? 0 : kU;
+        case oracle::Power::squaring:
+        case oracle::Power::schlick:
+            return kU;
+        default:
+            return 0;
+    }
+}
+
+/// The roundings of the formula, each counted as often as what follows multiplies it by.
+double formula_error(oracle::Power power, const OneMinusCosine& u, double exponent, double value) {
+    const double logarithm = value > 0 ? std::abs(std::log(value)) : 0;
+    switch (power) {
+        case oracle::Power::exact:  // six of the logarithm and the product, two of the exponential
+            return value * (6 * logarithm + 2) * kU;
+        case oracle::Power::near_exact:  // z, its square and the products: nine; two of the exponential
+            return value * (9 * logarithm + 2) * kU;
+        case oracle::Power::squaring: {
+            // The square's error doubles and gets a rounding: n in all for the factors of c^n together, and
+            // one for each of at most 20 products. Squares that underflow are lost products of the result.
+            const double whole = std::nearbyint(exponent);
+            return value * (whole + 20) * kU + kSmallestFloat;
+        }
+        case oracle::Power::gaussian_fitted:  // the sum, the product; two of the exponential
+        case oracle::Power::gaussian:
+            return value * (2 * logarithm + 2) * kU + kSmallestFloat;
+        case oracle::Power::lyon: {
+            // 1 - x, where x = m u / 4 has two roundings and the difference one of at most 1; the fourth
+            // power multiplies it by 4 b^3 and adds two products.
+            const double x = exponent * u.value / 4;
+            const double root = std::max(1 - x, 0.0);
+            const double off = 2 * kU * std::min(x, 1.0) + kU;
+            return 4 * std::pow(root + off, 3) * off + 2 * value * kU;
+        }
+        case oracle::Power::schlick:  // a product, a sum of terms that are not negative, a division
+            return value * 3 * kU;
+    }
+    return 0;
+}
+
+/// Bound of the error of oracle::lobe(): the spread of the lobe over its argument's error, evaluated at both
+/// ends since the slope may be infinite, and the formula's own roundings.
+double power_error(oracle::Power power, const OneMinusCosine& angle, double exponent) {
+    const double spread = angle.error + subtraction_error(power, angle);
+    const double least = oracle::lobe(power, std::min(angle.value + spread, 2.0), exponent);
+    const double most = oracle::lobe(power, std::max(angle.value - spread, 0.0), exponent);
+    const double value = oracle::lobe(power, angle.value, exponent);
+    return most - least + formula_error(power, angle, exponent, value);
+}
+
 /// 1 - a.b of two directions whose errors add up to `directions`. Near 0 it is |a - b|^2 / 2, whose
 /// derivative is |a - b| = sqrt(2 u), and five roundings; from 1/2 on 1 - a.b, with four roundings of at most
 /// 1, which are eight of u.
-OneMinusCosine one_minus_cosine_of_unit(double value, double directions) {
+OneMinusCosine from_unit_directions(double value, double directions) {
     const double slope = std::sqrt(2 * value);
     return {value, (slope + directions / 2) * directions + 8 * kU * value};
 }
 
 /// 1 - a.b as it stands: the directions' errors, by the sine of the angle where both are unit, and four
 /// roundings of at most 1 each.
-OneMinusCosine one_minus_cosine_of_cosine(double value, double directions, bool are_unit) {
+OneMinusCosine from_cosine(double value, double directions, bool are_unit) {
     const double sine = std::sqrt(std::max(value * (2 - value), 0.0));
     const double slope = are_unit ? sine + directions / 2 : 1;
     return {value, slope * directions + 4 * kU};
@@ -31,19 +95,19 @@ OneMinusCosine one_minus_cosine_of_cosine(double value, double directions, bool 
 
 /// Where a ray lies in a cone. By the angle itself: |a x b| and a.b are good to four roundings of 1 each, so
 /// that the angle is off by six, and 2 sin^2 of its half by its slope, the sine, and six roundings more.
-OneMinusCosine cone_one_minus_cosine(oracle::SpotEdge edge, double angle, double directions) {
+OneMinusCosine cone_angle(oracle::SpotEdge edge, double angle, double directions) {
     const double value = oracle::one_minus_cosine_of(angle);
-    if (edge == oracle::SpotEdge::one_minus_cosine) return one_minus_cosine_of_unit(value, directions);
-    if (edge == oracle::SpotEdge::cosine) return one_minus_cosine_of_cosine(value, directions, true);
+    if (edge == oracle::SpotEdge::one_minus_cosine) return from_unit_directions(value, directions);
+    if (edge == oracle::SpotEdge::cosine) return from_cosine(value, directions, true);
     const double off = directions + 6 * kU;
     return {value, (std::sin(angle) + off / 2) * off + 6 * kU * value};
 }
 
-/// How far a highlight's one minus cosine is off, of directions whose errors add up to `directions`.
-OneMinusCosine lobe_one_minus_cosine(const oracle::Model& model, double value, double directions) {
-    return model.normal == oracle::Normal::renormalised
-               ? one_minus_cosine_of_unit(value, directions)
-               : one_minus_cosine_of_cosine(value, directions, false);
+/// How far a highlight's angle is off, as one minus its cosine, of directions whose errors add up to
+/// `directions`.
+OneMinusCosine lobe_angle(const oracle::Model& model, double value, double directions) {
+    return model.normal == oracle::Normal::renormalised ? from_unit_directions(value, directions)
+                                                        : from_cosine(value, directions, false);
 }
 
 double edge(const oracle::SpotLight& light, double one_minus_cosine) {
@@ -54,19 +118,19 @@ double edge(const oracle::SpotLight& light, double one_minus_cosine) {
     return fade * fade;
 }
 
-/// Error of a spot light's share. A hard edge is decided, not rounded: it adds nothing here.
+/// Error of a spot light's attenuation. A hard edge is decided, not rounded: it adds nothing here.
 double cone_error(oracle::SpotEdge spot_edge, const oracle::IncidentLight& incident, double to_light_error) {
     const oracle::SpotLight& light = *incident.spot;
     // The axis is unit to two roundings.
-    const OneMinusCosine u = cone_one_minus_cosine(spot_edge, incident.cone_angle, to_light_error + 2 * kU);
+    const OneMinusCosine u = cone_angle(spot_edge, incident.cone_angle, to_light_error + 2 * kU);
     const bool is_hard = light.inner_one_minus_cosine >= light.outer_one_minus_cosine;
     const double most = edge(light, std::max(u.value - u.error, 0.0));
     const double edge_error = is_hard ? 0 : most - edge(light, u.value + u.error) + 6 * kU * most;
     return edge_error + power_error(oracle::Power::exact, u, light.exponent) + kU;
 }
 
-/// Error of a shadowed light's share. A product of a matrix and a position rounds each term at most four
-/// times, a cube's spread twice more, the division once, and the place among the texels twice; what lies
+/// Error of a shadowed light's attenuation. A product of a matrix and a position rounds each term at most
+/// four times, a cube's spread twice more, the division once, and the place among the texels twice; what lies
 /// before the place in the map is decided. The weights and the product with the light are ten roundings of at
 /// most 1. A texel's centre, where a formula asks for that, is rounded once as it is divided by the map's
 /// size.
@@ -100,14 +164,15 @@ double sum_roundings(oracle::LightSum kind, std::size_t terms) {
 }
 
 /// A light's parts of the error, without the material.
-struct TermErrors {
+struct LightErrors {
     glm::dvec3 ambient{0};
-    glm::dvec3 scattered{0};
-    glm::dvec3 reflected{0};
+    glm::dvec3 diffuse{0};
+    glm::dvec3 specular{0};
 };
 
 /// The share that a light's error counts with: the brightest tone where that limits the sum.
-double largest_share(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term) {
+double largest_diffuse(const oracle::Model& model, const oracle::Scene& scene,
+                       const oracle::LightTerm& term) {
     if (model.diffuse != oracle::Diffuse::toon_thresholds) return term.diffuse;
     return *std::max_element(scene.toon_tones.begin(), scene.toon_tones.end());
 }
@@ -118,23 +183,24 @@ glm::dvec3 ambient_error(const oracle::AmbientLight& ambient, double normal) {
     return ambient.slope * (normal + 6 * kU) + ambient.largest * (10 * kU);
 }
 
-TermErrors term_errors(const oracle::Model& model, const oracle::Scene& scene, const oracle::LightTerm& term,
-                       double shininess, const PointErrors& errors, double normal, double to_viewer) {
+LightErrors light_errors(const oracle::Model& model, const oracle::Scene& scene,
+                         const oracle::LightTerm& term, double shininess, const PointErrors& errors,
+                         double normal, double to_viewer) {
     const IncidentErrors incident = incident_errors(model, term.incident, errors.position);
     const glm::dvec3& light = term.incident.radiance;
-    TermErrors result;
+    LightErrors result;
     result.ambient = term.ambient * (incident.attenuation + 2 * kU);
     // The gate is decided; where it is open, the cosine is off by both directions and a dot product.
     const double cosine = normal + incident.direction + 3 * kU;
     const bool may_be_lit = term.is_lit || std::abs(term.cosine) <= cosine;
     if (!may_be_lit) return result;
     const double diffuse = model.diffuse == oracle::Diffuse::lambert ? cosine : 2 * kU;
-    result.scattered = light * (diffuse + kU) + incident.radiance * largest_share(model, scene, term);
+    result.diffuse = light * (diffuse + kU) + incident.radiance * largest_diffuse(model, scene, term);
     if (model.specular == oracle::Specular::none) return result;
     const double directions = highlight_directions(model, term, normal, incident.direction, to_viewer);
-    const double share = power_error(
-        model.power, lobe_one_minus_cosine(model, term.highlight_one_minus_cosine, directions), shininess);
-    result.reflected = light * (share + kU) + incident.radiance * term.specular;
+    const double share =
+        power_error(model.power, lobe_angle(model, term.highlight_one_minus_cosine, directions), shininess);
+    result.specular = light * (share + kU) + incident.radiance * term.specular;
     return result;
 }
 
@@ -151,9 +217,9 @@ IncidentErrors incident_errors(const oracle::Model& model, const oracle::Inciden
     if (incident.distance == 0) return {kDirectionError, 0, glm::dvec3(0)};
     const double ray = kU + (position_error + kU * incident.place_size) / incident.distance;
     const double direction = ray + kDirectionError;
-    const double fading = 2 * direction + 7 * kU;
+    const double attenuation = 2 * direction + 7 * kU;
     const double cone = incident.spot != nullptr ? cone_error(model.spot_edge, incident, direction) : 0;
-    return {direction, fading, incident.radiance * fading + incident.unshaped * cone + shadow};
+    return {direction, attenuation, incident.radiance * attenuation + incident.unshaped * cone + shadow};
 }
 
 double viewer_error(const oracle::Model& model, const glm::dvec3& position, double position_error) {
@@ -179,9 +245,10 @@ glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene
     error += material.strength * material.specular *
              (radiance.reflected.slope * (mirrored + 6 * kU) + radiance.reflected.value * (5 * kU));
     for (const oracle::LightTerm& term : radiance.terms) {
-        const TermErrors one = term_errors(model, scene, term, material.shininess, errors, normal, to_viewer);
-        error += material.ambient * one.ambient + material.diffuse * one.scattered +
-                 material.strength * material.specular * one.reflected;
+        const LightErrors one =
+            light_errors(model, scene, term, material.shininess, errors, normal, to_viewer);
+        error += material.ambient * one.ambient + material.diffuse * one.diffuse +
+                 material.strength * material.specular * one.specular;
     }
     // Sums of terms that are not negative, three products with the material and two with the vertices'
     // colour, four sums of the parts.

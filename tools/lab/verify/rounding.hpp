@@ -24,7 +24,7 @@ inline constexpr double kDirectionError = 6 * kUnitRoundoff;
                                         const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
                                         const PointErrors& errors);
 
-/// What a light's incident is known to: the length of its direction's error, each channel's error.
+/// What incident light is known to: the length of its direction's error, each channel's error.
 struct IncidentErrors {
     double direction = 0;
     double attenuation = 0;  ///< relative

@@ -8,12 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "lab/oracle/oracle.hpp"
-#include "lab/verify/cosines.hpp"
-#include "lab/verify/hybrid.hpp"
-#include "lab/verify/image_light_feed.hpp"
-#include "lab/verify/random.hpp"
-#include "lab/verify/sample_surface.hpp"
-#include "lab/verify/shadow_sample.hpp"
+#include "lab/verify/sample_effects.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -30,20 +25,20 @@ class SampleMaker {
             place_vertex(sample);
         else
             place_fragment(sample);
-        furnish(sample);
+        fill_draw(sample);
         return sample;
     }
 
     Sample make_draw(const Mesh& mesh) {
         Sample sample;
         place_mesh(sample, mesh);
-        furnish(sample);
+        fill_draw(sample);
         return sample;
     }
 
   private:
     /// All that is the same for every point of a draw.
-    void furnish(Sample& sample) {
+    void fill_draw(Sample& sample) {
         sample.model = model_;
         choose_side(model_, stage_, random_, sample);
         if (mesh_ != nullptr)
@@ -57,16 +52,17 @@ class SampleMaker {
         sample.scene.ambient = random_.components(0, 1);
         add_lights(sample);
         if (model_.shading == oracle::Shading::hybrid && !is_vertex_)
-            hand_on(model_, sample.scene, random_, sample.surface);
+            interpolate_lights(model_, sample.scene, random_, sample.surface);
         if (model_.n_dot_l == oracle::NDotL::vertex && !is_vertex_)
-            hand_on_cosines(model_, sample.scene, random_, sample.surface);
+            interpolate_cosines(model_, sample.scene, random_, sample.surface);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
         add_shadows(model_, random_, sample);
         fill_environment(model_, random_, sample.scene);
         if (model_.looks_up_images()) fill_image_lights(random_, sample.scene);
-        if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4)) brighten(sample);
+        if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4))
+            scale_beyond_half_float(sample);
     }
 
     void place_fragment(Sample& sample) {
@@ -163,7 +159,7 @@ class SampleMaker {
     }
 
     /// Coefficients of which some are 0, and a colour that brings some radiance to the point.
-    void shine(oracle::PointLight& light, double distance) {
+    void set_brightness(oracle::PointLight& light, double distance) {
         for (int i = 0; i < 3; ++i) light.attenuation[i] = random_.one_in(4) ? 0 : random_.across(1e-3, 1);
         if (light.attenuation == glm::dvec3(0)) light.attenuation.x = 1;
         const glm::dvec3& k = light.attenuation;
@@ -180,7 +176,7 @@ class SampleMaker {
             distance = random_.across(nearest_light_, farthest_light_);
         }
         light.position = surface + direction * distance;
-        shine(light, distance);
+        set_brightness(light, distance);
         return direction;
     }
 
@@ -239,7 +235,7 @@ class SampleMaker {
     }
 
     /// Radiances around the largest that a 16-bit float holds.
-    void brighten(Sample& sample) {
+    void scale_beyond_half_float(Sample& sample) {
         const double factor = random_.across(1e4, 1e5);
         for (glm::dvec3* color :
              {&sample.lit_radiance, &sample.scene.material.emission, &sample.scene.fog.color})
@@ -260,46 +256,57 @@ class SampleMaker {
     double farthest_light_ = 0;
 };
 
-void to_float(double& number) {
-    number = static_cast<float>(number);
-}
-void to_float(glm::dvec3& vector) {
-    for (int i = 0; i < 3; ++i) to_float(vector[i]);
-}
-void to_float(oracle::PointLight& light) {
-    to_float(light.position);
-    to_float(light.color);
-    to_float(light.attenuation);
-}
+/// Rounds every number to a float.
+struct ToFloat {
+    template <class... Values>
+    static void all(Values&... values) {
+        (one(values), ...);
+    }
 
-void to_float(oracle::Scene& scene) {
-    oracle::Material& material = scene.material;
-    for (glm::dvec3* color : {&material.emission, &material.ambient, &material.diffuse, &material.specular,
-                              &scene.ambient, &scene.fog.color})
-        to_float(*color);
-    for (double* number : {&material.shininess, &material.strength, &scene.fog.density, &scene.fog.start,
-                           &scene.fog.end, &scene.depth_offset})
-        to_float(*number);
-    for (oracle::Shadow& shadow : scene.shadows) {
-        for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 4; ++row) to_float(shadow.to_map[column][row]);
-        for (double* number : {&shadow.layer, &shadow.depth_scale, &shadow.depth_shift, &shadow.spread})
-            to_float(*number);
+    static void one(double& number) { number = static_cast<float>(number); }
+    template <glm::length_t size>
+    static void one(glm::vec<size, double>& vector) {
+        for (glm::length_t i = 0; i < size; ++i) one(vector[i]);
     }
-    for (double& depth : scene.maps.depths) to_float(depth);
-    round_image_lights(scene);
-    for (oracle::DirectionalLight& light : scene.directional) {
-        to_float(light.direction);
-        to_float(light.color);
+    template <glm::length_t columns, glm::length_t rows>
+    static void one(glm::mat<columns, rows, double>& matrix) {
+        for (glm::length_t i = 0; i < columns; ++i) one(matrix[i]);
     }
-    for (oracle::PointLight& light : scene.point) to_float(light);
-    for (oracle::SpotLight& light : scene.spot) {
-        to_float(static_cast<oracle::PointLight&>(light));
-        to_float(light.axis);
-        for (double* number : {&light.exponent, &light.inner_one_minus_cosine, &light.outer_one_minus_cosine})
-            to_float(*number);
+    template <class Element>
+    static void one(std::vector<Element>& list) {
+        for (Element& element : list) one(element);
     }
-}
+    template <class Element, std::size_t size>
+    static void one(std::array<Element, size>& list) {
+        for (Element& element : list) one(element);
+    }
+
+    static void one(oracle::Material& m) {
+        all(m.emission, m.ambient, m.diffuse, m.specular, m.shininess, m.strength);
+    }
+    static void one(oracle::DirectionalLight& light) { all(light.direction, light.color); }
+    static void one(oracle::PointLight& light) { all(light.position, light.color, light.attenuation); }
+    static void one(oracle::SpotLight& light) {
+        one(static_cast<oracle::PointLight&>(light));
+        all(light.axis, light.exponent, light.inner_one_minus_cosine, light.outer_one_minus_cosine);
+    }
+    static void one(oracle::DirectionalOrPointLight& light) {
+        all(light.position, light.color, light.attenuation);
+    }
+    static void one(oracle::Shadow& s) { all(s.to_map, s.layer, s.depth_scale, s.depth_shift, s.spread); }
+    static void one(oracle::ImageLight& light) { all(light.color, light.weight, light.to_map); }
+    static void one(oracle::FogParameters& fog) { all(fog.color, fog.density, fog.start, fog.end); }
+    static void one(oracle::HemisphereLight& light) { all(light.up, light.sky, light.ground); }
+    static void one(oracle::HarmonicsLight& light) { all(light.to_probe, light.scale, light.coefficients); }
+    static void one(oracle::SurfacePoint& s) {
+        all(s.position, s.normal, s.color, s.opacity, s.rays, s.halfways, s.cosines);
+    }
+    static void one(oracle::Scene& s) {
+        all(s.material, s.materials, s.ambient, s.hemisphere, s.harmonics, s.light_ambients, s.image_light,
+            s.reflection, s.directional, s.point, s.spot, s.directional_or_point, s.shadows, s.maps.depths,
+            s.toon_thresholds, s.toon_tones, s.fog, s.cutout_threshold, s.depth_offset);
+    }
+};
 
 }  // namespace
 
@@ -324,22 +331,9 @@ Sample at_vertex(const Sample& draw, const Mesh& mesh, std::size_t vertex) {
 }
 
 Sample rounded_to_float(Sample sample) {
-    to_float(sample.scene);
-    for (glm::dvec3* vector : {&sample.object_position, &sample.object_normal, &sample.surface.position,
-                               &sample.surface.normal, &sample.lit_radiance})
-        to_float(*vector);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row) {
-            to_float(sample.model_view[column][row]);
-            to_float(sample.projection[column][row]);
-            if (column < 3 && row < 3) to_float(sample.normal_matrix[column][row]);
-        }
-    to_float(sample.depth);
-    for (glm::dvec4& ray : sample.surface.rays)
-        for (int i = 0; i < 4; ++i) to_float(ray[i]);
-    for (glm::dvec3& halfway : sample.surface.halfways) to_float(halfway);
-    for (double& cosine : sample.surface.cosines) to_float(cosine);
-    round_surface(sample);
+    ToFloat::all(sample.scene, sample.surface, sample.object_position, sample.object_normal,
+                 sample.model_view, sample.projection, sample.normal_matrix, sample.lit_radiance,
+                 sample.back_radiance, sample.depth, sample.texture_coordinate);
     return sample;
 }
 

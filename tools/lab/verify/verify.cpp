@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #define XXH_INLINE_ALL
+#include <nlohmann/json.hpp>
 #include <xxhash.h>
 
 #include "family/key.hpp"
-#include "lab/verify/against_oracle.hpp"
 #include "lab/verify/alone.hpp"
+#include "lab/verify/comparison.hpp"
 #include "lab/verify/on_mesh.hpp"
 #include "lab/verify/parallel.hpp"
-#include "lab/verify/try_relations.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -31,16 +31,15 @@ class Verifier {
         report.has_oracle = !models.empty();
         for (const int stage : {permutation.vertex, permutation.fragment}) {
             if (stage < 0) continue;  // loose files may leave one out
-            Result<StageReport> found = check(stage, permutation.key, models);
-            if (found)
-                add(report, std::move(*found));
+            if (Result<StageReport> found = check(stage, permutation.key, models))
+                report.add(*std::move(found), 2 * kWorstPoints);
             else
-                add(report, std::move(found.error()));
+                add(report, std::move(found).error());
         }
         const bool is_whole = permutation.vertex >= 0 && permutation.fragment >= 0;
         if (!is_whole || !report.diagnostics.empty()) return report;
-        if (!models.empty()) check_on_meshes(report, permutation, models);
-        if (!family_.relations.empty()) check_relations(report, permutation);
+        if (const Result<void> done = check_together(report, permutation, models); !done)
+            add(report, done.error());
         return report;
     }
 
@@ -53,60 +52,43 @@ class Verifier {
 
     [[nodiscard]] Result<StageReport> check(int stage, const Key& key,
                                             const std::vector<oracle::Model>& models) const {
-        const Result<evaluate::Program>& program = decoded_.stage(stage);
-        if (!program) return tl::unexpected(program.error());
+        GOBO_TRY(const evaluate::Program& program, decoded_.stage(stage));
         const StageKind kind = decoded_.kind_of(stage);
         const std::uint64_t seed = seed_of(key);
         const int count = kind == StageKind::vertex ? options_.vertices : options_.fragments;
-        if (models.empty()) return check_alone(*program, kind, family_.domains, count, seed);
+        if (models.empty()) return check_alone(program, kind, family_.domains, count, seed);
         const bool is_one = models.size() == 1;
         StageReport all;
         for (std::size_t i = 0; i < models.size(); ++i) {
-            Result<StageReport> one =
-                check_against_oracle(*program, kind, models[i], is_one ? count : kPointsOfModel, seed + i);
-            if (!one) return one;
-            all.figures += one->figures;
-            all.failed_points += one->failed_points;
-            for (Failure& failure : one->worst) add_failure(all, std::move(failure));
+            GOBO_TRY(auto one, check_against_oracle(program, kind, models[i], is_one ? count : kPointsOfModel,
+                                                    seed + i));
+            all.add(std::move(one));
         }
         return all;
     }
 
-    void check_on_meshes(PermutationReport& report, const Permutation& permutation,
-                         const std::vector<oracle::Model>& models) const {
-        const Result<Pipeline> pipeline = decoded_.pipeline(permutation);
-        if (!pipeline) return add(report, pipeline.error());
-        for (std::size_t i = 0; i < options_.meshes.size(); ++i) {
+    /// Both stages: on meshes where there is an oracle, and by the family's relations.
+    Result<void> check_together(PermutationReport& report, const Permutation& permutation,
+                                const std::vector<oracle::Model>& models) const {
+        if (models.empty() && family_.relations.empty()) return {};
+        GOBO_TRY(const raster::Pipeline pipeline, decoded_.pipeline(permutation));
+        const std::uint64_t seed = seed_of(permutation.key);
+        for (std::size_t i = 0; i < options_.meshes.size() && !models.empty(); ++i) {
             const oracle::Model& model = models[i * models.size() / options_.meshes.size()];
-            auto found =
-                check_on_mesh(*pipeline, model, options_.meshes[i], seed_of(permutation.key) + i + 1);
-            if (!found) return add(report, std::move(found.error()));
-            for (StageReport& stage : *found) {
+            GOBO_TRY(auto found, check_on_mesh(pipeline, model, options_.meshes[i], seed + i + 1));
+            for (StageReport& stage : found) {
                 report.points_on_meshes += stage.figures.points;
-                add(report, std::move(stage));
+                report.add(std::move(stage), 2 * kWorstPoints);
             }
         }
-    }
-
-    void check_relations(PermutationReport& report, const Permutation& permutation) const {
-        auto found = try_relations(family_, decoded_, permutation, seed_of(permutation.key));
-        if (!found) return add(report, std::move(found.error()));
-        report.relations = std::move(*found);
+        GOBO_TRY(report.relations, try_relations(family_, decoded_, permutation, pipeline, seed));
+        return {};
     }
 
     /// Of the key's text alone.
     [[nodiscard]] std::uint64_t seed_of(const Key& key) const {
         const std::string text = key_text(family_, key);
         return XXH3_64bits(text.data(), text.size());
-    }
-
-    void add(PermutationReport& report, StageReport found) const {
-        report.figures += found.figures;
-        report.failed_points += found.failed_points;
-        for (Failure& failure : found.worst) report.worst.push_back(std::move(failure));
-        std::stable_sort(report.worst.begin(), report.worst.end(),
-                         [](const Failure& left, const Failure& right) { return left.ratio > right.ratio; });
-        if (report.worst.size() > 2 * kWorstPoints) report.worst.resize(2 * kWorstPoints);
     }
 
     void add(PermutationReport& report, Diagnostics errors) const {
@@ -138,6 +120,18 @@ VerifyReport verify(const Family& family, const Composition& composition, const 
         if (!permutation.has_oracle) ++report.without_oracle;
     }
     return report;
+}
+
+std::string figures_json(const Family& family, const VerifyReport& report) {
+    using Json = nlohmann::ordered_json;
+    Json permutations = Json::array();
+    for (const PermutationReport& permutation : report.permutations)
+        permutations.push_back({{"key", key_text(family, permutation.key)},
+                                {"points", permutation.figures.points},
+                                {"largest_fp32_error", permutation.figures.largest_fp32_error},
+                                {"largest_fp64_error", permutation.figures.largest_fp64_error}});
+    const Json figures = {{"family", family.name}, {"permutations", std::move(permutations)}};
+    return figures.dump(1) + "\n";
 }
 
 }  // namespace gobo::verify

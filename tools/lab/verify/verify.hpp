@@ -8,9 +8,9 @@
 #include "family/family.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/render/mesh.hpp"
-#include "validate/validate.hpp"
 #include "lab/verify/relations.hpp"
 #include "lab/verify/report.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::verify {
 
@@ -25,14 +25,11 @@ struct VerifyOptions {
     std::vector<Mesh> meshes;  ///< on which the stages together are tried where there is an oracle
 };
 
-/// The stages of one permutation together.
-struct PermutationReport {
+/// The stages of one permutation together; twice as many worst points are kept.
+struct PermutationReport : StageReport {
     Key key;
     bool has_oracle = false;
-    Figures figures;
-    std::size_t points_on_meshes = 0;  ///< of figures.points
-    std::size_t failed_points = 0;
-    std::vector<Failure> worst;
+    std::size_t points_on_meshes = 0;       ///< of figures.points
     std::vector<RelationReport> relations;  ///< those that were tried
     Diagnostics diagnostics;                ///< why a stage could not be evaluated
 };
@@ -51,5 +48,11 @@ struct VerifyReport {
 /// key gives the same figures in any selection and with any number of jobs.
 [[nodiscard]] VerifyReport verify(const Family& family, const Composition& composition,
                                   const Validated& validated, const VerifyOptions& options);
+
+/// The family's name and `permutations`, in the report's order: for each its key's text, how many points it
+/// was tried at, and its largest fp32 and fp64 errors, relative to the largest term of the light
+/// (docs/formats.md). An error that is no finite number is null. A newline ends the text.
+/// docs/models.md is made of them.
+[[nodiscard]] std::string figures_json(const Family& family, const VerifyReport& report);
 
 }  // namespace gobo::verify

@@ -1,0 +1,159 @@
+#include "lab/raster/shade.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/raster/random.hpp"
+
+namespace gobo::raster {
+namespace {
+
+constexpr std::size_t kQuad = 4;
+
+/// A depth as its buffer holds it.
+double stored_depth(double depth) {
+    return static_cast<float>(std::clamp(depth, 0.0, 1.0));
+}
+
+Shaded shaded(const Pipeline& pipeline, const evaluate::Outputs& outputs, std::size_t invocation,
+              const Fragment& fragment) {
+    Shaded result;
+    result.depth = stored_depth(fragment.weights.depth);
+    result.is_discarded = outputs.discarded[invocation];
+    if (const auto color = outputs.values.find(pipeline.color); color != outputs.values.end())
+        for (std::size_t c = 0; c < std::min<std::size_t>(color->second.size() / outputs.count, 4); ++c)
+            result.color[c] = color->second[c * outputs.count + invocation];
+    const auto depth = outputs.values.find("gl_FragDepth");
+    if (depth != outputs.values.end() && !pipeline.tests_early)
+        result.depth = stored_depth(depth->second[invocation]);
+    return result;
+}
+
+void add(const evaluate::Counts& counts, evaluate::Counts& sum) {
+    for (std::size_t kind = 0; kind < evaluate::kKinds; ++kind) sum[kind] += counts[kind];
+}
+
+/// Each component moved at random by up to `by` of the largest of its vector.
+void move(std::vector<double>& values, std::uint32_t components, std::size_t count, double by,
+          Random& random) {
+    if (by == 0 || values.size() != components * count) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        double size = 0;
+        for (std::size_t c = 0; c < components; ++c) size = std::max(size, std::abs(values[c * count + i]));
+        for (std::size_t c = 0; c < components; ++c) values[c * count + i] += size * random.between(-by, by);
+    }
+}
+
+}  // namespace
+
+std::vector<FragmentPlace> places_of(const RasterObject& object, bool in_quads) {
+    std::vector<FragmentPlace> places;
+    for (const Fragment& fragment : object.fragments) {
+        if (!in_quads) {
+            places.push_back({&fragment, fragment.x, fragment.y, fragment.weights});
+            continue;
+        }
+        const Interpolator interpolator = object.interpolator(fragment.triangle);
+        for (int i = 0; i < static_cast<int>(kQuad); ++i) {
+            const int x = (fragment.x & ~1) + i % 2;
+            const int y = (fragment.y & ~1) + i / 2;
+            places.push_back({&fragment, x, y, interpolator.at(x + 0.5, y + 0.5)});
+        }
+    }
+    return places;
+}
+
+std::size_t own_place(const Fragment& fragment, std::size_t index, bool in_quads) {
+    return in_quads ? kQuad * index + static_cast<std::size_t>(fragment.x % 2 + 2 * (fragment.y % 2)) : index;
+}
+
+std::vector<double> interpolated(const std::vector<double>& at_vertices, std::uint32_t components,
+                                 const RasterObject& object, const std::vector<FragmentPlace>& places,
+                                 Interpolation interpolation) {
+    std::vector<double> values;
+    values.reserve(components * places.size());
+    for (std::uint32_t c = 0; c < components; ++c)
+        for (const FragmentPlace& place : places) {
+            const double* first = &at_vertices[c * object.vertices.count];
+            const std::uint32_t* corner = &object.indices[3 * std::size_t{place.fragment->triangle}];
+            const auto at = [&](std::size_t i) { return first[corner[i]]; };
+            const bool is_linear = interpolation == Interpolation::linear;
+            const auto& weights = is_linear ? place.weights.linear : place.weights.perspective;
+            values.push_back(interpolation == Interpolation::flat
+                                 ? at(2)
+                                 : weights[0] * at(0) + weights[1] * at(1) + weights[2] * at(2));
+        }
+    return values;
+}
+
+evaluate::Invocations fragment_inputs(const Pipeline& pipeline, const RasterObject& object,
+                                      const std::vector<FragmentPlace>& places,
+                                      const evaluate::Outputs& outputs) {
+    evaluate::Invocations invocations = object.uniforms;
+    invocations.count = places.size();
+    for (const Varying& varying : pipeline.varyings)
+        invocations.values[varying.input] = interpolated(
+            outputs.values.at(varying.output), varying.components, object, places, varying.interpolation);
+    for (const evaluate::Port& port : pipeline.fragment.inputs) {
+        if (port.name != "gl_FragCoord" && port.name != "gl_FrontFacing") continue;
+        std::vector<double>& to = invocations.values[port.name];
+        to.resize(port.components * places.size());
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const double front = places[i].fragment->is_front_facing ? 1 : 0;
+            const std::array<double, 4> at = places[i].window_position();
+            for (std::size_t c = 0; c < port.components; ++c)
+                to[c * places.size() + i] = port.name == "gl_FragCoord" ? at[c] : front;
+        }
+    }
+    return invocations;
+}
+
+Result<evaluate::Invocations> exact_fragment_inputs(const Pipeline& pipeline, const RasterObject& object) {
+    GOBO_TRY(const auto varyings, evaluate::run<double>(pipeline.vertex, object.vertices));
+    return fragment_inputs(pipeline, object, places_of(object, false), varyings);
+}
+
+template <class T>
+Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline, const RasterObject& object,
+                                            const evaluate::Invocations& inputs, Work* work) {
+    evaluate::Options options;
+    options.count = work != nullptr;
+    GOBO_TRY(const auto outputs, evaluate::run<T>(pipeline.fragment, inputs, options));
+    std::vector<Shaded> result;
+    const std::size_t each = pipeline.needs_quads ? kQuad : 1;
+    for (std::size_t i = 0; i < object.fragments.size(); ++i) {
+        const std::size_t own = own_place(object.fragments[i], i, pipeline.needs_quads);
+        result.push_back(shaded(pipeline, outputs, own, object.fragments[i]));
+        for (std::size_t place = each * i; work != nullptr && place < each * (i + 1); ++place)
+            add(outputs.counts[place], place == own ? work->fragments : work->helpers);
+    }
+    return result;
+}
+
+template <class T>
+Result<std::vector<Shaded>> shade(const Pipeline& pipeline, const RasterObject& object, Work* work,
+                                  const Nudge& nudge) {
+    if (object.fragments.empty()) return std::vector<Shaded>{};
+    Random random(nudge.seed);
+    evaluate::Invocations vertices = object.vertices;
+    for (const evaluate::Port& port : pipeline.vertex.inputs)
+        if (const auto found = vertices.values.find(port.name); found != vertices.values.end())
+            move(found->second, port.components, vertices.count, nudge.by, random);
+    evaluate::Options options;
+    options.count = work != nullptr;
+    GOBO_TRY(const auto varyings, evaluate::run<T>(pipeline.vertex, vertices, options));
+    evaluate::Invocations inputs =
+        fragment_inputs(pipeline, object, places_of(object, pipeline.needs_quads), varyings);
+    for (const Varying& varying : pipeline.varyings)
+        if (varying.interpolation != Interpolation::flat)
+            move(inputs.values[varying.input], varying.components, inputs.count, nudge.by, random);
+    for (const evaluate::Counts& counts : varyings.counts) add(counts, work->vertices);
+    return shade_fragments<T>(pipeline, object, inputs, work);
+}
+
+template Result<std::vector<Shaded>> shade_fragments<float>(const Pipeline&, const RasterObject&,
+                                                            const evaluate::Invocations&, Work*);
+template Result<std::vector<Shaded>> shade<float>(const Pipeline&, const RasterObject&, Work*, const Nudge&);
+template Result<std::vector<Shaded>> shade<double>(const Pipeline&, const RasterObject&, Work*, const Nudge&);
+
+}  // namespace gobo::raster

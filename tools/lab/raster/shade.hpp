@@ -1,0 +1,84 @@
+// The fragments of a rasterised object shaded: both stages evaluated, with inputs as they are or moved a
+// little.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lab/raster/raster_object.hpp"
+
+namespace gobo::raster {
+
+/// Where the fragment stage runs for a fragment: at its own pixel, or at those of its quad.
+struct FragmentPlace {
+    const Fragment* fragment = nullptr;
+    int x = 0;
+    int y = 0;
+    Weights weights;
+
+    /// gl_FragCoord.
+    [[nodiscard]] std::array<double, 4> window_position() const {
+        return {x + 0.5, y + 0.5, weights.depth, weights.inverse_w};
+    }
+};
+
+/// A place for each fragment; with `in_quads` four, as evaluate::Invocations wants them.
+[[nodiscard]] std::vector<FragmentPlace> places_of(const RasterObject& object, bool in_quads);
+
+/// The place of a fragment's own pixel among places_of().
+[[nodiscard]] std::size_t own_place(const Fragment& fragment, std::size_t index, bool in_quads);
+
+/// What reaches the places of so many components of a vertex output. OpenGL's last vertex is the provoking
+/// one unless told otherwise.
+[[nodiscard]] std::vector<double> interpolated(const std::vector<double>& at_vertices,
+                                               std::uint32_t components, const RasterObject& object,
+                                               const std::vector<FragmentPlace>& places,
+                                               Interpolation interpolation);
+
+/// The fragment stage's inputs and uniforms, one invocation for each place, interpolated from the vertex
+/// stage's outputs.
+[[nodiscard]] evaluate::Invocations fragment_inputs(const Pipeline& pipeline, const RasterObject& object,
+                                                    const std::vector<FragmentPlace>& places,
+                                                    const evaluate::Outputs& outputs);
+
+/// fragment_inputs() of the fragments alone, never in quads, and with the vertex stage in fp64.
+[[nodiscard]] Result<evaluate::Invocations> exact_fragment_inputs(const Pipeline& pipeline,
+                                                                  const RasterObject& object);
+
+/// What the fragment stage made of a fragment.
+struct Shaded {
+    std::array<double, 4> color = {0, 0, 0, 1};
+    double depth = 0;
+    bool is_discarded = false;
+};
+
+/// The operations executed, by kind: by all vertices together, by all fragments, and by the other pixels of
+/// their quads.
+struct Work {
+    evaluate::Counts vertices{};
+    evaluate::Counts fragments{};
+    evaluate::Counts helpers{};
+};
+
+/// The fragment stage in arithmetic of T (float or double) at the inputs of the places_of() that it needs.
+/// Adds to `work` unless it is null.
+template <class T>
+[[nodiscard]] Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline,
+                                                          const RasterObject& object,
+                                                          const evaluate::Invocations& inputs,
+                                                          Work* work = nullptr);
+
+/// How attributes and varyings are moved, to see what hangs on a rounding: each component at random by up to
+/// `by` of the largest component of its vector. Coverage stays.
+struct Nudge {
+    double by = 0;
+    std::uint64_t seed = 0;
+};
+
+/// Shades every fragment of the object, both stages in arithmetic of T. Adds to `work` unless it is null.
+template <class T>
+[[nodiscard]] Result<std::vector<Shaded>> shade(const Pipeline& pipeline, const RasterObject& object,
+                                                Work* work = nullptr, const Nudge& nudge = {});
+
+}  // namespace gobo::raster

@@ -1,0 +1,73 @@
+#include "lab/raster/shared_textures.hpp"
+
+#include "lab/evaluate/images.hpp"
+#include "lab/render/texture.hpp"
+
+namespace gobo::raster {
+namespace {
+
+/// The picture's texels, opaque where it has no alpha.
+std::vector<std::array<float, 4>> colors_of(const Image& image) {
+    std::vector<std::array<float, 4>> colors;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            std::array<float, 4>& color = colors.emplace_back(std::array<float, 4>{0, 0, 0, 1});
+            for (int channel = 0; channel < image.channels; ++channel)
+                color[static_cast<std::size_t>(channel)] = image.at(x, y, channel);
+        }
+    return colors;
+}
+
+template <class Texels>
+evaluate::Image image_of(Texels texels) {
+    return [texels = std::move(texels)](const evaluate::ImageRequest& request) {
+        return answer(texels, request);
+    };
+}
+
+int layers_of(const std::vector<ShadowLight>& lights) {
+    int layers = 0;
+    for (const ShadowLight& light : lights) layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
+    return layers;
+}
+
+}  // namespace
+
+Result<void> SharedTextures::add(const Interface& interface, const std::vector<RenderValue>& values,
+                                 const Pictures& cubes) {
+    for (const Sampler& sampler : interface.samplers) {
+        if (given_.contains(sampler.name) || !sampler.array.empty()) continue;
+        const RenderValue* value = find_value(values, sampler.name);
+        if (const auto cube = cubes.find(sampler.name);
+            cube != cubes.end() && sampler.type == "samplerCube") {
+            if (auto added = cubes_.add(sampler.name, cube->second); !added) return added;
+            given_[sampler.name] = cubes_.textures().at(sampler.name);
+            images_[sampler.name] =
+                image_of(evaluate::CubeTexels{cube->second.width, colors_of(cube->second)});
+        } else if (value != nullptr && !value->source.empty() && sampler.type == "sampler2D") {
+            const TextureSource source{value->source, value->numbers};
+            const auto texture = make_texture(flat_.context(), sampler.type, source, TextureLevels::one);
+            if (!texture) continue;
+            const Image picture = texture_texels(source);
+            given_[sampler.name] = *texture;
+            flat_.adopt(*texture);
+            images_[sampler.name] =
+                image_of(evaluate::ColorTexels{picture.width, picture.height, colors_of(picture)});
+        }
+    }
+    return {};
+}
+
+evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
+    evaluate::DepthTexels texels;
+    texels.layers = layers_of(lights);
+    for (int i = 0; i < texels.layers; ++i) {
+        const Image layer = maps.layer(i);
+        texels.width = layer.width;
+        texels.height = layer.height;
+        texels.depths.insert(texels.depths.end(), layer.values.begin(), layer.values.end());
+    }
+    return image_of(std::move(texels));
+}
+
+}  // namespace gobo::raster

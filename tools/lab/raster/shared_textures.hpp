@@ -1,0 +1,42 @@
+// The textures that pictures are drawn with: the same texels for OpenGL and for evaluation.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lab/evaluate/evaluate.hpp"
+#include "lab/render/shadow_maps.hpp"
+#include "lab/render/texture.hpp"
+
+namespace gobo::raster {
+
+/// Pictures by the name of their sampler: six faces, one below the other, where it is a samplerCube.
+using Pictures = std::map<std::string, Image>;
+
+/// The textures of a family's samplers, deleted together. Each has one level and is filtered between its
+/// texels; those of two dimensions repeat.
+class SharedTextures {
+  public:
+    explicit SharedTextures(const Context& context) : flat_(context), cubes_(context) {}
+
+    /// Of each samplerCube that `cubes` names the picture, of each sampler2D for which `values` name a source
+    /// the texels of that. Other samplers are left to with_plain_textures(). Errors of CubeMaps::add().
+    [[nodiscard]] Result<void> add(const Interface& interface, const std::vector<RenderValue>& values,
+                                   const Pictures& cubes);
+
+    [[nodiscard]] const GivenTextures& given() const { return given_; }
+    [[nodiscard]] const evaluate::Images& images() const { return images_; }
+
+  private:
+    GlResources flat_;
+    CubeMaps cubes_;
+    GivenTextures given_;
+    evaluate::Images images_;
+};
+
+/// What the sampler of the lights' maps answers: the depths of every layer, read back, as the renderer's own
+/// lookups see them.
+[[nodiscard]] evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
+
+}  // namespace gobo::raster

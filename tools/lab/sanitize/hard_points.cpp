@@ -1,0 +1,242 @@
+#include "lab/sanitize/hard_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gobo::sanitize {
+namespace {
+
+// Fixed-size room for the values of a vector field, so that drawing points allocates nothing.
+using Vector = std::array<double, 4>;
+
+/// Fills in a unit vector: along an axis, a diagonal, nearly along an axis, or any.
+void hard_direction(std::span<double> direction, Random& random) {
+    const std::size_t components = direction.size();
+    std::fill(direction.begin(), direction.end(), 0.0);
+    switch (random.index(4)) {
+        case 0:
+            direction[random.index(components)] = random.one_in(2) ? 1 : -1;
+            break;
+        case 1:
+            for (double& component : direction) component = random.one_in(2) ? 1 : -1;
+            break;
+        case 2:
+            for (double& component : direction) component = random.between(-1e-6, 1e-6);
+            direction[random.index(components)] = random.one_in(2) ? 1 : -1;
+            break;
+        default:
+            for (double& component : direction) component = random.between(-1, 1);
+            break;
+    }
+    const double length = length_of(direction);
+    for (double& component : direction) component /= length;
+}
+
+/// Draws points into the place that it is given.
+class PointMaker {
+  public:
+    PointMaker(const InputSpace& space, std::uint64_t seed) : space_(space), random_(seed) {}
+
+    void make(std::span<double> point) {
+        point_ = point;
+        hardness_ = random_.unit();
+        for (const InputField& field : space_.fields) draw(field);
+        for (std::size_t relations = random_.index(4); relations > 0; --relations) relate();
+        for (const InputField& field : space_.fields)
+            if (field.is_float())
+                for (double& number : value(field)) number = static_cast<double>(static_cast<float>(number));
+    }
+
+  private:
+    [[nodiscard]] std::span<double> value(const InputField& field) const {
+        return point_.subspan(field.first, field.components);
+    }
+
+    double number(const InputField& field) {
+        const double drawn =
+            random_.unit() < hardness_ ? random_.pick(field.hard) : ordinary_number(field.domain, random_);
+        return field.is_float() ? drawn : std::round(drawn);
+    }
+
+    void draw(const InputField& field) {
+        const std::span<double> numbers = value(field).first(field.ranged());
+        if (field.is_texture) return draw_texel(numbers);
+        if (field.ranged() < field.components) draw_last(field);
+        if (field.domain.of_length) {
+            hard_direction(numbers, random_);
+            const double length = number(field);
+            for (double& component : numbers) component *= length;
+        } else if (field.components > 4) {
+            draw_matrix(field);
+        } else if (random_.one_in(16)) {
+            std::fill(numbers.begin(), numbers.end(), holds(field.domain, 0) ? 0.0 : number(field));
+        } else {
+            for (double& component : numbers) component = number(field);
+        }
+    }
+
+    void draw_last(const InputField& field) {
+        const Domain last = field.last_domain();
+        value(field).back() =
+            random_.unit() < hardness_ ? random_.pick(hard_numbers(last)) : ordinary_number(last, random_);
+    }
+
+    void draw_texel(std::span<double> texel) {
+        for (double& channel : texel)
+            channel = random_.one_in(2) ? static_cast<double>(random_.index(2))
+                                        : static_cast<double>(random_.index(257)) / 256.0;
+    }
+
+    /// Any numbers, the identity, or one that maps a plane or everything to nothing.
+    void draw_matrix(const InputField& field) {
+        const std::size_t components = field.components;
+        const std::span<double> numbers = value(field);
+        for (double& component : numbers) component = number(field);
+        const auto rows = static_cast<std::size_t>(std::sqrt(static_cast<double>(components)));
+        const std::size_t kind = random_.index(4);
+        if (rows * rows != components || kind == 0) return;
+        for (std::size_t i = 0; i < components; ++i)
+            if (kind != 3) numbers[i] = i / rows == i % rows ? 1 : 0;
+        if (kind != 1) std::fill_n(numbers.begin(), rows, 0.0);
+    }
+
+    /// Brings two inputs into a relation.
+    void relate() {
+        if (space_.floats.size() > 1 && (space_.vectors.size() < 2 || random_.one_in(3)))
+            return relate_numbers();
+        if (space_.vectors.size() < 2) return;
+        const InputField& from = space_.fields[random_.pick(space_.vectors)];
+        const InputField& to = space_.fields[random_.pick(space_.vectors)];
+        if (&from == &to) return;
+        if (random_.one_in(3)) return set_cosine(to, from);
+        Vector direction{};
+        std::copy(value(from).begin(), value(from).end(), direction.begin());
+        if (random_.one_in(2))
+            for (double& component : direction) component *= -1;
+        if (random_.one_in(3))
+            for (double& component : direction) component *= 1 + random_.between(-1e-6, 1e-6);
+        align(to, std::span(direction).first(to.components));
+    }
+
+    /// Equal where the domain lets it, otherwise along it.
+    void align(const InputField& to, std::span<const double> whole) {
+        const std::span<const double> direction =
+            whole.first(to.ranged());  // a last quantity keeps its value
+        const double length = length_of(direction);
+        const std::span<double> numbers = value(to).first(to.ranged());
+        if (to.domain.of_length) {
+            const double factor = length > 0 ? length_of(numbers) / length : 0;
+            for (std::size_t i = 0; i < numbers.size() && length > 0; ++i) numbers[i] = direction[i] * factor;
+            return;
+        }
+        const double factor =
+            length > 0 && random_.one_in(2) ? std::abs(ordinary_number(to.domain, random_)) / length : 1;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            const double component = direction[i] * factor;
+            if (holds(to.domain, component)) numbers[i] = component;
+        }
+    }
+
+    /// `from` along z and `to` at a cosine k / n from it, or a rounding beside that; numbers of the right
+    /// range take the cosine or one minus cosine, so that it is exactly an edge of theirs.
+    void set_cosine(const InputField& to, const InputField& from) {
+        const double bands = static_cast<double>(1 + random_.index(8));
+        const double band = static_cast<double>(random_.index(static_cast<std::size_t>(bands) + 1));
+        const double ulps = static_cast<double>(random_.index(3)) - 1;
+        const double cosine = std::min(band / bands + ulps * 0x1p-24, 1.0);
+        const auto last = [](const InputField& field) {
+            return std::min<std::size_t>(field.components, 3) - 1;
+        };
+        Vector along{};
+        Vector at{};
+        along[last(from)] = 1;
+        at[0] = std::sqrt(1 - cosine * cosine);
+        at[last(to)] = cosine;
+        align(from, std::span(along).first(from.components));
+        align(to, std::span(at).first(to.components));
+        for (const std::size_t index : space_.floats) {
+            const InputField& field = space_.fields[index];
+            const double edge = random_.one_in(2) ? cosine : 1 - cosine;
+            if (field.domain.high <= 2 && holds(field.domain, edge) && random_.one_in(2))
+                value(field)[0] = edge;
+        }
+    }
+
+    void relate_numbers() {
+        const InputField& from = space_.fields[random_.pick(space_.floats)];
+        const InputField& to = space_.fields[random_.pick(space_.floats)];
+        const double ulps = static_cast<double>(random_.index(3)) - 1;
+        const double moved = value(from)[0] * (1 + ulps * 0x1p-23);
+        if (holds(to.domain, moved)) value(to)[0] = moved;
+    }
+
+    const InputSpace& space_;
+    Random random_;
+    std::span<double> point_;  ///< being made
+    double hardness_ = 0;      ///< share of hard numbers at this point
+};
+
+/// Pixels of quads: neighbours differ by one.
+void place_pixels(const InputField& field, PointSet& points) {
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        const std::span<double> coordinate = points[i].subspan(field.first, field.components);
+        coordinate[0] = static_cast<double>(i / 4 % 32 * 2 + i % 2) + 0.5;
+        coordinate[1] = static_cast<double>(i / 128 % 32 * 2 + i / 2 % 2) + 0.5;
+        coordinate[3] = 1;
+    }
+}
+
+}  // namespace
+
+PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t seed) {
+    PointMaker maker(space, seed);
+    PointSet points;
+    points.numbers = space.numbers;
+    points.resize(count);
+    for (std::size_t i = 0; i < count; ++i) maker.make(points[i]);
+    for (const InputField& field : space.fields)
+        if (field.name == "gl_FragCoord") place_pixels(field, points);
+    return points;
+}
+
+PointChanger::PointChanger(const InputSpace& space) : space_(space) {
+    for (std::size_t field = 0; field < space.fields.size(); ++field)
+        field_of_.insert(field_of_.end(), space.fields[field].components, field);
+}
+
+std::size_t PointChanger::change(std::span<double> point, std::size_t number, Random& random) const {
+    const InputField& field = space_.fields[field_of_[number]];
+    const std::span<double> numbers = point.subspan(field.first, field.components);
+    if (field.components > 1 && random.one_in(8)) {
+        const double factor = random.one_in(4) ? -1 : std::exp2(random.between(-8, 8));
+        for (double& component : numbers) component *= factor;
+    } else {
+        point[number] = changed_number(point, field, point[number], random);
+    }
+    bring_into_domain(field, numbers);
+    return number;
+}
+
+double PointChanger::changed_number(std::span<const double> point, const InputField& field, double number,
+                                    Random& random) const {
+    const double sign = random.one_in(2) ? 1 : -1;
+    switch (random.index(8)) {
+        case 0:
+            return random.pick(field.hard);
+        case 1:
+            return ordinary_number(field.domain, random);
+        case 2:  // a few roundings away
+            return number * (1 + sign * static_cast<double>(1 + random.index(3)) * 0x1p-23);
+        case 3:  // some other number of the point
+            return sign * point[random.index(point.size())];
+        case 4:
+            return number + sign * (field.domain.high - field.domain.low) * std::exp2(random.between(-30, 0));
+        case 5:
+            return -number;
+        default:
+            return number + sign * std::max(std::abs(number), 1.0) * std::exp2(random.between(-24, 1));
+    }
+}
+
+}  // namespace gobo::sanitize

@@ -1,0 +1,38 @@
+// The evaluator cross-checked by the renderer: permutations drawn by both, compared pixel by pixel.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "lab/raster/compare_picture.hpp"
+#include "lab/raster/shared_textures.hpp"
+#include "lab/render/render.hpp"
+#include "lab/verify/shadow_map_check.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo::verify {
+
+/// What all pictures share.
+struct CrossCheckScene {
+    std::vector<Object> objects;
+    std::vector<RenderValue> values;  ///< the family's [render] table
+    View view;
+    raster::Pictures cubes;                   ///< what samplers of cube maps hold
+    const Family* family = nullptr;           ///< of which the keys are; without it there are no shadows
+    const ShadowPass* shadow_pass = nullptr;  ///< draws the shadow maps of keys that have shadows
+};
+
+struct CrossCheckReport {
+    std::vector<raster::PictureReport> pictures;  ///< in the composition's order
+    std::optional<ShadowMapReport> shadow_maps;   ///< of all lights that cast shadows in any key
+};
+
+/// Draws every permutation of the composition in the context, and compares by `jobs` threads. `validated`
+/// must hold the SPIR-V of every stage. Evaluation asks the same textures, and the shadow maps that the
+/// renderer drew: those are compared by themselves.
+[[nodiscard]] CrossCheckReport cross_check(const Context& context, const Composition& composition,
+                                           const Validated& validated, const CrossCheckScene& scene,
+                                           int jobs);
+
+}  // namespace gobo::verify
