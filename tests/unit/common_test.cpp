@@ -60,8 +60,8 @@ TEST(ParallelFor, CallsEachIndexOnce) {
 }
 
 TEST(Random, IsThePublishedSequence) {
-    EXPECT_EQ(Random(1).bits(), 0x910A2DEC89025CC1U) << "SplitMix64 from seed 1";
-    Random random(5);
+    EXPECT_EQ(RandomNumbers<SplitMix64>(1).bits(), 0x910A2DEC89025CC1U) << "SplitMix64 from seed 1";
+    RandomNumbers<SplitMix64> random(5);
     for (int i = 0; i < 1000; ++i) {
         EXPECT_LT(random.index(3), 3u);
         const int whole = random.whole(-2, 2);

@@ -91,6 +91,4 @@ class RandomNumbers {
     Bits generator_;
 };
 
-using Random = RandomNumbers<SplitMix64>;
-
 }  // namespace gobo

@@ -139,7 +139,7 @@ class KeySpace::Builder {
         std::vector<int> natural(family_.features.size());
         std::iota(natural.begin(), natural.end(), 0);
         for (const std::size_t fraction : {32U, 8U}) {
-            Random random(1);
+            RandomNumbers<SplitMix64> random(1);
             std::vector<int> order = natural;
             for (int i = 0; i < orders; ++i) {
                 if (Result<KeySpace> space = build(order, fraction)) return space;

@@ -1,7 +1,5 @@
-// Random numbers that are the same on every machine.
+// What samples are drawn from: random numbers and vectors, the same on every computer.
 #pragma once
-
-#include <cstdint>
 
 #include <glm/vec3.hpp>
 
@@ -9,29 +7,14 @@
 
 namespace gobo {
 
-/// What samples are drawn from.
-class Random {
+class Random : public RandomNumbers<SplitMix64> {
   public:
-    explicit Random(std::uint64_t seed) : generator_(seed) {}
+    using RandomNumbers::RandomNumbers;
 
-    [[nodiscard]] std::uint64_t bits() { return generator_.next(); }
-    /// In [0, 1).
-    [[nodiscard]] double unit();
-    /// In [low, high).
-    [[nodiscard]] double between(double low, double high);
-    /// In [low, high), every factor of 10 as likely as any other. Both positive.
-    [[nodiscard]] double across(double low, double high);
-    /// In [low, high].
-    [[nodiscard]] int whole(int low, int high);
-    /// True one time in `n`.
-    [[nodiscard]] bool one_in(int n);
     /// Each component in [low, high).
     [[nodiscard]] glm::dvec3 components(double low, double high);
     /// A unit vector, all directions alike.
     [[nodiscard]] glm::dvec3 direction();
-
-  private:
-    SplitMix64 generator_;
 };
 
 }  // namespace gobo
