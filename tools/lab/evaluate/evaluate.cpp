@@ -138,7 +138,8 @@ template <class T>
 double number_in(const T* row, Scalar scalar, std::size_t lane) {
     if (scalar == Scalar::float32) return static_cast<double>(row[lane]);
     const Int<T> integer = reinterpret_cast<const Int<T>*>(row)[lane];
-    return scalar == Scalar::uint32 ? to_unsigned(integer) : to_signed(integer);
+    if (scalar == Scalar::uint32) return to_unsigned(integer);
+    return to_signed(integer);
 }
 
 /// One call of run(): fills rows from values, runs batch after batch, reads rows back.
