@@ -29,6 +29,7 @@ case $way in
     options+=(-D "GOBO_SOURCE=$scratch/checkout") ;;
   debian)
     (cd "$scratch" && cpack -G DEB --config "$build/CPackConfig.cmake" -B "$scratch/packages" >"$scratch/cpack.log") || { cat "$scratch/cpack.log"; exit 1; }
+    mkdir -p "$prefix"
     for package in "$scratch"/packages/*.deb; do dpkg-deb -x "$package" "$prefix"; done
     [ "$(ls "$scratch"/packages/*.deb | wc -l)" = 2 ] || { echo "FAILED: not two packages"; exit 1; }
     "$prefix/usr/bin/gobo" eval --help | grep -q "gobo eval" || { echo "FAILED: gobo does not find gobo-lab beside itself"; exit 1; }

@@ -7,12 +7,12 @@ package=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 work="$scratch/with spaces"
-mkdir "$work/wrong"
+mkdir -p "$work/wrong"
 cp -r "$source/tests/permutation_tests/application/." "$work"
 # Fog that begins where it should end.
-sed 's/fog\.near/fog.swapped/g; s/fog\.far/fog.near/g; s/fog\.swapped/fog.far/g' "$source/shader_lib/fog.glsl" >"$work/wrong/fog.glsl"
+sed 's/fog\.start/fog.swapped/g; s/fog\.end/fog.start/g; s/fog\.swapped/fog.end/g' "$source/shader_lib/fog.glsl" >"$work/wrong/fog.glsl"
 if cmp -s "$source/shader_lib/fog.glsl" "$work/wrong/fog.glsl"; then
-  echo "FAILED: fog.glsl has no near and far to swap"
+  echo "FAILED: fog.glsl has no start and end to swap"
   exit 1
 fi
 # Shaders of an application's own, and the same with the last light forgotten: right GLSL, and precise.
