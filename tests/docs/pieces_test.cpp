@@ -1,5 +1,6 @@
-// Every piece of the library tells what it is: model id, equation, source, spaces or ranges, edges.
+// Every piece of the library says what it is: a head that tells the model and its source, and a comment at each function.
 #include <regex>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,65 +13,51 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// The comment that a piece begins with, and what follows it.
-std::pair<std::string, std::string> split_header(const std::string& text) {
-    std::size_t end = 0;
-    while (text.compare(end, 2, "//") == 0 && text.compare(end, 3, "///") != 0) {
-        const std::size_t newline = text.find('\n', end);
-        end = newline == std::string::npos ? text.size() : newline + 1;
-    }
-    return {text.substr(0, end), text.substr(end)};
+/// Pieces that compute no model of their own: they hand a value on.
+const std::vector<std::string> kWithoutModel = {
+    "directional_shadows/directional_shadows.glsl", "point_shadows/point_shadows.glsl",
+    "spot_shadows/spot_shadows.glsl", "shading/directional_ray.glsl", "shading/halfway.glsl"};
+
+bool matches(const std::string& text, const std::string& pattern) {
+    return std::regex_search(text, std::regex(pattern));
 }
 
-/// Whether a line begins with `// Label:`, or with a list of labels that has it, or a sentence does.
-bool tells(const std::string& header, const std::string& label) {
-    const std::regex pattern("(// |\\. )(\\w+, )*" + label + "s?(, \\w+)*:", std::regex::icase);
-    return std::regex_search(header, pattern);
+/// What a piece leaves out, or says in vain.
+std::vector<std::string> faults_of(const std::string& piece, bool has_model) {
+    std::vector<std::string> faults;
+    if (!piece.starts_with("// ")) faults.push_back("no head");
+    if (has_model && piece.find("Source:") == std::string::npos) faults.push_back("no source");
+    if (matches(piece, "// (.*[.] )?(Edges?|Ranges?|Spaces?|Model): *(none|as the others?)\\b"))
+        faults.push_back("a line that says nothing");
+    if (matches(piece, "[(, ](H-[A-Z]+|[SEFD])[0-9]+[,);: ]")) faults.push_back("a code for a name");
+    std::istringstream lines(piece);
+    std::string before;
+    for (std::string line; std::getline(lines, line); before = line)
+        if (matches(line, "^(void|float|int|bool|vec[234]|mat[34]) \\w+\\(.*\\{") && !before.starts_with("//"))
+            faults.push_back("no comment at: " + line);
+    return faults;
 }
 
-/// Nothing but includes: what it says is said there.
-bool only_includes(const std::string& text) {
-    static const std::regex line("^(#include.*|//.*|\\s*)$");
-    std::istringstream lines(text);
-    for (std::string one; std::getline(lines, one);)
-        if (!std::regex_match(one, line)) return false;
-    return true;
+TEST(PieceHead, IsReadLineByLine) {
+    EXPECT_THAT(faults_of("float f;\n", true), ElementsAre("no head", "no source"));
+    EXPECT_THAT(faults_of("// Fog. Source: a book.\n/// The factor.\nfloat f() { return 1.0; }\n", true), IsEmpty());
+    EXPECT_THAT(faults_of("// Fog.\n\nfloat f() { return 1.0; }\n", false),
+                ElementsAre("no comment at: float f() { return 1.0; }"));
+    EXPECT_THAT(faults_of("// Fog (F1).\n// Space:  eye. Edges: none.\n", false),
+                ElementsAre("a line that says nothing", "a code for a name"));
 }
 
-/// What a piece's header leaves out. One that stands for the absence of a model names the model alone.
-std::vector<std::string> left_out(const std::string& piece) {
-    const auto [header, rest] = split_header(piece);
-    if (only_includes(rest)) return {};
-    std::vector<std::string> missing;
-    static const std::regex id("[(, ][LSEFD][0-9]+[,);: ]");
-    if (!std::regex_search(header, id)) missing.push_back("model id");
-    if (header.find("not asked for") != std::string::npos) return missing;
-    for (const char* label : {"model", "source", "edge"})
-        if (!tells(header, label)) missing.push_back(label);
-    if (!tells(header, "space") && !tells(header, "range")) missing.push_back("space or range");
-    return missing;
-}
-
-TEST(PieceHeader, IsReadLineByLine) {
-    EXPECT_THAT(left_out("// Fog.\nfloat f;\n"),
-                ElementsAre("model id", "model", "source", "edge", "space or range"));
-    EXPECT_THAT(left_out("// Fog (F1).\n// Model, source, range, edges: fog().\nfloat f;\n"), IsEmpty());
-    EXPECT_THAT(
-        left_out("// Fog (F1).\n// Model:  a.\n// Source: b.\n// Space:  eye. Edges: none.\nfloat f;\n"),
-        IsEmpty());
-    EXPECT_THAT(left_out("// Fog (F1).\n/// Model, source, range: not the header.\nfloat f;\n"),
-                testing::SizeIs(4));
-    EXPECT_THAT(left_out("// Clear air (F1 is not asked for).\nfloat f;\n"), IsEmpty());
-    EXPECT_THAT(left_out("// As fog.\n#include \"fog.glsl\"\n"), IsEmpty());
-}
-
-TEST(Pieces, TellModelEquationSourceRangesAndEdges) {
+TEST(Pieces, TellModelSourceAndEachFunction) {
     const DiskFileSystem disk;
     const std::string folder = GOBO_SOURCE_DIR "/shader_lib";
     const std::vector<std::string> pieces = disk.files_below(folder);
-    EXPECT_GT(pieces.size(), 150U);
-    for (const std::string& piece : pieces)
-        EXPECT_THAT(left_out(disk.read(folder + "/" + piece).value()), IsEmpty()) << piece;
+    EXPECT_GT(pieces.size(), 40U);
+    EXPECT_LE(pieces.size(), 120U) << "values of a feature that are short belong in one file";
+    for (const std::string& piece : pieces) {
+        const bool has_model =
+            std::find(kWithoutModel.begin(), kWithoutModel.end(), piece) == kWithoutModel.end();
+        EXPECT_THAT(faults_of(disk.read(folder + "/" + piece).value(), has_model), IsEmpty()) << piece;
+    }
 }
 
 }  // namespace

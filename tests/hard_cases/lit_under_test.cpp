@@ -198,7 +198,7 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
     selection.excluded = true;  // who names such a value has its guards, too
     const auto keys = select(family_, selection, "450");
-    EXPECT_TRUE(keys) << where;
+    EXPECT_TRUE(keys) << where << ": " << (keys ? "" : to_text(keys.error().front()));
     if (!keys) return;
     const Result<Composition> composition = compose(family_, *keys, search, Dialect::own);
     EXPECT_TRUE(composition);

@@ -56,7 +56,7 @@ std::vector<Inputs> beside(const std::vector<double>& cosines) {
 }
 
 std::vector<Case> toon_cases() {
-    const std::vector<std::string> features = {"directional", "diffuse", "intensity", "shading"};
+    const std::vector<std::string> features = {"directional", "diffuse", "n_dot_l", "shading"};
     return {
         {"H_T1_cosine_of_one_at_full_tone",
          "directional > 0 && (diffuse == toon_ceil || diffuse == toon_thresholds)",
@@ -82,7 +82,7 @@ std::vector<Case> toon_cases() {
          {with(with(kOnlyLights, faces_front(false)), {{"lightCosines[]", {0.6, 0, 0, 0}}}),
           with(with(kOnlyLights, faces_front(true)), {{"lightCosines[]", {-0.6, 0, 0, 0}}})},
          is_color({0, 0, 0, 1}),
-         {"directional", "diffuse", "intensity", "shading", "sides"}},
+         {"directional", "diffuse", "n_dot_l", "shading", "sides"}},
         {"H_T2_thresholds_of_zero",
          "directional > 0 && diffuse == toon_thresholds",
          {with(with(kOnlyLights, light_from(1, 0, 1e-6)), {{"ToonThresholds.thresholds", {0, 0, 0}}})},

@@ -122,7 +122,7 @@ class PieceLibrary {
         if (const auto known = by_path_.find(path); known != by_path_.end()) return known->second;
         GOBO_TRY(std::optional<Piece> piece, search_.find(path));
         if (!piece) return by_path_[path] = std::nullopt;
-        piece->file_text = piece->text;
+        if (piece->file_text.empty()) piece->file_text = piece->text;
         GOBO_TRY(ScannedPiece scanned, scan_piece(std::move(piece->text), piece->path));
         piece->text = std::move(comments_ == Comments::keep ? scanned.text : scanned.code);
         Entry entry{std::move(*piece), std::move(scanned.version), std::move(scanned.includes), {}};
