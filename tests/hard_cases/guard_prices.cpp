@@ -26,7 +26,8 @@ struct Pair {
     bool is_in_fragment = true;
 };
 
-/// A piece's path as if each had a file of its own: "shader_lib/fog.glsl#linear" is shader_lib/fog/linear.glsl.
+/// A piece's path as if each had a file of its own: "shader_lib/fog.glsl#linear" is
+/// shader_lib/fog/linear.glsl.
 std::string path_of(const Piece& piece) {
     const std::size_t mark = piece.name.find(".glsl#");
     if (mark == std::string::npos) return piece.name;
@@ -35,9 +36,8 @@ std::string path_of(const Piece& piece) {
 
 bool has_piece(const Composition& composition, int stage, const std::string& piece) {
     const std::vector<int>& pieces = composition.stages[static_cast<std::size_t>(stage)].pieces;
-    return std::any_of(pieces.begin(), pieces.end(), [&](int at) {
-        return path_of(composition.piece(at)).ends_with("/" + piece);
-    });
+    return std::any_of(pieces.begin(), pieces.end(),
+                       [&](int at) { return path_of(composition.piece(at)).ends_with("/" + piece); });
 }
 
 /// Finds the first permutation whose fragment stage the guard is in, or else whose vertex stage.

@@ -58,8 +58,9 @@ TEST(SearchPath, FindsPiecesThatShareAFile) {
     search.add(files, "lib", "lib/", false);
     const auto text = [&](const char* path) { return search.find(path).value().value().text; };
     EXPECT_EQ(search.find("fog/linear.glsl").value(),
-              (Piece{"lib/fog.glsl#linear", "lib/fog.glsl", "\n\n\na\nb\n\n", false}))
-        << "lines have the file's numbers";
+              (Piece{"lib/fog.glsl#linear", "lib/fog.glsl", "\n\n\na\nb\n\n", false,
+                     files.read("lib/fog.glsl").value()}))
+        << "lines have the file's numbers, and messages quote them";
     EXPECT_EQ(text("fog/distance/radial.glsl"), "\n\n\n\n\n\n\nc\n");
     EXPECT_EQ(text("fog/none.glsl"), "none");
     EXPECT_EQ(search.find("fog.glsl").value(), std::nullopt) << "it has nothing but a comment of its own";

@@ -119,7 +119,7 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     std::optional<std::string> found = section_of(text, section);
     if (!found) return std::nullopt;
     const std::string name = root.name_prefix + file + (section.empty() ? "" : "#" + section);
-    return Piece{name, path, std::move(*found), root.on_disk, text};
+    return Piece{name, path, std::move(*found), root.on_disk, section.empty() ? "" : text};
 }
 
 std::vector<std::string> SearchPath::folders() const {
