@@ -69,7 +69,7 @@ bool is_fogged(const Scene& scene, const Part& part) {
     if (scene.look.fog != lit::Fog::linear) return true;
     const glm::mat4 to_eye = scene.view * part.model;
     return std::any_of(part.mesh.vertices.begin(), part.mesh.vertices.end(), [&](const Vertex& vertex) {
-        return glm::length(glm::vec3(to_eye * glm::vec4(vertex.position, 1))) > scene.fog.near;
+        return glm::length(glm::vec3(to_eye * glm::vec4(vertex.position, 1))) > scene.fog.start;
     });
 }
 

@@ -158,8 +158,8 @@ void read_look(const Json& gobo, Scene& scene) {
     const Json fog = gobo.value("fog", Json{{"kind", "none"}});
     scene.fog.color = vector_of(fog, "color", glm::vec3(0));
     scene.fog.density = fog.value("density", 0.0F);
-    scene.fog.near = fog.value("near", 0.0F);
-    scene.fog.far = fog.value("far", 0.0F);
+    scene.fog.start = fog.value("near", 0.0F);
+    scene.fog.end = fog.value("far", 0.0F);
     scene.look.fog =
         named<lit::Fog>(fog.at("kind"), {{"none", lit::Fog::none},
                                          {"linear", lit::Fog::linear},
