@@ -22,7 +22,9 @@ case $way in
   fetch_content)
     # A checkout as a user's would be: what git knows, and what is not committed yet.
     mkdir "$scratch/checkout"
-    (cd "$source" && git ls-files -z -co --exclude-standard | xargs -0 cp --parents -t "$scratch/checkout" 2>/dev/null || true)
+    (cd "$source" && git ls-files -z -co --exclude-standard | while IFS= read -r -d '' file; do
+      [ ! -e "$file" ] || printf '%s\0' "$file"  # git still lists what was removed and not committed
+    done | xargs -0 cp --parents -t "$scratch/checkout")
     git -C "$scratch/checkout" init -q
     git -C "$scratch/checkout" add -A
     git -C "$scratch/checkout" -c user.name=test -c user.email=test@localhost commit -qm checkout
