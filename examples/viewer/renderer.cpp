@@ -9,8 +9,8 @@
 #define GOBO_GL_NO_LOADER
 #include <gobo/gl.hpp>
 
-#include "light_blocks.hpp"
 #include "lab/render/camera.hpp"
+#include "light_blocks.hpp"
 
 namespace viewer {
 namespace {

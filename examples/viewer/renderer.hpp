@@ -9,8 +9,8 @@
 #include <glad/gl.h>
 #include <gobo/record.hpp>
 
-#include "orbit.hpp"
 #include "lab/render/image.hpp"
+#include "orbit.hpp"
 #include "stage.hpp"
 
 namespace viewer {

@@ -8,8 +8,8 @@
 
 #include "core/diagnostic.hpp"
 #include "core/file_system.hpp"
-#include "lit.hpp"
 #include "lab/render/mesh.hpp"
+#include "lit.hpp"
 #include "scene/effects.hpp"
 #include "settings.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "core/file_system.hpp"
 #include "compose/compose.hpp"
+#include "core/file_system.hpp"
+#include "core/shipped_files.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "core/shipped_files.hpp"
 
 namespace gobo {
 namespace {

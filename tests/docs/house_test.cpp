@@ -74,7 +74,8 @@ TEST(House, EveryIncludeIsOneThatTheListAllows) {
 TEST(House, TheCompilerNeverIncludesTheLab) {
     for (const auto& [folder, uses] : allowed_includes()) {
         if (folder.starts_with("lab/")) continue;
-        for (const std::string& use : uses) EXPECT_FALSE(use.starts_with("lab/")) << folder << " uses " << use;
+        for (const std::string& use : uses)
+            EXPECT_FALSE(use.starts_with("lab/")) << folder << " uses " << use;
     }
 }
 

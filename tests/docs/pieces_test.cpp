@@ -1,4 +1,5 @@
-// Every piece of the library says what it is: a head that tells the model and its source, and a comment at each function.
+// Every piece of the library says what it is: a head that tells the model and its source, and a comment at
+// each function.
 #include <regex>
 #include <sstream>
 
@@ -33,14 +34,16 @@ std::vector<std::string> faults_of(const std::string& piece, bool has_model) {
     std::istringstream lines(piece);
     std::string before;
     for (std::string line; std::getline(lines, line); before = line)
-        if (matches(line, "^(void|float|int|bool|vec[234]|mat[34]) \\w+\\(.*\\{") && !before.starts_with("//"))
+        if (matches(line, "^(void|float|int|bool|vec[234]|mat[34]) \\w+\\(.*\\{") &&
+            !before.starts_with("//"))
             faults.push_back("no comment at: " + line);
     return faults;
 }
 
 TEST(PieceHead, IsReadLineByLine) {
     EXPECT_THAT(faults_of("float f;\n", true), ElementsAre("no head", "no source"));
-    EXPECT_THAT(faults_of("// Fog. Source: a book.\n/// The factor.\nfloat f() { return 1.0; }\n", true), IsEmpty());
+    EXPECT_THAT(faults_of("// Fog. Source: a book.\n/// The factor.\nfloat f() { return 1.0; }\n", true),
+                IsEmpty());
     EXPECT_THAT(faults_of("// Fog.\n\nfloat f() { return 1.0; }\n", false),
                 ElementsAre("no comment at: float f() { return 1.0; }"));
     EXPECT_THAT(faults_of("// Fog (F1).\n// Space:  eye. Edges: none.\n", false),

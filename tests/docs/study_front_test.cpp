@@ -23,8 +23,7 @@ TEST(StudyFront, IsWhatItsCommandPrints) {
     Reader reader(GOBO_COMMAND);
     const CommandResult table = reader.run(command);
     ASSERT_EQ(table.status, 0) << table.printed;
-    EXPECT_NE(page.find(table.printed), std::string::npos) << "put this into the page:\n"
-                                                             << table.printed;
+    EXPECT_NE(page.find(table.printed), std::string::npos) << "put this into the page:\n" << table.printed;
 }
 
 TEST(StudyFront, IsDrawnAsItsCommandDrawsIt) {

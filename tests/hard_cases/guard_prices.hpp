@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "lab/evaluate/program.hpp"
-#include "lit_guards.hpp"
 #include "lab/render/context.hpp"
+#include "lit_guards.hpp"
 
 namespace gobo {
 

@@ -45,10 +45,10 @@ std::string feeding_stage(const evaluate::Program& fragment) {
     std::string body;
     int index = 0;
     for (const auto& [name, varying] : declared_varyings(fragment))
-        outputs +=
-            fmt::format("layout(location = {}) {}out {} {}{};\n", varying.first->location,
-                        varying.first->scalar == evaluate::Scalar::float32 ? "" : "flat ", varying.first->type,
-                        name, varying.elements > 0 ? fmt::format("[{}]", varying.elements) : "");
+        outputs += fmt::format("layout(location = {}) {}out {} {}{};\n", varying.first->location,
+                               varying.first->scalar == evaluate::Scalar::float32 ? "" : "flat ",
+                               varying.first->type, name,
+                               varying.elements > 0 ? fmt::format("[{}]", varying.elements) : "");
     for (const evaluate::Port& port : fragment.inputs) {
         if (!is_handed_on(port)) continue;
         const std::string parts = std::string("xyzw").substr(0, port.components);
@@ -81,7 +81,8 @@ std::vector<std::byte> bytes_of(const evaluate::Program& stage, std::size_t bloc
             const auto whole =
                 port.scalar == evaluate::Scalar::float32 ? 0 : static_cast<std::int32_t>((*numbers)[i]);
             std::memcpy(bytes.data() + port.offsets[i],
-                        port.scalar == evaluate::Scalar::float32 ? static_cast<const void*>(&real) : &whole, 4);
+                        port.scalar == evaluate::Scalar::float32 ? static_cast<const void*>(&real) : &whole,
+                        4);
         }
     }
     return bytes;

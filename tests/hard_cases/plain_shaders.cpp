@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
-#include "core/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "lab/evaluate/images.hpp"
 #include "validate/validate.hpp"
 

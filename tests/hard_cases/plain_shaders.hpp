@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "lit_under_test.hpp"
 #include "lab/sanitize/sanitize.hpp"
+#include "lit_under_test.hpp"
 
 namespace gobo {
 

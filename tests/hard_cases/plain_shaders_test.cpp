@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
+#include "core/file_system.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/sanitize/bounds.hpp"
 #include "lab/sanitize/sanitize.hpp"

@@ -10,11 +10,11 @@
 
 #include "../verify/lit_library.hpp"
 #include "core/file_system.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "lab/verify/on_mesh.hpp"
-#include "lab/verify/parallel.hpp"
 #include "mutants.hpp"
 
 namespace gobo {
@@ -167,8 +167,8 @@ int run(const std::string& only) {
         const std::vector<Mutant> mutants = mutants_of(piece, piece_text(piece));
         const std::vector<Key> some = some_of(users->second);
         std::vector<Fate> fates(mutants.size());
-        verify::for_each_index(mutants.size(), jobs,
-                               [&](std::size_t i) { fates[i] = fate_of(family, some, mutants[i], meshes); });
+        parallel_for(jobs, mutants.size(),
+                     [&](std::size_t i) { fates[i] = fate_of(family, some, mutants[i], meshes); });
         for (std::size_t i = 0; i < mutants.size(); ++i) count(mutants[i], fates[i], excused, tally);
     }
     const int stale = print_stale(excused, tally.survivors, only);

@@ -31,7 +31,7 @@ const Row kRows[] = {
     // The product of up to 1e4 times 2 pi is off by 4e-3 and more, the sine follows it.
     {"large_angle", "float angle = a * b * 6.2831853;\ncolor = vec4(sin(angle));", 5, "FMul", 1e-4, 2e-2},
     // 1 - cosine, for small angles.
-    {"versine", "float c = cos(a * 1e-3);\ncolor = vec4((1.0 - c) * 1e6);", 5, "Cos", 1e-4, 10},
+    {"one_minus_cosine", "float c = cos(a * 1e-3);\ncolor = vec4((1.0 - c) * 1e6);", 5, "Cos", 1e-4, 10},
     {"power", "float base = 1.0 + abs(a) * 1e-5;\ncolor = vec4(pow(base, 1e4));", 5, "FAdd", 1e-4, 2e-3},
 };
 

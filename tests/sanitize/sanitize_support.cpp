@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/file_system.hpp"
-#include "core/text.hpp"
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
+#include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "lab/evaluate/program.hpp"
 #include "validate/validate.hpp"
 

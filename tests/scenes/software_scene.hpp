@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "lab/evaluate/images.hpp"
+#include "lab/raster/shade.hpp"
 #include "lab/render/image.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/raster/shade.hpp"
 
 namespace gobo::scene {
 

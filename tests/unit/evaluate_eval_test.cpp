@@ -39,7 +39,8 @@ const Case kCases[] = {
      "point.toml:1:2: error: 'input' means nothing here\n    [input]\n     ^\n"
      "  help: did you mean 'inputs'?\n"},
     {"no_number", "[inputs]\na = [1, \"x\"]\n",
-     "point.toml:2:5: error: 'a' is not a number, a boolean or an array of these\n    a = [1, \"x\"]\n        ^\n"},
+     "point.toml:2:5: error: 'a' is not a number, a boolean or an array of these\n    a = [1, \"x\"]\n       "
+     " ^\n"},
     {"unknown_names", "[inputs]\nd = 1\n[uniforms]\n\"Lights.lights[0].pover\" = 2\n[samplers]\nmap = 1\n",
      "point.toml:2:1: error: the stage has no input 'd'\n    d = 1\n    ^\n"
      "  help: did you mean 'a'?\n"

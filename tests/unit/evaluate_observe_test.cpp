@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/eval_report.hpp"
 #include "evaluate_support.hpp"
+#include "lab/evaluate/eval_report.hpp"
 
 namespace gobo::evaluate {
 namespace {

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/evaluate/images.hpp"
-#include "lab/evaluate/eval_file.hpp"
 #include "evaluate_support.hpp"
+#include "lab/evaluate/eval_file.hpp"
+#include "lab/evaluate/images.hpp"
 
 namespace gobo::evaluate {
 namespace {

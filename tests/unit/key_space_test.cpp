@@ -239,11 +239,12 @@ TEST(KeySpace, NamesTheRuleThatTakesTooMuch) {
         family_of(counts(10, 4096) + forbid("c00 == 1 && c01 == 1") + forbid(sum_of(10) + " > 20000"));
     const Result<KeySpace> space = KeySpace::make(family, "450", {});
     ASSERT_FALSE(space);
-    EXPECT_EQ(first_text(space.error()),
-              "tiny.toml:18:1: error: the conditions of family 'tiny' tie too many values together to count or "
-              "cover its "
-              "keys\n"
-              "  help: simplify tiny.toml:18, tiny.toml:15, or vary fewer features with --over\n");
+    EXPECT_EQ(
+        first_text(space.error()),
+        "tiny.toml:18:1: error: the conditions of family 'tiny' tie too many values together to count or "
+        "cover its "
+        "keys\n"
+        "  help: simplify tiny.toml:18, tiny.toml:15, or vary fewer features with --over\n");
     KeySpaceLimits limits;
     limits.over = {3};
     EXPECT_EQ(space_of(family, "450", limits).count(), 4097u);

@@ -16,7 +16,8 @@ using Overlay = std::map<std::string, std::string, std::less<>>;
 /// lit as it stands in the source tree.
 [[nodiscard]] Family lit_family();
 
-/// The keys of `lit`, or of the family that extends it, composed with the overlay; errors in the pieces come back.
+/// The keys of `lit`, or of the family that extends it, composed with the overlay; errors in the pieces come
+/// back.
 [[nodiscard]] Result<Composition> compose_lit(const Family& family, const std::vector<Key>& keys,
                                               const Overlay& overlay);
 

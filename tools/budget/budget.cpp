@@ -60,8 +60,7 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         if (row[scene_at] != kAllScenes) continue;
         const auto effects = parse_key(family, row[effects_at]);
         const auto key = parse_key(family, row[key_at]);
-        if (!effects || !key)
-            return problem(i, (effects ? key : effects).error().front().message);
+        if (!effects || !key) return problem(i, (effects ? key : effects).error().front().message);
         studied[*effects].push_back(
             {*key, number_in(row[error_at]), number_in(row[cost_at]), row[front_at] == "yes"});
     }

@@ -1,4 +1,5 @@
-// An application that takes gobo in one of four ways: it finds the permutation that it asked for and misses another.
+// An application that takes gobo in one of four ways: it finds the permutation that it asked for and misses
+// another.
 #include <cstdio>
 
 #include "lit.hpp"

@@ -11,10 +11,10 @@
 #include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
+#include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/hard_points.hpp"
-#include "lab/verify/parallel.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -287,7 +287,7 @@ Result<std::vector<StagePrecision>> measure_precision(const Family& family, cons
                                                       const SanitizeOptions& options) {
     std::vector<StagePrecision> stages(composition.stages.size());
     std::vector<Diagnostics> errors(stages.size());
-    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+    parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
         stages[i].stage = composition.stages[i].kind;
         for (const std::size_t permutation : permutations_of(composition, i))
             stages[i].keys.push_back(key_text(family, composition.permutations[permutation].key));

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/evaluate/functions.hpp"
 #include "lab/sanitize/search.hpp"
-#include "lab/verify/parallel.hpp"
 #include "lab/verify/random_points.hpp"
 
 namespace gobo::sanitize {
@@ -84,7 +84,7 @@ std::vector<StageReport> sanitize_stages(const Family& family, const Composition
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
     std::vector<StageReport> stages(composition.stages.size());
-    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+    parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
         stages[i] = open_stage(family, composition, validated, i, options);
         search(stages[i], points_of_stage(options, stages.size()),
                [&](StageSearch& stage, std::size_t first, std::size_t count) {
@@ -93,7 +93,7 @@ std::vector<StageReport> sanitize_stages(const Family& family, const Composition
         search_guided(stages[i], options.guided);
     });
     while (Clock::now() < end)
-        verify::for_each_index(stages.size(), options.jobs, [&](std::size_t i) {
+        parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
             if (Clock::now() < end) search_guided(stages[i], kPortion);
         });
     return stages;
@@ -125,7 +125,7 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
         }
         if (stages[i].search) add(report, *stages[i].search, i, permutations);
     }
-    verify::for_each_index(stages.size(), options.jobs, [&](std::size_t stage) {
+    parallel_for(options.jobs, stages.size(), [&](std::size_t stage) {
         for (SharedFinding& shared : report.findings)
             if (shared.stage == stage) shared.finding = stages[stage].search->simplified(shared.finding);
     });

@@ -108,8 +108,8 @@ std::vector<ChoiceSummary> summarise_choices(const Family& family, const Study& 
             summary.feature = feature.name;
             summary.value = feature.values[static_cast<std::size_t>(value)];
             summary.is_most_accurate = value == most_accurate_value(feature);
-            summary.is_retired = std::find(feature.excluded.begin(), feature.excluded.end(), summary.value) !=
-                                 feature.excluded.end();
+            summary.is_excluded = std::find(feature.excluded.begin(), feature.excluded.end(),
+                                            summary.value) != feature.excluded.end();
             measure_alone(family, study, weights, index, value, summary);
             // Nothing is more accurate than the most accurate value, and it may be there for inputs that no
             // scene has.

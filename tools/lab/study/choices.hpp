@@ -13,7 +13,7 @@ struct ChoiceSummary {
     std::string feature;
     std::string value;
     bool is_most_accurate = false;
-    bool is_retired = false;       ///< by the family
+    bool is_excluded = false;      ///< by the family
     std::size_t combinations = 0;  ///< of effects that it matters to
     double error_max = 0;          ///< alone, the worst over scenes and effects
     double error_rms = 0;

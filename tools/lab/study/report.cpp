@@ -180,7 +180,7 @@ std::string choices_table(const ReportInput& input) {
     std::vector<HtmlRow> rows;
     for (const ChoiceSummary& choice : summarise_choices(input.family, input.study, input.weights)) {
         if (choice.combinations == 0) continue;
-        std::string verdict = choice.is_retired ? "retired; " : "";
+        std::string verdict = choice.is_excluded ? "excluded by default; " : "";
         if (!choice.dominated_by.empty())
             verdict +=
                 fmt::format("dominated everywhere by {} ({} comparisons)", choice.dominated_by, choice.pairs);

@@ -80,7 +80,7 @@ Result<Candidates> find_candidates(const Subject& subject, const Key& effects,
     std::vector<Key> all = all_qualities(subject.family, effects, kMostScreened);
     std::set<Key> considered(all.begin(), all.end());
     considered.insert(candidates.keys.begin(),
-                      candidates.keys.end());  // retired values are single choices only
+                      candidates.keys.end());  // excluded values are single choices only
     candidates.considered = considered.size();
     if (all.size() > kMeasuredWithoutScreening) {
         GOBO_TRY(all, screen(subject, all, accurate, scenes, weights));

@@ -1,13 +1,13 @@
 #include "lab/verify/decoded.hpp"
 
-#include "lab/verify/parallel.hpp"
+#include "core/parallel.hpp"
 
 namespace gobo::verify {
 
 Decoded::Decoded(const Composition& composition, const Validated& validated, int jobs)
     : composition_(composition), validated_(validated), programs_(validated.stages.size()) {
-    for_each_index(programs_.size(), jobs,
-                   [&](std::size_t i) { programs_[i] = evaluate::decode(validated.stages[i].spirv); });
+    parallel_for(jobs, programs_.size(),
+                 [&](std::size_t i) { programs_[i] = evaluate::decode(validated.stages[i].spirv); });
 }
 
 Result<raster::Pipeline> Decoded::pipeline(const Permutation& permutation) const {

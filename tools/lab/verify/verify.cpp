@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
 
+#include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/verify/alone.hpp"
 #include "lab/verify/comparison.hpp"
 #include "lab/verify/on_mesh.hpp"
-#include "lab/verify/parallel.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -111,7 +111,7 @@ VerifyReport verify(const Family& family, const Composition& composition, const 
     const Verifier verifier(family, decoded, options);
     VerifyReport report;
     report.permutations.resize(composition.permutations.size() - options.partners);
-    for_each_index(report.permutations.size(), options.jobs, [&](std::size_t i) {
+    parallel_for(options.jobs, report.permutations.size(), [&](std::size_t i) {
         report.permutations[i] = verifier.verify(composition.permutations[i]);
     });
     for (const PermutationReport& permutation : report.permutations) {
