@@ -13,5 +13,5 @@ status=0
 ctest --preset release -j "$(nproc)" "${tier[@]}" --output-junit "$PWD/$results/ctest.xml" "$@" || status=$?
 echo "The ten slowest, in seconds:"
 sed -nE 's/.*<testcase name="([^"]*)".* classname="([^"]*)".* time="([0-9.]+)".*/\3 \1/p; s/.*<testcase name="([^"]*)".* time="([0-9.]+)".* classname="([^"]*)".*/\2 \3.\1/p' \
-  "$results"/*.xml | sort -rn | head -10
+  "$results"/*.xml | sort -rn | sed -n 1,10p
 exit $status

@@ -34,7 +34,7 @@ case $way in
     mkdir -p "$prefix"
     for package in "$scratch"/packages/*.deb; do dpkg-deb -x "$package" "$prefix"; done
     [ "$(ls "$scratch"/packages/*.deb | wc -l)" = 2 ] || { echo "FAILED: not two packages"; exit 1; }
-    "$prefix/usr/bin/gobo" eval --help | grep -q "gobo eval" || { echo "FAILED: gobo does not find gobo-lab beside itself"; exit 1; }
+    grep -q "gobo eval" <<<"$("$prefix/usr/bin/gobo" eval --help)" || { echo "FAILED: gobo does not find gobo-lab beside itself"; exit 1; }
     options=(-D WAY=find_package -D "CMAKE_PREFIX_PATH=$prefix/usr") ;;
 esac
 if [ "${4:-}" != --build ] && [ "$way" != find_package ] && [ "$way" != debian ]; then
