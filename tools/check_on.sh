@@ -24,7 +24,7 @@ if [ "${GOBO_KEEP:-}" != 1 ] || [ ! -d "$root/etc" ]; then
 fi
 # How packages are reached is this computer's affair; all else is Debian's.
 cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
-grep -lsi proxy /etc/apt/apt.conf.d/* /etc/apt/apt.conf | xargs -r cp -t "$root/etc/apt/apt.conf.d/"
+{ grep -lsi proxy /etc/apt/apt.conf.d/* /etc/apt/apt.conf || true; } | xargs -r cp -t "$root/etc/apt/apt.conf.d/"
 mount -t proc proc "$root/proc"
 mount --rbind /sys "$root/sys"
 mount --rbind /dev "$root/dev"
