@@ -1,5 +1,5 @@
-// Angles between unit vectors as 1 - cos, which keeps small angles apart: a float cosine tells none below 3.5e-4
-// radians from 0. A zero vector is at a right angle to all: exactly 1, as the dot product has it. Results 0 to 2.
+// Angles between unit vectors as 1 - cos, which keeps small angles apart: a float cosine is 1 for all angles below
+// 3.5e-4 radians. A zero vector counts as at a right angle to all: exactly 1. Results 0 to 2.
 
 #piece one_minus_cosine
 // 1 - a.b = |a - b|^2 / 2, relative error 2^-23 / angle near 0.

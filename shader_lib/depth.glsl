@@ -4,7 +4,7 @@
 // Source: OpenGL Shading Language 4.50, 4.4.2.1, Fragment Shader Outputs; 7.1.5 and 4.4.1.3 for depths not written.
 
 #piece default
-// That of rasterisation, tested whenever the driver likes.
+// Not written: the driver tests the depth of rasterisation whenever it likes.
 /// Writes the fragment's depth: left to the driver.
 void writeDepth() {}
 

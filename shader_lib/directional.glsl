@@ -1,4 +1,4 @@
-// Directional lights: so far away that they shine from the same side everywhere, and do not weaken.
+// Directional lights: so far away that their direction is the same everywhere, and they are not attenuated.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Directional Light.
 // Ranges: eye space; colour 0 to 1e5 (radiance).

@@ -1,8 +1,8 @@
 // What is seen of a surface through fog: f L + (1 - f) C, f the fog factor, L the surface's radiance, C the fog's.
 //
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.
-// Edges:  GLSL allows exp() three roundings even at 0, where a factor above 1 would take more of the fog away than
-//         there is.
+// Edges:  GLSL allows exp() an error of three roundings even at 0: without a limit the fog factor could exceed 1, and
+//         subtract the fog's colour.
 
 #piece none
 // Clear air.
@@ -10,7 +10,7 @@
 vec3 throughFog(vec3 radiance) { return radiance; }
 
 #piece linear
-// Thickens evenly: f = (end - z) / (end - start) within [0, 1]. start = end is a step: clear before, hidden from there on.
+// Linear: f = (end - z) / (end - start) within [0, 1]. start = end is a step: clear before, hidden from there on.
 #include <fog_distance>
 #include "fog/blend.glsl"
 
@@ -50,7 +50,7 @@ BLOCK(3, Fog) {
     float end;
 } fog;
 
-/// The radiance that is seen, of a surface's radiance of which the fog lets `fogFactor` through.
+/// The radiance that is seen: the surface's where the fog factor is 1, the fog's colour where it is 0.
 vec3 blendFog(vec3 radiance, float fogFactor) {
     return fogFactor > 1e-30 ? mix(fog.color, radiance, fogFactor) : fog.color;  // guard: infinite radiance
 }

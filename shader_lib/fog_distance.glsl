@@ -1,4 +1,4 @@
-// How much fog lies before the surface, in eye space.
+// The distance through fog to the surface, in eye space.
 //
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating Fog.
 
@@ -7,12 +7,12 @@
 #include <guards/vector_length>
 #include "surface/position.glsl"
 
-/// How much fog lies before the surface, as a distance; not negative.
+/// The distance through fog to the surface; not negative.
 float fogDistance() { return vectorLength(surfacePosition()); }
 
 #piece planar
 // By the depth in front of the viewer: cheaper, but the fog thins towards the picture's corners.
 #include "surface/position.glsl"
 
-/// How much fog lies before the surface, as a distance; not negative.
+/// The distance through fog to the surface; not negative.
 float fogDistance() { return abs(surfacePosition().z); }

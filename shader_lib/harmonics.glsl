@@ -53,8 +53,8 @@ vec3 irradianceToFirstOrder(vec3 n) {
 vec3 probeNormal() { return harmonics.toProbe * visibleNormal(); }
 
 #piece coefficients
-// Coefficients within 1e5, scale 0 to 1e3; `toProbe` turns and does not stretch.
-/// Coefficients in the order L00, L1-1, L10, L11, L2-2, L2-1, L20, L21, L22; `toProbe` turns directions from
+// Coefficients within 1e5, scale 0 to 1e3; `toProbe` is a rotation.
+/// Coefficients in the order L00, L1-1, L10, L11, L2-2, L2-1, L20, L21, L22; `toProbe` rotates directions from
 /// eye space to the probe's axes (the inverse of the view's rotation where these are the world's).
 BLOCK(21, Harmonics) {
     mat3 toProbe;

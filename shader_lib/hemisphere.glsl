@@ -9,7 +9,7 @@
 // forms are 0.5, of a shorter normal too, so a rounding there decides nothing.
 #include <normal/length>
 
-/// How much of the sky.
+/// The part of the sky that is seen, 0 to 1.
 float skyWeight(vec3 normal, vec3 up) {
     vec3 across = cross(normal, up);
     float sine = sqrt(dot(across, across));  // guard: unlike length() it may underflow, 0 will do
@@ -18,5 +18,5 @@ float skyWeight(vec3 normal, vec3 up) {
 
 #piece cosine
 // 0.5 + 0.5 cos(theta): smooth, cheap, off by up to 0.21, at 45 degrees.
-/// How much of the sky.
+/// The part of the sky that is seen, 0 to 1.
 float skyWeight(vec3 normal, vec3 up) { return clamp(0.5 + 0.5 * dot(normal, up), 0.0, 1.0); }  // guard: rounded out of its range

@@ -1,5 +1,5 @@
-// Ambient light that each light brings of its own: K_a sum A_l attenuation. A spot light's stays outside its cone: the
-// Cookbook keeps it, the Programming Guide drops it. It needs neither a normal nor a direction to the light.
+// An ambient term for each light: K_a sum A_l attenuation. A spot light's applies outside its cone too, as in the
+// Cookbook; the Programming Guide drops it there. It needs neither a normal nor a direction to the light.
 //
 // Source: OpenGL 4 Shading Language Cookbook, ch. 2, Simulating a Spotlight; OpenGL Programming Guide, 9th ed., ch. 7,
 //         Multiple Lights and Materials.

@@ -1,4 +1,4 @@
-// Whether the surface is lit, and what its lights are made of.
+// Whether the surface is lit; ambient light; attenuation by distance.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7; glTF 2.0 KHR_materials_unlit.
 
@@ -28,7 +28,7 @@ vec3 ambientRadiance() { return tinted(material.ambient) * ambientLight(); }
 
 #piece attenuation
 // 1 / (k_c + k_l d + k_q d^2). All coefficients may be 0: the result ends at 1e18. A distance beyond 1e17 counts as 1e17,
-// where the light is long gone.
+// where nothing is left of the light.
 /// The factor by which a light at a distance d is weakened.
 float attenuation(vec3 coefficients, float d) {
     float reach = min(d, 1e17);  // guard: the square does not overflow

@@ -9,7 +9,7 @@ void beginCosines() {}
 float nextCosine(vec3 normal, vec3 toLight) { return dot(normal, toLight); }
 
 #piece vertex.frag
-// At the vertices, and interpolated, so that only the tone is found per fragment. Cheaper, and known to look bad: between
+// At the vertices, and interpolated, so that only the tone is found per fragment. Cheaper, with visible artefacts: between
 // two normals that are an angle a apart a cosine is as small as cos(a / 2), and bands have corners at the mesh's edges.
 // Source: Lighthouse3D, GLSL Tutorial, Toon Shader, version I.
 #include <sides/cosine>

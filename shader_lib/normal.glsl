@@ -1,4 +1,4 @@
-// What becomes of a direction that was interpolated between unit vectors, and what follows for angles to it.
+// Directions interpolated between unit vectors: whether they are made unit again, and angles to them.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: an interpolated normal is shorter than 1, and the power's base is the
 //         dot product itself.
@@ -18,7 +18,7 @@ vec3 shadingDirection(vec3 interpolated) { return unitVector(interpolated); }
 vec3 shadingDirection(vec3 interpolated) { return interpolated; }
 
 #piece length/renormalised
-// A zero normal counts as unit: who asks has no direction for it.
+// A zero normal counts as unit.
 /// The length: 1.
 float normalLength(vec3 normal) { return 1.0; }
 

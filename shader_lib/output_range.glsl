@@ -1,4 +1,4 @@
-// Radiance, which is not negative, as the target holds it.
+// The radiance, which is not negative, as the render target can hold it.
 
 #piece unbounded
 // 32-bit floats: as it is, an infinite radiance too.

@@ -1,4 +1,4 @@
-// Point lights: they shine from a position to all sides alike, attenuated by distance.
+// Point lights: at a position, the same in all directions, attenuated by distance.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Point Lights.
 // Ranges: eye space; positions within 1e6, colour 0 to 1e5 (radiance at attenuation 1).

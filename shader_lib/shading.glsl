@@ -1,5 +1,5 @@
 // Where the lighting model is evaluated, and what that needs of the lights. Fog is always evaluated per fragment, since
-// it grows with a distance that no colour of a vertex knows.
+// it depends on the fragment's distance.
 
 #piece fragment.frag
 // At each fragment: position and normal are interpolated.

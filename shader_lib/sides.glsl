@@ -5,17 +5,17 @@
 //         ch. 7, Two-sided Lighting.
 
 #piece one
-// As its normal has it, from wherever it is seen.
+// The normal is used as it is, whichever side is seen.
 #include "surface/normal.glsl"
 
-/// The unit normal that light is weighed against; zero where there is none.
+/// The unit normal to shade with; zero where there is none.
 vec3 visibleNormal() { return surfaceNormal(); }
 
 #piece two
 #include "surface/normal.glsl"
 #include "surface/side.glsl"
 
-/// The unit normal that light is weighed against, on the side that is seen; zero where there is none.
+/// The unit normal to shade with, on the side that is seen; zero where there is none.
 vec3 visibleNormal() { return isBackVisible() ? -surfaceNormal() : surfaceNormal(); }
 
 #piece two_materials
@@ -50,12 +50,12 @@ int materialRow(int index, int rows) {
 }
 
 #piece radiance/one
-// Of vertices. What a rounding makes negative the caller clamps.
+// Computed at vertices. A rounding may make it negative: the caller clamps it.
 /// The radiance interpolated between the vertices.
 vec3 interpolatedRadiance() { return litRadiance; }
 
 #piece radiance/two
-// Of vertices that are shaded on both sides: no vertex knows which side will be seen of the triangles it belongs to.
+// Computed at vertices for both sides: which side of a triangle is seen is not known there.
 #include "surface/side.glsl"
 
 /// The radiance interpolated between the vertices, of the side that is seen.

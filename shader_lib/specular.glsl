@@ -1,4 +1,4 @@
-// Highlights: strength K_s sum f_s L, not tinted by the surface's colour. Only asked for where n.l > 0.
+// Highlights: strength K_s sum f_s L, not tinted by the surface's colour. Only evaluated where n.l > 0.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Specular Highlights.
 // Edges:  at shininess 0 the factor is 1 for every direction.

@@ -52,7 +52,7 @@ BLOCK(6, SpotLights) {
 #include <spot_edge>
 #include "power/exact.glsl"
 
-/// The edge: its order of questions leaves the division only where inner < outer.
+/// The edge. The comparisons come first, so that only inner < outer reaches the division.
 float coneEdge(float oneMinusCosine, float innerOneMinusCosine, float outerOneMinusCosine) {
     if (oneMinusCosine >= outerOneMinusCosine) return 0.0;
     if (oneMinusCosine <= innerOneMinusCosine) return 1.0;  // guard: hard edge

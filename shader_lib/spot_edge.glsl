@@ -23,7 +23,7 @@ float coneOneMinusCosine(vec3 axis, vec3 ray) {
 }
 
 #piece cosine
-// By the plain cosine: the cheapest, and the rim of a cone below 0.01 radians is coarse, since floats near 1 tell no angle
-// below 3.5e-4 radians from 0. Never negative, so that a cone of 0 holds nothing.
+// By the plain cosine: the cheapest, and the rim of a cone below 0.01 radians is coarse, since a float cosine is 1
+// for all angles below 3.5e-4 radians. Never negative, so that a cone of 0 holds nothing.
 /// 1 - cos of the angle between the cone's axis and a ray, both unit (zero: a right angle).
 float coneOneMinusCosine(vec3 axis, vec3 ray) { return max(1.0 - dot(axis, ray), 0.0); }  // guard: cone of 0 or 180 degrees

@@ -21,7 +21,7 @@ ATTRIBUTE(0) vec3 position;
 /// The vertex in eye space, once placeVertex() has been called.
 vec3 placedPosition;
 
-/// Transforms the vertex to eye space, once for all who ask. To be called first.
+/// Transforms the vertex to eye space, once. To be called first.
 void placeVertex() { placedPosition = (transform.modelView * vec4(position, 1.0)).xyz; }
 
 /// The position of the surface in eye space.

@@ -1,5 +1,5 @@
-// The colour of the vertices: it tints diffuse and ambient light, highlights keep theirs; its alpha goes to whoever
-// blends.
+// The colour of the vertices: it tints diffuse and ambient light, highlights keep theirs; its alpha is written
+// for blending.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7: Color.rgb * scatteredLight + reflectedLight, Color.a.
 

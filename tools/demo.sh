@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds gobo, has it compose, validate and emit the permutations that six scene files call for, builds the example
+# Sets up, builds gobo, has it compose, validate and emit the permutations that six scene files need, builds the example
 # against the generated header and draws the scenes. Leaves the header and PNG pictures in build/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,7 +11,7 @@ cmake --preset release
 cmake --build --preset release --target gobo
 mkdir -p "$demo"
 
-echo "== What the draws of the scenes call for: those permutations composed, validated, emitted"
+echo "== What the draws of the scenes need: those permutations composed, validated, emitted"
 scenes=()
 for name in mist per_vertex phong toon spot moonlight; do scenes+=("examples/teapot/scenes/$name.gltf"); done
 "$gobo" scene "${scenes[0]}"

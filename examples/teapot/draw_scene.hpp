@@ -1,4 +1,4 @@
-// A scene drawn with the permutations that it calls for.
+// A scene drawn with the permutations that it needs.
 #pragma once
 
 #include <set>

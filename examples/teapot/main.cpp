@@ -1,4 +1,4 @@
-// teapot OUTPUT_FOLDER SCENE.gltf...: draws each scene with the permutations that it calls for and writes PNG
+// teapot OUTPUT_FOLDER SCENE.gltf...: draws each scene with the permutations that it needs and writes PNG
 // pictures.
 #include <cstdio>
 #include <exception>

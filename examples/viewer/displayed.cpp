@@ -26,7 +26,7 @@ gobo::Result<void> Displayed::frame(Renderer& renderer, const Settings& settings
         const gobo::Result<bool> written = write_image(disk, path, renderer.picture());
         if (!written) return tl::unexpected(written.error());
     }
-    std::fflush(stdout);  // whoever presses the keys waits for this line
+    std::fflush(stdout);  // tests that press keys wait for this line
     return {};
 }
 

@@ -1,4 +1,4 @@
-// viewer SCENE.gltf: shows a scene, each draw with the permutation of lit that it calls for.
+// viewer SCENE.gltf: shows a scene, each draw with the permutation of lit that it needs.
 #include <fmt/format.h>
 
 #include "headless.hpp"

@@ -7,7 +7,7 @@ namespace viewer {
 CommandLine read_command_line(int argc, char** argv) {
     CommandLine result;
     Options& options = result.options;
-    CLI::App app("Shows a glTF scene, each draw with the permutation of lit that it calls for.\n\n" +
+    CLI::App app("Shows a glTF scene, each draw with the permutation of lit that it needs.\n\n" +
                  help_text());
     app.add_option("SCENE", options.scene, "A .gltf or .glb file")->required();
     app.add_flag("--headless", options.headless, "No window: draws by OSMesa and ends");

@@ -69,7 +69,7 @@ Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo:
     for (const StageDraw& draw : stage.draws) {
         upload(draw.mesh);
         for (const std::string& effect : draw.not_drawn)
-            complain(effect, draw.name + " calls for " + effect + ", which this viewer does not draw");
+            complain(effect, draw.name + " needs " + effect + ", which this viewer does not draw");
     }
 }
 

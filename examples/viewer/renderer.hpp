@@ -1,4 +1,4 @@
-// Draws a stage, each draw by the permutation that it calls for. Programs are built when first asked for.
+// Draws a stage, each draw by the permutation that it needs. Programs are built when first asked for.
 #pragma once
 
 #include <map>

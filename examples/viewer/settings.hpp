@@ -7,7 +7,7 @@
 
 namespace viewer {
 
-/// Choices of the person who looks, laid over what the scene calls for.
+/// The user's choices, which override what the scene needs.
 struct Settings {
     bool fog = true;
     bool toon = false;

@@ -15,7 +15,7 @@
 
 namespace viewer {
 
-/// What a draw calls for, in the application's own words: members named after features are what
+/// What a draw needs, in the application's own terms: members named after features are what
 /// lit::select() takes.
 struct DrawState {
     int directional = 0;
@@ -41,7 +41,7 @@ struct StageDraw {
     lit::Toon toon{};
     gobo::scene::Probe probe;
     DrawState state;
-    std::vector<std::string> not_drawn;  ///< effects that it calls for, but that this viewer lacks
+    std::vector<std::string> not_drawn;  ///< effects that it needs, but that this viewer lacks
     /// The lights that reach it, by their number among all lights of the scene.
     std::vector<std::size_t> lights;
 };
@@ -57,7 +57,7 @@ struct Stage {
 /// Reads the scene. Effects are decided for a camera that may be anywhere, as this one's may.
 [[nodiscard]] gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path);
 
-/// The state under the settings: what they turn off is not called for.
+/// The state with the settings applied: what they turn off is not needed.
 [[nodiscard]] DrawState under(const DrawState& state, const Settings& settings);
 
 }  // namespace viewer

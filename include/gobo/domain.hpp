@@ -1,5 +1,5 @@
-// What of a uniform block lies outside the range that its shaders are made for. A generated header's check()
-// fills it; no OpenGL, no work before main.
+// Values of a uniform block that lie outside the ranges its shaders are made for, as a generated header's
+// check() finds them. No OpenGL.
 #pragma once
 
 #include <cmath>

@@ -5,9 +5,9 @@
 //     gobo::gl::Program program = gobo::gl::build_program(*lit::find(key));
 //     if (!program) std::puts(program.error.c_str());
 //
-// Where OpenGL's functions stand in a struct (glad's GladGLContext, or one of the application's own with
-// members CreateShader, ShaderSource and so on), pass it: build_program(permutation, context). An application
-// that has no gl* functions at all defines GOBO_GL_NO_LOADER before it includes this.
+// Where OpenGL's functions are members of a struct (glad's GladGLContext, or one of the application's own
+// with members CreateShader, ShaderSource and so on), pass it: build_program(permutation, context). An
+// application that has no gl* functions at all defines GOBO_GL_NO_LOADER before it includes this.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace gobo::runtime {
 
 enum class FeatureKind : std::uint8_t { choice, count, define };
 
-/// One axis of a family. The names of its values stand in Tables::value_names from `first_name` on; a count
+/// A feature of a family. The names of its values stand in Tables::value_names from `first_name` on; a count
 /// has none, its values are their numbers.
 struct Feature {
     std::string_view name;

@@ -12,17 +12,16 @@
 namespace gobo {
 
 /// The cofactors of the model-view matrix's upper left 3x3: the inverse transpose times the determinant,
-/// which lengths do not show and which exists for singular matrices too (a flattened model keeps the normal
-/// of the plane it was flattened to; where nothing is left the matrix is zero, and so are its normals).
-/// Divided by its largest component, so that no model is too large or too small for single precision. A
-/// mirrored model's determinant is negative; the sign is put right, so that normals keep to the side of the
-/// surface that they stood on.
+/// a factor that does not change directions. They exist for singular matrices too: a flattened model keeps
+/// the normal of its plane; where nothing is left the matrix is zero, and so are its normals. Divided by
+/// the largest component, so that no model is too large or too small for single precision. A mirrored
+/// model's determinant is negative; the sign is corrected, so that normals stay on their side of the surface.
 ///
 /// Precision: normals are true to 1e-5 at scales of 1 : 1e4 along the object's axes. Along any other axes the
 /// matrix shortens some normals far more than others, and what single precision holds of it is off by 3e-7 of
 /// the longest. The same cofactors computed in single precision are off by a thousand times as much, since
 /// differences of products cancel. Give it the model-view matrix in double precision as well: what was lost
-/// before cannot be found again.
+/// before cannot be recovered.
 ///
 /// Source: cofactors as the normal transform, e.g. Pharr, Jakob, Humphreys, Physically Based
 /// Rendering, 2.8.2.

@@ -13,7 +13,7 @@ namespace gobo::runtime {
 /// One text of a stage. A long file is cut into several pieces, so that no literal exceeds what compilers
 /// take.
 struct Piece {
-    std::string_view name;  ///< the file: "shader_lib/fog/linear.glsl"
+    std::string_view name;  ///< the file, and the piece in it: "shader_lib/fog.glsl#linear"
     std::string_view text;
     int first_line = 1;  ///< the line of the file at which `text` starts
 };

@@ -1,5 +1,5 @@
-// The half angles of a spot light's cone as the family `lit` takes them: by 1 - cos(angle), since a float's
-// cosine tells no angle below 3.5e-4 radians from 0.
+// The half angles of a spot light's cone as the family `lit` takes them: by 1 - cos(angle), since a float
+// cosine is 1 for all angles below 3.5e-4 radians.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace gobo {
     return one_minus_cosine_of_radians(degrees * 0.017453292519943295);
 }
 
-/// Of a half angle that is given by its cosine, -1 to 1: what is left of it, where it is near 1.
+/// Of a half angle given by its cosine, -1 to 1. Near 1 the cosine's own rounding is in the result.
 [[nodiscard]] inline float one_minus_cosine(double cosine) {
     return static_cast<float>(1 - cosine);
 }

@@ -13,7 +13,7 @@ vec4 rayToLight[POINT_LIGHTS + SPOT_LIGHTS];
 /// A ray as the vertex stage writes it.
 vec4 packedRay(LightRay ray) { return vec4(ray.toLight, ray.weight); }
 
-/// Finds the rays to all local lights, once for all who ask.
+/// Computes the rays to all local lights, once.
 vec4[POINT_LIGHTS + SPOT_LIGHTS] raysToLights() {
 #if POINT_LIGHTS > 0
     for (int i = 0; i < POINT_LIGHTS; ++i) rayToLight[i] = packedRay(pointRay(i));

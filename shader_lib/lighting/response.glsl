@@ -1,7 +1,7 @@
 // The surface's response to its lights, diffuse and specular summed apart: K_d sum f_d(n.l) L + K_s sum f_s L, L after
 // attenuation. Linear and unclamped.
 //
-// Source: OpenGL Programming Guide, 9th ed., ch. 7: the highlight has not the surface's colour.
+// Source: OpenGL Programming Guide, 9th ed., ch. 7: highlights do not have the surface's colour.
 // Edges:  a light gives exactly nothing unless n.l > 0: neither from behind nor where there is no normal or direction.
 
 #include <diffuse>
@@ -13,7 +13,7 @@
 #include <vertex_color>
 #include <light_sum>
 
-/// The normal that the lights are weighed against, and the diffuse light so far.
+/// The normal to shade with, and the diffuse light so far.
 vec3 litNormal;
 LightSum diffuseSum;
 
@@ -36,7 +36,7 @@ void addLight(vec3 toLight, vec3 light) {
     }
 }
 
-/// The radiance that the surface gives back of all lights added.
+/// The radiance that the surface reflects of all lights added.
 vec3 responseRadiance() {
     vec3 diffuse = tinted(material.diffuse) * limitedDiffuse(totalOf(diffuseSum));
     return diffuse + highlightRadiance() + lightAmbientRadiance();

@@ -1,4 +1,4 @@
-// How a spot light reaches the surface: a point light times what its cone leaves.
+// How a spot light reaches the surface: a point light times the factor of its cone.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7, Spotlights; glTF 2.0 KHR_lights_punctual.
 

@@ -12,12 +12,12 @@ class Page : public testing::TestWithParam<std::string> {};
 
 TEST_P(Page, DoesWhatItSays) {
     const std::vector<PageBlock> blocks =
-        blocks_of(text_of_file(fmt::format("{}/docs/{}", GOBO_SOURCE_DIR, GetParam())));
+        blocks_of(text_of_file(fmt::format("{}/{}", GOBO_SOURCE_DIR, GetParam())));
     Reader reader(GOBO_COMMAND);
     int commands_run = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         const PageBlock& block = blocks[i];
-        SCOPED_TRACE(fmt::format("docs/{}:{}", GetParam(), block.line));
+        SCOPED_TRACE(fmt::format("{}:{}", GetParam(), block.line));
         if (block.language == "diff") {
             ASSERT_EQ(reader.edit(block), "");
         } else if (!block.file.empty()) {
@@ -37,10 +37,10 @@ TEST_P(Page, DoesWhatItSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Docs, Page,
-                         testing::Values("adding_an_effect.md", "command_line.md", "family_file.md",
-                                         "formats.md", "probes.md", "scene_format.md", "shadows.md",
-                                         "study.md"),
-                         [](const auto& page) { return page.param.substr(0, page.param.find('.')); });
+                         testing::Values("README.md", "docs/adding_an_effect.md", "docs/command_line.md",
+                                         "docs/family_file.md", "docs/formats.md", "docs/probes.md",
+                                         "docs/scene_format.md", "docs/shadows.md", "docs/study.md"),
+                         [](const auto& page) { return std::filesystem::path(page.param).stem().string(); });
 
 }  // namespace
 }  // namespace gobo

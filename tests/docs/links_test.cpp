@@ -53,8 +53,9 @@ std::vector<fs::path> pages() {
     for (const auto& entry : fs::directory_iterator(GOBO_SOURCE_DIR "/docs"))
         if (entry.path().extension() == ".md") found.push_back(entry.path());
     std::sort(found.begin(), found.end());
-    const fs::path readme = GOBO_SOURCE_DIR "/README.md";
-    if (fs::exists(readme)) found.push_back(readme);
+    for (const char* const page :
+         {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/teapot/README.md"})
+        found.push_back(fs::path(GOBO_SOURCE_DIR) / page);
     return found;
 }
 
@@ -72,6 +73,32 @@ TEST(Links, LeadToFilesAndHeadings) {
         }
     }
     EXPECT_GT(followed, 20U) << "the pages link to each other more than that";
+}
+
+/// Paths of the sources in code, `tools/lab/oracle/`, but not those with a placeholder,
+/// `data/study/NAME.csv`.
+std::vector<std::string> paths_of(const fs::path& page) {
+    static const std::regex path(
+        "`((?:tools|tests|data|shader_lib|include|examples|templates|cmake|docs)/[a-z0-9_./]+)`");
+    std::vector<std::string> paths;
+    for (const std::string& line : lines_of(text_of_file(page))) {
+        const std::string text = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+        if (text.starts_with("File `")) continue;  // written by the reader
+        for (std::sregex_iterator at(line.begin(), line.end(), path), end; at != end; ++at)
+            paths.push_back((*at)[1]);
+    }
+    return paths;
+}
+
+TEST(Links, PathsInCodeNameFilesThatExist) {
+    int checked = 0;
+    for (const fs::path& page : pages()) {
+        for (const std::string& path : paths_of(page)) {
+            EXPECT_TRUE(fs::exists(fs::path(GOBO_SOURCE_DIR) / path)) << page << " names " << path;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 20);
 }
 
 TEST(Links, OfTheArchitectureNameFoldersThatExist) {

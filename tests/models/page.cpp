@@ -18,11 +18,11 @@ namespace {
 
 constexpr const char* kHeading = R"(# The lighting models
 
-Every model of the classic texts by its id, an example of a permutation that has it, the files with its pieces, and the largest errors that `gobo test` met over all permutations that have it: in single precision and, of the same shader, in double precision, both
-relative to the largest term of the light ([verification](verification.md)). What is measured in the tests are the permutations of `gobo test lit
---cover 3` and, of the ubershader, those of `tests/ubershader`; they mix models and qualities, and the largest errors are those of `spot_edge=cosine`, which tells narrow cones apart no better than a cosine in single
-precision does ([quality](quality.md)). One command writes this page, its pictures and its figures; a test fails
-where it is stale:
+Every lighting model of the classic texts: a permutation that has it as an example, the files with its pieces, a picture, and the largest errors that `gobo test` found over all permutations that have it, in single precision
+(fp32) and, for the same shader, in double precision (fp64), both relative to the largest term of the light ([verification](verification.md)). The permutations are those of `gobo test lit
+--cover 3` and, for the ubershader, those of `tests/ubershader`. They mix models and qualities, so the largest errors are those of `spot_edge=cosine`, which resolves narrow cones no better than a cosine in single
+precision does ([quality](quality.md#the-rim-of-a-cone-spot_edge)). [Numerics](numerics.md) names models by these ids. One command writes this page, its pictures and its figures; a test fails
+where it is out of date:
 
 ```
 cmake --build --preset release --target models

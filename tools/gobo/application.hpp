@@ -22,7 +22,7 @@ inline constexpr const char* kTerms =
     "'fog=linear point=3', chooses one permutation of it.";
 inline constexpr const char* kExitStatus =
     "0 fine, 1 the input has errors or a check failed, 2 wrong usage, 3 a file could not be read or written, "
-    "4 a fault of gobo's own.";
+    "4 a bug in gobo.";
 
 /// The command that was chosen, its options' targets filled in; none where --help or --version asked for
 /// `text`.

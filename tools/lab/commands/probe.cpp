@@ -76,7 +76,7 @@ Command probe_command() {
             [options](const World& world) { return run(*options, world); },
             "Prints the paths of the files. A cube map is one picture, its faces +x -x +y -y +z -z one below "
             "the other. "
-            "docs/probes.md tells what the numbers mean."};
+            "docs/probes.md says what the numbers mean."};
 }
 
 }  // namespace gobo

@@ -126,15 +126,16 @@ Command sanitize_command() {
         {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
           &options->names, kRequired},
          keep_option(options->folder, "inputs that show what is found, for gobo eval,"),
-         {"--points", "N", "Hard inputs of each distinct stage", &wanted.points},
+         {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points},
          {"--total", "N", "Instead, at least so many over all stages", &wanted.total},
          {"--seed", "N", "Another seed tries other inputs", &wanted.seed},
          {"--guided", "N",
-          "Then so many inputs made of those that reached a new branch or came nearest to a trap",
+          "Then so many inputs derived from those that reached a new branch or came nearest to a trap",
           &wanted.guided},
-         {"--minutes", "N", "Go on with such inputs until so long has passed", &wanted.minutes, kNotNegative},
+         {"--minutes", "N", "Go on with such inputs for so long", &wanted.minutes, kNotNegative},
          {"--machine", machine_words(),
-          "What arithmetic to run on, each a liberty of GLSL: ieee; flushed (denormals are 0); nan_kept, "
+          "What arithmetic to evaluate with, of those that GLSL allows: ieee; flushed (denormals are 0); "
+          "nan_kept, "
           "nan_dropped (by min, max, clamp); fused (a * b + c); regrouped, reordered (sums); "
           "errors_up, errors_down (of pow, exp, log, inversesqrt); all",
           &options->machines, kOneOf},

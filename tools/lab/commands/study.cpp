@@ -252,7 +252,7 @@ Command study_command() {
           between(study::kLeastRounds, 1000)},
          {"--backend", "osmesa|egl", "What is timed", &options->backend},
          {"--callgrind", "",
-          "Count the instructions of a fragment too, for the last effects; needs valgrind and patience",
+          "Count the instructions of a fragment too, for the last effects; needs valgrind, some 15 s each",
           &options->callgrind},
          {"--draw", "KEY", "", &options->draw, kHidden},  // for what --callgrind runs
          {"--draw-size", "WxH", "", &options->draw_size, kHidden},

@@ -219,7 +219,7 @@ Command test_command() {
             [options](const World& world) { return run(*options, world); },
             "The stages are evaluated in fp32 and fp64 at points made to exercise each model. Families of "
             "your own "
-            "have no oracle, a second program of the models: there fp32 is compared with fp64."};
+            "have no oracle, a second implementation of the models: there fp32 is compared with fp64."};
 }
 
 }  // namespace gobo
