@@ -43,17 +43,16 @@ std::string help_of(const std::string& command) {
     return reader.run("gobo " + command + " --help").printed;
 }
 
-/// Each option of a command's help with its explanation: behind two blanks and its names, or on the next
-/// line.
+/// Each option of a command's help with its explanation: behind its names and value, or on the next line.
 std::map<std::string, std::string> explained_options(const std::string& command) {
-    static const std::regex row(R"(  (-\S+)( [^ ]\S*)*(\s\s+(.*))?)");
+    static const std::regex row(R"(  (-\S+)(?:.*?(?:  +|REQUIRED )(.*))?.*)");
     std::map<std::string, std::string> explanations;
     const std::vector<std::string> lines = lines_of(help_of(command));
     for (std::size_t i = 0; i < lines.size(); ++i) {
         std::smatch match;
         if (!std::regex_match(lines[i], match, row)) continue;
         const bool goes_on = i + 1 < lines.size() && lines[i + 1].starts_with("      ");
-        const std::string explanation = match[4].str().empty() && goes_on ? lines[i + 1] : match[4].str();
+        const std::string explanation = goes_on ? lines[i + 1] : match[2].str();
         for (const std::string& name : options_in(match[1])) explanations[name] = explanation;
     }
     return explanations;
