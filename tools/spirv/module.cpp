@@ -53,17 +53,19 @@ class Reader {
     explicit Reader(std::span<const std::uint32_t> words) : words_(words) {}
 
     Result<Module> read() {
-        read_header();
-        while (problem_.empty() && position_ < words_.size()) read_instruction();
-        if (!problem_.empty())
-            return fail(Fault::internal,
-                        fmt::format("malformed SPIR-V module at word {}: {}", position_, problem_));
+        try {
+            read_header();
+            while (position_ < words_.size()) read_instruction();
+        } catch (Diagnostics& wrong) {
+            return tl::unexpected(std::move(wrong));
+        }
         return std::move(module_);
     }
 
   private:
-    void stop(std::string problem) {
-        if (problem_.empty()) problem_ = std::move(problem);
+    [[noreturn]] void stop(std::string_view problem) const {
+        const std::string what = fmt::format("malformed SPIR-V module at word {}: {}", position_, problem);
+        throw fail(Fault::internal, what).value();
     }
 
     void read_header() {
@@ -98,7 +100,6 @@ class Reader {
             return stop("an id outside the module's bound");
         if (has_result) define(instruction.word(has_type ? 2 : 1));
         interpret(instruction);
-        if (!problem_.empty()) return;
         module_.instructions.push_back(instruction);
         position_ += count;
     }
@@ -223,7 +224,7 @@ class Reader {
             type.storage = instruction.as<spv::StorageClass>(2);
         }
         if (type.depth > kDeepest || type.parts > kMostParts) stop("types nested without end");
-        if (problem_.empty()) module_.types.emplace(instruction.result, std::move(type));
+        module_.types.emplace(instruction.result, std::move(type));
     }
 
     void set_scalar(Type& type, std::optional<Scalar> scalar) {
@@ -290,10 +291,7 @@ class Reader {
 
     std::uint32_t array_extent(Id id) {
         const auto extent = module_.integers.find(id);
-        if (extent == module_.integers.end()) {
-            stop("an array whose size is not an integer constant");
-            return 0;
-        }
+        if (extent == module_.integers.end()) stop("an array whose size is not an integer constant");
         if (extent->second < 1 || extent->second > std::numeric_limits<std::int32_t>::max())
             stop("an array of impossible size");
         return static_cast<std::uint32_t>(extent->second);
@@ -303,7 +301,6 @@ class Reader {
     Module module_;
     std::size_t position_ = 0;
     std::uint32_t line_ = 0;
-    std::string problem_;
 };
 
 std::string image_name(const Module& module, const Type& type, std::string_view kind) {
