@@ -1,8 +1,6 @@
 #include "reflect/interface.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,23 +9,13 @@ namespace {
 
 /// Where the stage stands in the pipeline.
 std::size_t rank(const std::string& stage) {
-    constexpr std::array<std::string_view, 6> kPipeline = {"vertex",   "tess_control", "tess_evaluation",
-                                                           "geometry", "fragment",     "compute"};
-    return static_cast<std::size_t>(std::ranges::find(kPipeline, stage) - kPipeline.begin());
+    return static_cast<std::size_t>(std::ranges::find(kStages, stage) - kStages.begin());
 }
 
 void add_stages(std::vector<std::string>& stages, const std::vector<std::string>& more) {
     for (const std::string& stage : more)
         if (std::ranges::find(stages, stage) == stages.end()) stages.push_back(stage);
     std::ranges::sort(stages, {}, rank);
-}
-
-template <class Entry>
-int& binding_or_location(Entry& entry) {
-    if constexpr (requires { entry.binding; })
-        return entry.binding;
-    else
-        return entry.location;
 }
 
 /// The outermost extent of the array that ends the block, or null where none does.
@@ -66,8 +54,8 @@ void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more,
             continue;
         }
         // One that states no binding or location agrees with one that does.
-        int& number = binding_or_location(*place);
-        int& other_number = binding_or_location(other);
+        int& number = place_of(*place);
+        int& other_number = place_of(other);
         if (number < 0) number = other_number;
         if (other_number < 0) other_number = number;
         if constexpr (std::is_same_v<Entry, Block>) extend_last_array(*place, other);
@@ -88,18 +76,6 @@ void add_resources(Interface& sum, const Interface& more, std::vector<std::strin
     add_entries(sum.samplers, more.samplers, conflicts);
 }
 
-/// The name without its array subscripts.
-std::string without_subscripts(std::string_view name) {
-    std::string result;
-    bool inside = false;
-    for (const char character : name) {
-        if (character == '[') inside = true;
-        if (!inside) result += character;
-        if (character == ']') inside = false;
-    }
-    return result;
-}
-
 bool is_unsigned(const std::string& type) {
     return type == "uint" || type.starts_with("uvec");
 }
@@ -108,7 +84,7 @@ bool has_unsigned(const Member& member) {
     return is_unsigned(member.type) || std::ranges::any_of(member.members, has_unsigned);
 }
 
-/// By name without subscripts: whether the type is a boolean.
+/// By name without indices: whether the type is a boolean.
 using Booleans = std::map<std::string, bool>;
 
 /// `block` is "Block.", `path` ends in a dot or is empty. A block with an instance lists its members below
@@ -124,6 +100,17 @@ void restore(Member& member, const std::string& block, const std::string& path, 
 }
 
 }  // namespace
+
+std::string without_indices(std::string_view name) {
+    std::string result;
+    bool is_inside = false;
+    for (const char character : name) {
+        is_inside = is_inside || character == '[';
+        if (!is_inside) result += character;
+        is_inside = is_inside && character != ']';
+    }
+    return result;
+}
 
 Interface merge(std::vector<Interface> stages) {
     if (stages.empty()) return {};
@@ -167,11 +154,11 @@ Interface restore_bools(Interface interface, const GlTypes& types) {
     constexpr int kGlBoolVec4 = 0x8B59;
     Booleans booleans;
     for (const auto& [name, type] : types)
-        booleans[without_subscripts(name)] = type >= kGlBool && type <= kGlBoolVec4;
+        booleans[without_indices(name)] = type >= kGlBool && type <= kGlBoolVec4;
     for (std::vector<Block>* const blocks : {&interface.blocks, &interface.storage_blocks})
         for (Block& block : *blocks)
             for (Member& member : block.members)
-                restore(member, without_subscripts(block.name) + ".", "", booleans);
+                restore(member, without_indices(block.name) + ".", "", booleans);
     return interface;
 }
 

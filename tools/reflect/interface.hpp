@@ -1,8 +1,10 @@
 // The interface of a program as applications see it: blocks, uniforms, samplers, inputs and outputs.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -78,6 +80,22 @@ struct Interface {
 
     friend bool operator==(const Interface&, const Interface&) = default;
 };
+
+/// The stages in the order in which a pipeline runs them, which is that of SPIR-V's execution models.
+inline constexpr std::array<std::string_view, 6> kStages = {"vertex",   "tess_control", "tess_evaluation",
+                                                            "geometry", "fragment",     "compute"};
+
+/// Where an entry is bound: its binding if it can have one, else its location.
+template <class Entry>
+[[nodiscard]] auto& place_of(Entry& entry) {
+    if constexpr (requires { entry.binding; })
+        return entry.binding;
+    else
+        return entry.location;
+}
+
+/// "Lights.lights[0].on" as "Lights.lights.on".
+[[nodiscard]] std::string without_indices(std::string_view name);
 
 /// The interface of a program: inputs of its first stage, outputs of its last (as the pipeline runs, whatever
 /// the order of `stages`), everything else united by name. Meant for stages that link, so where two declare

@@ -13,6 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Entry>
+constexpr const char* kPlaceName =
+    std::is_same_v<Entry, Block> || std::is_same_v<Entry, Sampler> ? "binding" : "location";
+
+template <class Entry>
 Json array_of(const std::vector<Entry>& entries);
 
 Json json_of(const Member& member) {
@@ -37,12 +41,7 @@ Json json_of(const Block& block) {
 /// A uniform, sampler, input or output.
 template <class Entry>
 Json json_of(const Entry& entry) {
-    constexpr bool kIsSampler = std::is_same_v<Entry, Sampler>;
-    Json json = {{"name", entry.name}, {"type", entry.type}};
-    if constexpr (kIsSampler)
-        json["binding"] = entry.binding;
-    else
-        json["location"] = entry.location;
+    Json json = {{"name", entry.name}, {"type", entry.type}, {kPlaceName<Entry>, place_of(entry)}};
     if (!std::is_same_v<Entry, Variable> || !entry.array.empty()) json["array"] = entry.array;
     if constexpr (std::is_same_v<Entry, Uniform>) json["members"] = array_of(entry.members);
     return json;
@@ -83,8 +82,9 @@ std::string with_extents(const std::string& name, const std::vector<int>& array)
 }
 
 /// "binding 3", or empty where the number is unknown.
-std::string stated(std::string_view kind, int number) {
-    return number < 0 ? std::string() : fmt::format("{} {}", kind, number);
+template <class Entry>
+std::string stated_place(const Entry& entry) {
+    return place_of(entry) < 0 ? std::string() : fmt::format("{} {}", kPlaceName<Entry>, place_of(entry));
 }
 
 std::string strides(const Member& member) {
@@ -113,8 +113,9 @@ void add_members(std::vector<Row>& rows, const std::vector<Member>& members, std
 std::string blocks_text(std::string_view kind, const std::vector<Block>& blocks) {
     std::vector<std::string> texts;
     for (const Block& block : blocks) {
-        std::vector<std::string> facts = {fmt::format("{} bytes", block.size), join(block.stages, ", ")};
-        if (block.binding >= 0) facts.insert(facts.begin(), stated("binding", block.binding));
+        std::vector<std::string> facts = {stated_place(block), fmt::format("{} bytes", block.size),
+                                          join(block.stages, ", ")};
+        std::erase(facts, "");
         std::vector<Row> rows;
         add_members(rows, block.members, 0, true);
         texts.push_back(fmt::format("{} {}: {}\n{}", kind, block.name, join(facts, ", "), table(rows)));
@@ -127,11 +128,7 @@ template <class Entry>
 std::string entries_text(std::string_view kind, const std::vector<Entry>& entries) {
     std::vector<Row> rows;
     for (const Entry& entry : entries) {
-        Row row{entry.type, with_extents(entry.name, entry.array)};
-        if constexpr (requires { entry.binding; })
-            row.push_back(stated("binding", entry.binding));
-        else
-            row.push_back(stated("location", entry.location));
+        Row row{entry.type, with_extents(entry.name, entry.array), stated_place(entry)};
         if constexpr (requires { entry.stages; }) row.push_back(join(entry.stages, ", "));
         rows.push_back(std::move(row));
         if constexpr (requires { entry.members; }) add_members(rows, entry.members, 1, false);

@@ -75,42 +75,35 @@ std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
 
 /// Base alignment without std140's rounding of arrays and structs to 16, which block_size() does once at the
 /// end.
-std::int64_t alignment_of(const Module& module, Id id) {
-    const Type& type = module.type(array_element(module, id));
-    if (type.opcode != spv::OpTypeStruct) return type.value.column_alignment();
+std::int64_t alignment_of(const Member& member) {
+    if (member.members.empty()) return glsl_type(member.type).value_or(GlslType{}).column_alignment();
     std::int64_t alignment = 1;
-    for (const Id member : type.members) alignment = std::max(alignment, alignment_of(module, member));
+    for (const Member& inner : member.members) alignment = std::max(alignment, alignment_of(inner));
     return alignment;
 }
 
-std::int64_t member_size(const Module& module, Id structure, int index, Id id);
-
-/// From the start of the struct to the end of the member that ends last.
-std::int64_t end_of_members(const Module& module, Id structure) {
-    std::int64_t end = 0;
-    for_each_member(module, structure, [&](int index, Id member) {
-        const int offset = decorated(module, spv::DecorationOffset, structure, index);
-        end = std::max(end, offset + member_size(module, structure, index, member));
-    });
-    return end;
-}
+std::int64_t end_of(const std::vector<Member>& members);
 
 /// In bytes, from the strides. A row-major matrix is stored as an array of its rows.
-std::int64_t member_size(const Module& module, Id structure, int index, Id id) {
-    const Type& type = module.type(id);
-    if (type.is_array()) return std::int64_t{decorated(module, spv::DecorationArrayStride, id)} * type.count;
-    if (type.opcode == spv::OpTypeStruct)
-        return rounded_up(end_of_members(module, id), alignment_of(module, id));
-    if (!type.value.is_matrix()) return type.value.column_size();
-    const bool is_row_major = module.decoration(structure, spv::DecorationRowMajor, index).has_value();
-    return std::int64_t{decorated(module, spv::DecorationMatrixStride, structure, index)} *
-           (is_row_major ? type.value.rows : type.value.columns);
+std::int64_t size_of(const Member& member) {
+    if (!member.array.empty()) return std::int64_t{member.array_stride} * member.array.front();
+    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member));
+    const GlslType type = glsl_type(member.type).value_or(GlslType{});
+    if (!type.is_matrix()) return type.column_size();
+    return std::int64_t{member.matrix_stride} * (member.row_major ? type.rows : type.columns);
+}
+
+/// From the start of what contains the members to the end of the one that ends last.
+std::int64_t end_of(const std::vector<Member>& members) {
+    std::int64_t end = 0;
+    for (const Member& member : members) end = std::max(end, member.offset + size_of(member));
+    return end;
 }
 
 /// Bytes from the start of a block to the end of its last member, rounded up to 16: what Mesa reports as
 /// UNIFORM_BLOCK_DATA_SIZE. An array without a size counts as empty.
-std::int64_t block_size(const Module& module, Id structure) {
-    return rounded_up(end_of_members(module, structure), 16);
+std::int64_t block_size(const std::vector<Member>& members) {
+    return rounded_up(end_of(members), 16);
 }
 
 /// Locations between stages. A vertex attribute of three or four doubles takes one, elsewhere two.
@@ -171,12 +164,10 @@ class Reflection {
     Result<Interface> run() {
         if (module_.entry_points.empty())
             return fail(Fault::internal, "the SPIR-V module has no entry point");
-        constexpr const char* kStages[] = {"vertex",   "tess_control", "tess_evaluation",
-                                           "geometry", "fragment",     "compute"};
         const spv::ExecutionModel model = module_.entry_points.front().model;
-        if (model > spv::ExecutionModelGLCompute)
+        if (model >= kStages.size())
             return fail(Fault::internal, "the SPIR-V module is of an unknown kind of stage");
-        interface_.stages = {kStages[model]};
+        interface_.stages = {std::string(kStages[model])};
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
         if (!problem_.empty()) return fail(Fault::internal, problem_);
@@ -186,6 +177,10 @@ class Reflection {
     }
 
   private:
+    void stop(fmt::format_string<const std::string&> problem, const std::string& name) {
+        problem_ = fmt::format(problem, name);
+    }
+
     void add(const spirv::Variable& variable) {
         switch (variable.storage) {
             case spv::StorageClassUniform:
@@ -208,27 +203,21 @@ class Reflection {
         const std::vector<int> extents = array_extents(module_, variable.type);
         Block block;
         block.name = interface_name(module_, variable);
-        if (!check_block(structure, extents, block.name)) return;
-        block.binding = stated(module_, spv::DecorationBinding, variable.id);
-        block.size = static_cast<int>(block_size(module_, structure));
-        block.stages = interface_.stages;
+        if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
+            return stop("block '{}' of the SPIR-V module has no layout", block.name);
         block.members = members_of(module_, structure);
+        const std::int64_t size = block_size(block.members);
+        if (size > kLargest) return stop("block '{}' takes more than 2 GiB", block.name);
+        std::int64_t count = 1;
+        for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
+        if (count > kMostPlaces) return stop("block '{}' is an array of too many blocks", block.name);
+        block.binding = stated(module_, spv::DecorationBinding, variable.id);
+        block.size = static_cast<int>(size);
+        block.stages = interface_.stages;
         const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
                                 module_.decoration(structure, spv::DecorationBufferBlock);
         std::vector<Block>& blocks = is_storage ? interface_.storage_blocks : interface_.blocks;
         for (Block& element : elements_of(block, extents)) blocks.push_back(std::move(element));
-    }
-
-    bool check_block(Id structure, const std::vector<int>& extents, const std::string& name) {
-        std::int64_t count = 1;
-        for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
-        if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
-            problem_ = fmt::format("block '{}' of the SPIR-V module has no layout", name);
-        else if (block_size(module_, structure) > kLargest)
-            problem_ = fmt::format("block '{}' takes more than 2 GiB", name);
-        else if (count > kMostPlaces)
-            problem_ = fmt::format("block '{}' is an array of too many blocks", name);
-        return problem_.empty();
     }
 
     void add_uniform(const spirv::Variable& variable) {
@@ -250,10 +239,8 @@ class Reflection {
         const bool is_attribute =
             variable.storage == spv::StorageClassInput && interface_.stages.front() == "vertex";
         const std::string name = interface_name(module_, variable);
-        if (locations_of(module_, variable.type, is_attribute) > kMostPlaces) {
-            problem_ = fmt::format("variable '{}' takes too many locations", name);
-            return;
-        }
+        if (locations_of(module_, variable.type, is_attribute) > kMostPlaces)
+            return stop("variable '{}' takes too many locations", name);
         int location = stated(module_, spv::DecorationLocation, variable.id);
         add_paths(name, variable.type, location, is_attribute, list);
     }
