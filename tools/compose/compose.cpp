@@ -27,60 +27,47 @@ bool has(const List& list, const Item& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-/// The pieces read so far, each scanned once, and the resolution of includes to them. Whatever does not
-/// depend on the key is computed once.
+/// The pieces of a composition, each read and scanned once, and the resolution of includes to them. Whatever
+/// does not depend on the key is computed once.
 class PieceLibrary {
   public:
-    /// A file with what the composer asks of it again and again.
+    /// What the composer asks of a piece again and again.
     struct Entry {
-        Piece piece;
         std::string version;
         std::vector<Include> includes;
         std::vector<char> mentions;  ///< per identifier of interest
     };
 
-    PieceLibrary(const Family& family, const SearchPath& search, Comments comments)
-        : family_(family), search_(search), comments_(comments) {
+    PieceLibrary(const Family& family, const SearchPath& search, Comments comments, Composition& composition)
+        : family_(family), search_(search), comments_(comments), composition_(composition) {
         for (const Feature& feature : family.features)
             if (!feature.macro.empty()) interest_.push_back(feature.macro);
         for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
     }
 
-    /// The piece of a template or of a fixed include: PATH.STAGE.EXTENSION where there is one, else PATH.
-    Result<int> fixed(const std::string& path, StageKind stage, const Include& from) {
-        if (!stays_inside(path)) {
-            return fail_at(
-                from, fmt::format("the path '{}' leaves the folders searched", path),
-                "write a path relative to one of them, without '..' in front; name further folders with -I");
-        }
-        const bool is_template = from.place.line == 0;  // no line of a file includes it
-        GOBO_TRY(const std::optional<int> piece, first_of({with_infix(path, stage), path}));
-        if (piece) return *piece;
-        return missing(path, from, fmt::format("no {} '{}'", is_template ? "template" : "piece", path));
-    }
-
-    /// The piece that an include of a feature means for a value; nothing for a count of 0.
-    Result<std::optional<int>> chosen(const Include& include, const Key& key, StageKind stage) {
-        const std::string wanted = include.target.substr(0, include.target.find('/'));
-        const auto index = family_.index_of(wanted);
-        if (!index) {
+    /// The piece that an include means: of a feature, the one for its value, nothing for a count of 0.
+    Result<std::optional<int>> find(const Include& include, const Key& key, StageKind stage) {
+        const std::string name = include.target.substr(0, include.target.find('/'));
+        const std::optional<int> index = include.of_feature ? family_.index_of(name) : std::nullopt;
+        if (include.of_feature && !index) {
             std::vector<std::string> names = {"varyings"};
             for (const Feature& feature : family_.features) names.push_back(feature.name);
-            return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, wanted),
-                           suggestion(wanted, names));
+            return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, name),
+                           suggestion(name, names));
         }
-        const auto at = static_cast<std::size_t>(*index);
-        const auto choice = std::tuple(include.target, key[at], stage);
+        const auto at = static_cast<std::size_t>(index.value_or(0));
+        const auto choice = std::tuple(include.target, index ? key[at] : -1, stage);
         if (const auto known = by_choice_.find(choice); known != by_choice_.end()) return known->second;
-        GOBO_TRY(const std::optional<int> piece, find_value(include, family_.features[at], key[at], stage));
+        GOBO_TRY(
+            const std::optional<int> piece,
+            index ? find_value(include, family_.features[at], key[at], stage) : find_file(include, stage));
         return by_choice_[choice] = piece;
     }
 
     /// The number of a generated text; equal texts have equal numbers.
     int generated(Piece piece) {
-        const auto [at, is_new] =
-            by_generated_text_.try_emplace(piece.text, static_cast<int>(entries_.size()));
-        if (is_new) entries_.push_back({std::move(piece), {}, {}, std::vector<char>(interest_.size(), 0)});
+        const auto [at, is_new] = by_generated_text_.try_emplace(piece.text, -1);
+        if (is_new) at->second = add(std::move(piece), {{}, {}, std::vector<char>(interest_.size(), 0)});
         return at->second;
     }
 
@@ -88,27 +75,20 @@ class PieceLibrary {
 
     /// Whether one of the pieces mentions an identifier that the dialects' prologues or the family ask for.
     [[nodiscard]] bool mentions(const std::vector<int>& pieces, std::string_view identifier) const {
-        const auto index = static_cast<std::size_t>(
-            std::find(interest_.begin(), interest_.end(), identifier) - interest_.begin());
-        return index < interest_.size() && std::any_of(pieces.begin(), pieces.end(), [&](int piece) {
-                   return entry(piece).mentions[index] != 0;
-               });
-    }
-
-    /// Hands over pieces, files, bindings and warnings.
-    void move_to(Composition& composition) {
-        for (Entry& entry : entries_) {
-            if (entry.piece.on_disk) composition.files.push_back(entry.piece.path);
-            composition.pieces.push_back(std::move(entry.piece));
-        }
-        std::vector<std::string>& files = composition.files;
-        std::sort(files.begin(), files.end());
-        files.erase(std::unique(files.begin(), files.end()), files.end());
-        composition.stated_bindings = std::move(stated_bindings_);
-        composition.warnings = std::move(warnings_);
+        const auto index =
+            static_cast<std::size_t>(std::ranges::find(interest_, identifier) - interest_.begin());
+        return index < interest_.size() &&
+               std::ranges::any_of(pieces, [&](int piece) { return entry(piece).mentions[index] != 0; });
     }
 
   private:
+    int add(Piece piece, Entry entry) {
+        if (piece.on_disk) composition_.files.insert(piece.path);
+        composition_.pieces.push_back(std::move(piece));
+        entries_.push_back(std::move(entry));
+        return static_cast<int>(entries_.size()) - 1;
+    }
+
     /// "surface/normal.glsl" -> "surface/normal.frag.glsl"
     static std::string with_infix(const std::string& path, StageKind stage) {
         const auto dot = path.rfind('.');
@@ -125,21 +105,25 @@ class PieceLibrary {
         if (piece->file_text.empty()) piece->file_text = piece->text;
         GOBO_TRY(ScannedPiece scanned, scan_piece(std::move(piece->text), piece->path));
         piece->text = std::move(comments_ == Comments::keep ? scanned.text : scanned.code);
-        Entry entry{std::move(*piece), std::move(scanned.version), std::move(scanned.includes), {}};
+        Entry entry{std::move(scanned.version), std::move(scanned.includes), {}};
         for (const std::string& identifier : interest_)
             entry.mentions.push_back(scanned.identifiers.contains(identifier) ? 1 : 0);
-        entries_.push_back(std::move(entry));
-        stated_bindings_.merge(scanned.bindings);
-        warnings_.insert(warnings_.end(), scanned.warnings.begin(), scanned.warnings.end());
-        return by_path_[path] = static_cast<int>(entries_.size()) - 1;
+        composition_.stated_bindings.merge(scanned.bindings);
+        Diagnostics& warnings = composition_.warnings;
+        warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
+        return by_path_[path] = add(std::move(*piece), std::move(entry));
     }
 
-    Result<std::optional<int>> first_of(const std::vector<std::string>& paths) {
-        for (const std::string& path : paths) {
-            GOBO_TRY(const std::optional<int> piece, load(path));
-            if (piece) return piece;
-        }
-        return std::nullopt;
+    /// A template or a fixed piece: PATH.STAGE.EXTENSION where there is one, else PATH.
+    Result<std::optional<int>> find_file(const Include& include, StageKind stage) {
+        const std::string& path = include.target;
+        if (!stays_inside(path))
+            return fail_at(
+                include, fmt::format("the path '{}' leaves the folders searched", path),
+                "write a path relative to one of them, without '..' in front; name further folders with -I");
+        const bool is_template = include.place.line == 0;  // no line of a file includes it
+        return first_of({with_infix(path, stage), path}, path, include,
+                        fmt::format("no {} '{}'", is_template ? "template" : "piece", path));
     }
 
     Result<std::optional<int>> find_value(const Include& include, const Feature& feature, int value,
@@ -152,34 +136,36 @@ class PieceLibrary {
         std::vector<std::string> candidates = {with_infix(path, stage), path};
         // `#include <feature/part>`: values without a file of their own share FEATURE/PART.glsl.
         if (include.target.find('/') != std::string::npos) candidates.push_back(include.target + ".glsl");
-        GOBO_TRY(const std::optional<int> piece, first_of(candidates));
-        if (piece) return piece;
-        return missing(path, include,
-                       is_count ? fmt::format("count '{}' has no piece '{}'", feature.name, path)
-                                : fmt::format("value '{}' of feature '{}' has no piece '{}'", value_name,
-                                              feature.name, path));
+        return first_of(candidates, path, include,
+                        is_count ? fmt::format("count '{}' has no piece '{}'", feature.name, path)
+                                 : fmt::format("value '{}' of feature '{}' has no piece '{}'", value_name,
+                                               feature.name, path));
     }
 
-    tl::unexpected<Diagnostics> missing(const std::string& wanted, const Include& from,
-                                        std::string message) const {
+    /// The first of the files that there is; otherwise an error that names the nearest to `wanted`.
+    Result<std::optional<int>> first_of(const std::vector<std::string>& paths, const std::string& wanted,
+                                        const Include& include, std::string message) {
+        for (const std::string& path : paths) {
+            GOBO_TRY(const std::optional<int> piece, load(path));
+            if (piece) return piece;
+        }
         std::string help = fmt::format("searched {}", join(search_.folders(), ", "));
         if (const auto near = nearest(wanted, search_.all_include_paths()))
             help += fmt::format("; nearest: '{}'", *near);
-        return fail_at(from, std::move(message), std::move(help));
+        return fail_at(include, std::move(message), std::move(help));
     }
 
     const Family& family_;
     const SearchPath& search_;
     Comments comments_;
+    Composition& composition_;
     /// What mentions() is asked for.
     std::vector<std::string> interest_ = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
                                           "SAMPLER", "DEPTH",   "early_fragment_tests"};
     std::deque<Entry> entries_;  ///< not a vector: who holds an entry may load more of them
-    std::map<std::string, int> stated_bindings_;
-    Diagnostics warnings_;
     std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
     std::map<std::string, int, std::less<>> by_generated_text_;
-    /// Target of the include, value, stage.
+    /// Target of the include, value (-1 where it names a file), stage.
     std::map<std::tuple<std::string, int, StageKind>, std::optional<int>, std::less<>> by_choice_;
 };
 
@@ -196,42 +182,35 @@ struct Placement {
 class Composer {
   public:
     Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments)
-        : family_(family), library_(family, search, comments) {
+        : family_(family), library_(family, search, comments, composition_) {
         composition_.dialect = dialect;
     }
 
     Result<void> add(const Key& key) {
         Placement fragment{key, StageKind::fragment, nullptr};
-        GOBO_TRY_DO(place_template(fragment, family_.fragment));
+        GOBO_TRY_DO(follow_template(fragment, family_.fragment));
         const std::vector<int> read = varyings_read(fragment.placed);
         Placement vertex{key, StageKind::vertex, &read};
-        GOBO_TRY_DO(place_template(vertex, family_.vertex));
+        GOBO_TRY_DO(follow_template(vertex, family_.vertex));
         const int vertex_stage = finish(vertex, read);
         composition_.permutations.push_back({key, vertex_stage, finish(fragment, read)});
         return {};
     }
 
-    Composition result() && {
-        library_.move_to(composition_);
-        return std::move(composition_);
-    }
+    Composition result() && { return std::move(composition_); }
 
   private:
-    Result<void> place_template(Placement& placement, const std::string& path) {
-        if (path.empty()) return {};
-        const Include from{false, path, {family_.path, 0, 0}, ""};
-        GOBO_TRY(const int piece, library_.fixed(path, placement.stage, from));
-        return place(placement, piece, from);
+    Result<void> follow_template(Placement& placement, const std::string& path) {
+        return path.empty() ? Result<void>() : follow(placement, {false, path, {family_.path, 0, 0}, ""});
     }
 
     /// Places a piece after everything it includes, once.
     Result<void> place(Placement& placement, int piece, const Include& from) {
         if (has(placement.placed, piece)) return {};
         if (has(placement.open, piece)) return cycle(placement, piece, from);
-        if (placement.open.size() > kDeepestInclude) {
+        if (placement.open.size() > kDeepestInclude)
             return fail_at(from, fmt::format("includes are nested more than {} deep", kDeepestInclude),
                            "include the piece from the template");
-        }
         placement.open.push_back(piece);
         for (const Include& include : library_.entry(piece).includes) GOBO_TRY_DO(follow(placement, include));
         placement.open.pop_back();
@@ -242,11 +221,7 @@ class Composer {
     Result<void> follow(Placement& placement, const Include& include) {
         if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings"))
             return follow_varyings(placement);
-        if (!include.of_feature) {
-            GOBO_TRY(const int piece, library_.fixed(include.target, placement.stage, include));
-            return place(placement, piece, include);
-        }
-        GOBO_TRY(const std::optional<int> piece, library_.chosen(include, placement.key, placement.stage));
+        GOBO_TRY(const std::optional<int> piece, library_.find(include, placement.key, placement.stage));
         return piece ? place(placement, *piece, include) : Result<void>{};
     }
 
@@ -257,10 +232,8 @@ class Composer {
         placement.wants_varyings = true;
         for (const int index : *placement.varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
-            if (varying.piece.empty()) continue;
-            const Include needed{false, varying.piece, varying.place, ""};  // the family file asks for it
-            GOBO_TRY(const int piece, library_.fixed(varying.piece, placement.stage, needed));
-            GOBO_TRY_DO(place(placement, piece, needed));
+            if (!varying.piece.empty())  // the family file asks for it
+                GOBO_TRY_DO(follow(placement, {false, varying.piece, varying.place, ""}));
         }
         placement.placed.push_back(
             library_.generated(varyings_piece(*placement.varyings, placement.key, StageKind::vertex)));
@@ -271,8 +244,8 @@ class Composer {
         std::string path;
         for (auto at = std::find(placement.open.begin(), placement.open.end(), piece);
              at != placement.open.end(); ++at)
-            path += library_.entry(*at).piece.name + " -> ";
-        return fail_at(from, "include cycle: " + path + library_.entry(piece).piece.name,
+            path += composition_.piece(*at).name + " -> ";
+        return fail_at(from, "include cycle: " + path + composition_.piece(piece).name,
                        "move what both need into a piece of its own");
     }
 
@@ -358,8 +331,8 @@ class Composer {
     }
 
     const Family& family_;
-    PieceLibrary library_;
     Composition composition_;
+    PieceLibrary library_;
     std::map<std::vector<int>, int> numbers_;
 };
 
@@ -398,13 +371,12 @@ Diagnostics same_stages(const Family& family, const Composition& composition) {
                               key_text(family, at->second->key), key_text(family, permutation.key));
     }
     if (example.empty()) return {};
-    Diagnostic diagnostic;
-    diagnostic.severity = Severity::warning;
-    diagnostic.place.file = family.path;
-    diagnostic.message = more == 0 ? example : fmt::format("{}; so do {} more", example, more);
-    diagnostic.help =
-        "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there";
-    return {diagnostic};
+    Diagnostics warnings =
+        fail({family.path, 0, 0}, "", more == 0 ? example : fmt::format("{}; so do {} more", example, more),
+             "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there")
+            .value();
+    warnings.front().severity = Severity::warning;
+    return warnings;
 }
 
 }  // namespace gobo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,7 +62,7 @@ struct Composition {
     std::vector<Piece> pieces;
     std::vector<Stage> stages;
     std::vector<Permutation> permutations;  ///< in the order of the keys asked for
-    std::vector<std::string> files;         ///< every file on disk that was read, sorted: for the depfile
+    std::set<std::string> files;            ///< every file on disk that was read: for the depfile
     /// Bindings that pieces state by BLOCK(binding, name) and SAMPLER(binding, type) name, by name: some
     /// dialects' text cannot carry them.
     std::map<std::string, int> stated_bindings;

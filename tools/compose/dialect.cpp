@@ -20,27 +20,19 @@ struct Macro {
     std::string_view es300;
 };
 
+constexpr std::string_view kBoundBlock = "layout(std140, binding = binding_) uniform name_";
 constexpr std::string_view kPlainBlock = "layout(std140) uniform name_";
+constexpr std::string_view kBoundSampler = "layout(binding = binding_) uniform type_";
 constexpr std::string_view kInput = "layout(location = location_) in";
 constexpr std::string_view kOutput = "layout(location = location_) out";
 constexpr std::string_view kDepth = "layout(qualifier_)";
 constexpr Macro kMacros[] = {
-    {"BLOCK",
-     "binding_, name_",
-     {},
-     "layout(std140, binding = binding_) uniform name_",
-     kPlainBlock,
-     kPlainBlock},
+    {"BLOCK", "binding_, name_", {}, kBoundBlock, kPlainBlock, kPlainBlock},
     {"VARYING", "location_", StageKind::vertex, kOutput, "out", "out"},
     {"VARYING", "location_", StageKind::fragment, kInput, "in", "in"},
     {"ATTRIBUTE", "location_", {}, kInput, kInput, kInput},
     {"OUTPUT", "location_", {}, kOutput, kOutput, kOutput},
-    {"SAMPLER",
-     "binding_, type_",
-     {},
-     "layout(binding = binding_) uniform type_",
-     "uniform type_",
-     "uniform highp type_"},
+    {"SAMPLER", "binding_, type_", {}, kBoundSampler, "uniform type_", "uniform highp type_"},
     {"DEPTH", "qualifier_", {}, kDepth, kDepth, kDepth},
 };
 
@@ -59,8 +51,7 @@ constexpr DialectRow kDialects[] = {
 
 /// That of Dialect::own is 450's.
 const DialectRow& row_of(Dialect dialect) {
-    const auto row = std::find_if(std::begin(kDialects), std::end(kDialects),
-                                  [&](const DialectRow& other) { return other.dialect == dialect; });
+    const auto* const row = std::ranges::find(kDialects, dialect, &DialectRow::dialect);
     return row == std::end(kDialects) ? kDialects[0] : *row;
 }
 

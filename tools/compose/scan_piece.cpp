@@ -88,9 +88,8 @@ std::map<std::string, int> bindings_of(const std::string& bare) {
     static const std::regex sampler(R"(\bSAMPLER\s*\(\s*(\d{1,6})\s*,\s*\w+\s*\)\s*(\w+))");
     std::map<std::string, int> bindings;
     for (const std::regex* pattern : {&block, &sampler}) {
-        for (std::sregex_iterator at(bare.begin(), bare.end(), *pattern), end; at != end; ++at) {
+        for (std::sregex_iterator at(bare.begin(), bare.end(), *pattern), end; at != end; ++at)
             bindings[(*at)[2]] = std::stoi((*at)[1]);
-        }
     }
     return bindings;
 }
@@ -104,14 +103,14 @@ Diagnostics unstated_layouts(const std::string& bare, std::string_view text, con
     if (std::regex_search(bare, by_default)) return warnings;
     for (std::sregex_iterator at(bare.begin(), bare.end(), block), end; at != end; ++at) {
         if ((*at)[2].str().find("std140") != std::string::npos) continue;
-        Diagnostic diagnostic;
-        diagnostic.severity = Severity::warning;
-        diagnostic.place = {path, line_at(bare, static_cast<std::size_t>(at->position(3))), 0};
-        diagnostic.quoted_line = line_of(text, diagnostic.place.line);
-        diagnostic.message = fmt::format(
-            "the uniform block '{}' does not state std140: drivers lay it out as they like", (*at)[3].str());
-        diagnostic.help = "write layout(std140) before uniform, or ask the driver for every offset";
-        warnings.push_back(std::move(diagnostic));
+        const int line = line_at(bare, static_cast<std::size_t>(at->position(3)));
+        const auto warning =
+            fail({path, line, 0}, line_of(text, line),
+                 fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
+                             (*at)[3].str()),
+                 "write layout(std140) before uniform, or ask the driver for every offset");
+        warnings.push_back(warning.value().front());
+        warnings.back().severity = Severity::warning;
     }
     return warnings;
 }
@@ -144,10 +143,9 @@ Result<Include> parse_include(std::string_view rest, const Place& place, std::st
     const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
     const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
     const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
-    if (target.empty() || (angle && !is_feature_or_part(target))) {
+    if (target.empty() || (angle && !is_feature_or_part(target)))
         return fail(place, shown, "malformed #include",
                     "write #include <feature> or #include \"folder/piece.glsl\"");
-    }
     return Include{angle, target, place, std::string(shown)};
 }
 
@@ -203,10 +201,9 @@ class Scanner {
         }
         if (directive == "version") result_.version = rest;
         if (directive == "include") {
-            if (seen_code_) {
+            if (seen_code_)
                 return fail(place, shown, "#include after code",
                             "includes stand at the top of a piece, after comments only");
-            }
             GOBO_TRY(Include include, parse_include(rest, place, shown));
             result_.includes.push_back(std::move(include));
         }

@@ -1,6 +1,7 @@
 #include "compose/search_path.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -48,11 +49,9 @@ std::optional<std::string> section_of(const std::string& text, const std::string
     return has_code ? std::optional(std::move(section)) : std::nullopt;
 }
 
-/// "a/b.frag" -> "a" and "b.frag"; of a file in the root "/".
-std::pair<std::string, std::string> folder_and_name(const std::string& path) {
-    const auto slash = path.rfind('/');
-    if (slash == std::string::npos) return {"", path};
-    return {path.substr(0, std::max<std::size_t>(slash, 1)), path.substr(slash + 1)};
+/// "a/b.frag" -> "b.frag"
+std::string name_of_file(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
 }
 
 /// The stage that a file's name tells: .vert or .frag, also with .glsl behind; nothing for any other name.
@@ -82,9 +81,8 @@ void SearchPath::add(const FileSystem& files, std::string folder, std::string na
 }
 
 void SearchPath::add_file(const FileSystem& files, const std::string& path) {
-    auto [folder, name] = folder_and_name(path);
     roots_.insert(roots_.begin() + static_cast<std::ptrdiff_t>(named_files_++),
-                  {&files, std::move(folder), "", true, std::move(name)});
+                  {&files, folder_of(path), "", true, name_of_file(path)});
 }
 
 Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) const {
@@ -130,32 +128,30 @@ std::vector<std::string> SearchPath::folders() const {
 }
 
 std::vector<std::string> SearchPath::all_include_paths() const {
-    std::vector<std::string> paths;
+    std::set<std::string> paths;
     for (const Root& root : roots_) {
         if (!root.only.empty()) continue;
         const std::string folder = root.on_disk && root.folder.empty() ? "." : root.folder;
         for (const std::string& file : root.files->files_below(folder)) {
-            paths.push_back(file);
+            paths.insert(file);
             if (!file.ends_with(kExtension)) continue;
+            const std::string stem = file.substr(0, file.size() - kExtension.size());
             const Result<std::string> text = root.files->read(folder.empty() ? file : folder + "/" + file);
             for_each_line(text.value_or(""), [&](std::string_view line) {
                 if (const auto mark = marked(line))
-                    paths.push_back(fmt::format("{}/{}{}", file.substr(0, file.size() - kExtension.size()),
-                                                *mark, kExtension));
+                    paths.insert(fmt::format("{}/{}{}", stem, *mark, kExtension));
                 return true;
             });
         }
     }
-    std::sort(paths.begin(), paths.end());
-    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-    return paths;
+    return {paths.begin(), paths.end()};
 }
 
 bool is_shader_file(const std::string& path) {
     constexpr std::string_view extensions[] = {".vert", ".frag", ".glsl", ".geom", ".comp",
                                                ".tesc", ".tese", ".vs",   ".fs"};
-    return std::any_of(std::begin(extensions), std::end(extensions),
-                       [&](std::string_view extension) { return path.ends_with(extension); });
+    return std::ranges::any_of(extensions,
+                               [&](std::string_view extension) { return path.ends_with(extension); });
 }
 
 Result<Family> family_of_files(const std::vector<std::string>& paths, const FileSystem& files,
@@ -164,20 +160,17 @@ Result<Family> family_of_files(const std::vector<std::string>& paths, const File
     family.name = "files";
     for (const std::string& path : paths) {
         const auto stage = stage_of_file(path);
-        if (!stage) {
+        if (!stage)
             return fail(Fault::usage, fmt::format("'{}' does not tell its stage", path),
                         "name vertex stages *.vert or *.vert.glsl, fragment stages *.frag or *.frag.glsl");
-        }
         if (!files.is_file(path)) return tl::unexpected(files.read(path).error());
         std::string& slot = *stage == StageKind::vertex ? family.vertex : family.fragment;
-        if (!slot.empty()) {
+        if (!slot.empty())
             return fail(Fault::usage, fmt::format("'{}' is a second {} stage", path, name_of(*stage)),
                         "name at most one file of each stage");
-        }
-        const auto [folder, name] = folder_and_name(path);
-        slot = name;
+        slot = name_of_file(path);
         search.add_file(files, path);
-        search.add(files, folder, "", true);
+        search.add(files, folder_of(path), "", true);
         if (family.path.empty()) family.path = path;
     }
     return family;
