@@ -12,7 +12,6 @@
 #include "family/family.hpp"
 #include "lab/evaluate/evaluate.hpp"
 #include "lab/sanitize/machine.hpp"
-#include "validate/glslang_stage.hpp"
 
 namespace gobo {
 
@@ -70,7 +69,6 @@ class LitUnderTest {
   private:
     [[nodiscard]] const evaluate::Program& program(int stage) const;
 
-    std::shared_ptr<GlslangProcess> glslang_ = std::make_shared<GlslangProcess>();  ///< keeps its tables
     Family family_;
     Composition composition_;
     /// Of each stage of the composition; null until it is first asked for: whoever stops at the first fault

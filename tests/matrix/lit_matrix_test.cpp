@@ -18,7 +18,6 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
-#include "validate/glslang_stage.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -168,7 +167,7 @@ TEST(Unmentioned, SeesFunctionsStructsAndGlobals) {
 }
 
 TEST(LitMatrixText, NothingIsDefinedInVain) {
-    const GlslangProcess process;
+    glslang::InitializeProcess();
     const Composition composition = compose_lit(cover_of_three(), Dialect::glsl450);
     std::set<std::string> unused;
     for (const Stage& stage : composition.stages) {

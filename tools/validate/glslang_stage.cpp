@@ -106,9 +106,8 @@ bool has_errors(const Diagnostics& diagnostics) {
 /// others.
 std::map<std::string, int> stated_bindings(const glslang::TProgram& program) {
     std::map<std::string, int> bindings;
-    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i)
         bindings[program.getUniformBlock(i).name] = program.getUniformBlock(i).getBinding();
-    }
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const glslang::TObjectReflection& uniform = program.getUniform(i);
         const std::string name = uniform.name.substr(0, uniform.name.find('['));
@@ -119,9 +118,8 @@ std::map<std::string, int> stated_bindings(const glslang::TProgram& program) {
 
 GlTypes gl_types(const glslang::TProgram& program) {
     GlTypes types;
-    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+    for (int i = 0; i < program.getNumUniformVariables(); ++i)
         types[program.getUniform(i).name] = program.getUniform(i).glDefineType;
-    }
     return types;
 }
 
@@ -134,8 +132,9 @@ void forget_assigned(std::vector<Bound>& list, const std::map<std::string, int>&
 
 bool lacks_locations(const Interface& interface) {
     const auto lacks = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(),
-                           [](const auto& variable) { return variable.location < 0; });
+        return std::ranges::any_of(
+            list, [](int location) { return location < 0; },
+            [](const auto& variable) { return variable.location; });
     };
     return lacks(interface.inputs) || lacks(interface.outputs) || lacks(interface.uniforms);
 }
@@ -168,14 +167,6 @@ tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
 
 }  // namespace
 
-GlslangProcess::GlslangProcess() {
-    glslang::InitializeProcess();
-}
-
-GlslangProcess::~GlslangProcess() {
-    glslang::FinalizeProcess();
-}
-
 /// glslang's shader with the strings it points into.
 struct GlslangStage::Shader {
     explicit Shader(EShLanguage language) : shader(language) {}
@@ -192,19 +183,20 @@ GlslangStage::GlslangStage(StageKind kind, std::vector<const Piece*> pieces)
 
 GlslangStage::~GlslangStage() = default;
 
-std::unique_ptr<GlslangStage::Shader> GlslangStage::parse_as(const std::string& prologue, bool for_spirv,
-                                                             bool map_bindings) {
-    auto parsed = std::make_unique<Shader>(language_of(kind_));
-    parsed->prologue = prologue;
+Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, bool map_bindings) {
+    // Its tables are kept for the next composition.
+    [[maybe_unused]] static const bool is_initialized = glslang::InitializeProcess();
+    shader_ = std::make_unique<Shader>(language_of(kind_));
+    shader_->prologue = prologue;
     for (const Piece* piece : pieces_) {
-        const std::string& text = piece == pieces_.front() ? parsed->prologue : piece->text;
-        parsed->texts.push_back(text.data());
-        parsed->lengths.push_back(static_cast<int>(text.size()));
-        parsed->names.push_back(piece->path.c_str());
+        const std::string& text = piece == pieces_.front() ? shader_->prologue : piece->text;
+        shader_->texts.push_back(text.data());
+        shader_->lengths.push_back(static_cast<int>(text.size()));
+        shader_->names.push_back(piece->path.c_str());
     }
-    glslang::TShader& shader = parsed->shader;
-    shader.setStringsWithLengthsAndNames(parsed->texts.data(), parsed->lengths.data(), parsed->names.data(),
-                                         static_cast<int>(parsed->texts.size()));
+    glslang::TShader& shader = shader_->shader;
+    shader.setStringsWithLengthsAndNames(shader_->texts.data(), shader_->lengths.data(),
+                                         shader_->names.data(), static_cast<int>(shader_->texts.size()));
     if (for_spirv) {
         shader.setEnvInput(glslang::EShSourceGlsl, language_of(kind_), glslang::EShClientOpenGL, 100);
         shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
@@ -215,30 +207,24 @@ std::unique_ptr<GlslangStage::Shader> GlslangStage::parse_as(const std::string& 
     bindings_mapped_ = map_bindings;
     const bool is_fine =
         shader.parse(GetDefaultResources(), 110, false, for_spirv ? kSpirvRules : EShMsgDefault);
-    diagnostics_ = diagnostics_of_log(shader.getInfoLog(), pieces_, {pieces_.back()->path, 0, 0});
-    if (!is_fine && !has_errors(diagnostics_)) {
-        diagnostics_ = fail(Fault::internal, "glslang refuses a stage without saying why").value();
-    }
-    return parsed;
+    const Diagnostics found = diagnostics_of_log(shader.getInfoLog(), pieces_, {pieces_.back()->path, 0, 0});
+    if (is_fine || has_errors(found)) return found;
+    return fail(Fault::internal, "glslang refuses a stage without saying why").value();
 }
 
-bool GlslangStage::parse() {
+Diagnostics GlslangStage::parse() {
     const std::string& prologue = pieces_.front()->text;
     const GlslVersion version = version_of(prologue);
-    if (!makes_spirv(version)) {
-        parse_as(prologue, false, false);
-        if (has_errors(diagnostics_)) return false;
-        const Diagnostics own = std::move(diagnostics_);
-        shader_ = parse_as(raised_for_spirv(prologue), true, true);
-        const bool is_fine = !has_errors(diagnostics_);
-        diagnostics_ = is_fine ? own : explained(std::move(diagnostics_), version);
-        return is_fine;
+    if (makes_spirv(version)) {
+        const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
+        const Diagnostics found = parse_as(prologue, true, !can_state_bindings);
+        // That a binding is not stated is an error unless glslang may choose it.
+        return has_errors(found) && can_state_bindings ? parse_as(prologue, true, true) : found;
     }
-    const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
-    shader_ = parse_as(prologue, true, !can_state_bindings);
-    // That a binding is not stated is an error unless glslang may choose it.
-    if (has_errors(diagnostics_) && can_state_bindings) shader_ = parse_as(prologue, true, true);
-    return !has_errors(diagnostics_);
+    const Diagnostics own = parse_as(prologue, false, false);
+    if (has_errors(own)) return own;
+    const Diagnostics raised = parse_as(raised_for_spirv(prologue), true, true);
+    return has_errors(raised) ? explained(raised, version) : own;
 }
 
 Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {

@@ -9,28 +9,15 @@
 
 namespace gobo {
 
-/// glslang's process-wide tables, for as long as an object of this type lives.
-class GlslangProcess {
-  public:
-    GlslangProcess();
-    GlslangProcess(const GlslangProcess&) = delete;
-    GlslangProcess& operator=(const GlslangProcess&) = delete;
-    ~GlslangProcess();
-};
-
 /// A parsed stage. The pieces must outlive it. Not safe for use by two threads at once.
 class GlslangStage {
   public:
     GlslangStage(StageKind kind, std::vector<const Piece*> pieces);
-    GlslangStage(const GlslangStage&) = delete;
-    GlslangStage& operator=(const GlslangStage&) = delete;
     ~GlslangStage();
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
-    /// own rules, then raised. False where the stage has errors.
-    bool parse();
-    /// Of parse().
-    [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
+    /// own rules, then raised. What glslang says of it.
+    Diagnostics parse();
 
     /// The SPIR-V of the parsed stage, unstated locations and bindings assigned, and its interface, where
     /// unstated ones are -1.
@@ -42,15 +29,12 @@ class GlslangStage {
   private:
     struct Shader;
 
-    std::unique_ptr<Shader> parse_as(const std::string& prologue, bool for_spirv, bool map_bindings);
+    Diagnostics parse_as(const std::string& prologue, bool for_spirv, bool map_bindings);
 
     StageKind kind_;
     std::vector<const Piece*> pieces_;
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
-    Diagnostics diagnostics_;
 };
-
-[[nodiscard]] Diagnostics link(GlslangStage& vertex, GlslangStage& fragment);
 
 }  // namespace gobo

@@ -6,12 +6,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 #include <spirv-tools/libspirv.hpp>
 
+#include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "reflect/interface.hpp"
 #include "spirv/glsl_type.hpp"
@@ -47,10 +47,8 @@ Interface stage_interface(const Validated& validated, int stage) {
 Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
     Diagnostics found;
     const auto add = [&](std::string message) {
-        Diagnostic& diagnostic = found.emplace_back();
-        diagnostic.fault = Fault::internal;
-        diagnostic.place = place;
-        diagnostic.message = std::move(message);
+        append(found, fail(place, "", std::move(message)).value());
+        found.back().fault = Fault::internal;
     };
     spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
     tools.SetMessageConsumer(
@@ -122,7 +120,7 @@ Diagnostics unwritten_inputs(const Interface& vertex, const Interface& fragment,
             return input.location >= 0 && output.location >= 0 ? input.location == output.location
                                                                : input.name == output.name;
         };
-        if (std::any_of(vertex.outputs.begin(), vertex.outputs.end(), writes)) continue;
+        if (std::ranges::any_of(vertex.outputs, writes)) continue;
         append(found,
                fail(place, "",
                     fmt::format("the fragment stage reads '{} {}', which the vertex stage does not write",
@@ -149,19 +147,21 @@ class Validator {
     }
 
     /// Works off all pairs by several threads.
-    void run() {
-        const GlslangProcess process;
-        std::atomic<std::size_t> next = 0;
-        const auto work = [&] {
-            for (std::size_t i = next++; i < pairs_.size(); i = next++) validate_pair(i);
-        };
-        if (!pairs_.empty())
-            validate_pair(next++);  // alone: it builds glslang's tables for the version, once
-        std::vector<std::jthread> threads;
-        for (int i = 1; i < std::min<int>(options_.jobs, static_cast<int>(pairs_.size())); ++i)
-            threads.emplace_back(work);
-        work();
+    Validated run(const Family& family) {
+        if (!pairs_.empty()) {
+            validate_pair(0);  // alone: it builds glslang's tables for the version, once
+            parallel_for(options_.jobs, pairs_.size() - 1, [&](std::size_t i) { validate_pair(i + 1); });
+        }
+        DiagnosticGroups groups(family);
+        for (const Permutation& permutation : composition_.permutations)
+            for (const Diagnostic& diagnostic : diagnostics_of(permutation))
+                groups.add(diagnostic, permutation.key);
+        validated_.diagnostics = groups.result();
+        return std::move(validated_);
     }
+
+  private:
+    Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
 
     /// What glslang said of a permutation's stages and of the pair, and what lies beyond the dialect's
     /// limits.
@@ -179,11 +179,6 @@ class Validator {
         if (vertex >= 0 && fragment >= 0) append(all, unwritten_inputs(of_vertex, of_fragment, place));
         return all;
     }
-
-    [[nodiscard]] Validated take_result() { return std::move(validated_); }
-
-  private:
-    Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
 
     [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
         std::vector<const Piece*> pieces;
@@ -214,9 +209,8 @@ class Validator {
         const std::scoped_lock lock(at.mutex);
         if (std::exchange(at.is_parsed, true)) return at.is_fine;
         at.glslang = std::make_unique<GlslangStage>(composition_.stage(stage).kind, pieces_of(stage));
-        at.is_fine = at.glslang->parse();
-        at.diagnostics = at.glslang->diagnostics();
-        return at.is_fine;
+        at.diagnostics = at.glslang->parse();
+        return at.is_fine = exit_status(at.diagnostics) == 0;
     }
 
     /// The last pair of a stage makes its SPIR-V: glslang assigns locations then, which would disturb later
@@ -262,15 +256,7 @@ class Validator {
 }  // namespace
 
 Validated validate(const Family& family, const Composition& composition, const ValidateOptions& options) {
-    Validator validator(composition, options);
-    validator.run();
-    DiagnosticGroups groups(family);
-    for (const Permutation& permutation : composition.permutations)
-        for (const Diagnostic& diagnostic : validator.diagnostics_of(permutation))
-            groups.add(diagnostic, permutation.key);
-    Validated result = validator.take_result();
-    result.diagnostics = groups.result();
-    return result;
+    return Validator(composition, options).run(family);
 }
 
 Interface interface_of(const Validated& validated, const Permutation& permutation) {
