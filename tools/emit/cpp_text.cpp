@@ -20,59 +20,47 @@ constexpr std::size_t kLongestEscape = 4;
 /// compilers and the standard library (`linux` and `unix` in GNU mode), <windows.h>, <X11/Xlib.h>.
 constexpr std::string_view kReserved =
     " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t "
-    "class "
-    "co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue "
-    "decltype "
-    "default delete do double dynamic_cast else enum explicit export extern false float for friend goto if "
-    "inline "
-    "int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public "
-    "register reinterpret_cast requires return short signed sizeof static static_assert static_cast struct "
-    "switch "
-    "template this thread_local throw true try typedef typeid typename union unsigned using virtual void "
-    "volatile "
-    "wchar_t while xor xor_eq "
+    "class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit "
+    "continue decltype default delete do double dynamic_cast else enum explicit export extern false float "
+    "for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq "
+    "private protected public register reinterpret_cast requires return short signed sizeof static "
+    "static_assert static_cast struct switch template this thread_local throw true try typedef typeid "
+    "typename union unsigned using virtual void volatile wchar_t while xor xor_eq "
     "EOF INFINITY NAN NULL assert errno i386 linux major minor offsetof stderr stdin stdout unix "
     "ABSOLUTE ALTERNATE CONST DELETE DIFFERENCE DOMAIN ERROR FALSE FAR IGNORE IN INFINITE NEAR OPAQUE "
-    "OPTIONAL OUT "
-    "OVERFLOW RELATIVE STRICT THIS TRANSPARENT TRUE UNDERFLOW VOID WINDING cdecl far hyper interface near "
-    "pascal "
-    "small "
+    "OPTIONAL OUT OVERFLOW RELATIVE STRICT THIS TRANSPARENT TRUE UNDERFLOW VOID WINDING cdecl far hyper "
+    "interface near pascal small "
     "Above Always Below Bool Complex Convex CurrentTime DirectColor Expose False FocusIn FocusOut GrayScale "
     "KeyPress KeyRelease LSBFirst MSBFirst None Nonconvex StaticColor StaticGray Status Success True "
-    "TrueColor "
-    "Unsorted ";
+    "TrueColor Unsorted ";
 
 bool is_plain(char character) {
     return (character >= ' ' && character <= '~') || character == '\n' || character == '\t';
 }
 
 bool fits_raw_literal(std::string_view text) {
-    return text.find('\n') != std::string_view::npos && std::all_of(text.begin(), text.end(), is_plain);
+    return text.find('\n') != std::string_view::npos && std::ranges::all_of(text, is_plain);
 }
 
 std::string raw_literal(std::string_view text) {
     std::string delimiter = "gobo";
     // At most 16 characters are allowed; a text would have to hold thousands of these to get there.
-    for (int number = 2; text.find(")" + delimiter + "\"") != std::string_view::npos; ++number) {
+    for (int number = 2; text.find(")" + delimiter + "\"") != std::string_view::npos; ++number)
         delimiter = fmt::format("gobo{}", number);
-    }
     return fmt::format("R\"{0}({1}){0}\"", delimiter, text);
 }
 
 std::string escaped_literal(std::string_view text) {
     std::string literal = "\"";
     for (const char character : text) {
-        if (character == '"' || character == '\\') {
-            literal += '\\';
-            literal += character;
-        } else if (character == '\n') {
+        if (character == '"' || character == '\\')
+            literal += {'\\', character};
+        else if (character == '\n')
             literal += "\\n";
-        } else if (is_plain(character) && character != '\t' && character != '?') {
+        else if (is_plain(character) && character != '\t' && character != '?')
             literal += character;
-        } else {
-            // Three octal digits end by themselves, unlike hexadecimal ones; '?' would start a trigraph.
+        else  // three octal digits end by themselves, unlike hexadecimal ones; '?' would start a trigraph
             literal += fmt::format("\\{:03o}", static_cast<unsigned char>(character));
-        }
     }
     return literal + '"';
 }

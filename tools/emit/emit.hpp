@@ -2,6 +2,7 @@
 // its depfile.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,13 +32,12 @@ struct EmitInput {
     std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
 };
 
-/// The templates of a generated header.
-struct HeaderTemplates {
-    TextTemplate header;
-    TextTemplate structure;  ///< a uniform block, or a struct within one
-};
+/// The templates that a generated header is filled from, by name: "header", and "struct" and others for what
+/// it holds several of.
+using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 
-/// Reads them from `folder` (templates/header of the sources, or of the library in the executable).
+/// Reads NAME.hpp.in for each from `folder` (templates/header of the sources, or of the library in the
+/// executable).
 [[nodiscard]] Result<HeaderTemplates> read_header_templates(const FileSystem& files,
                                                             const std::string& folder);
 

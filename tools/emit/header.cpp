@@ -22,10 +22,9 @@ Result<std::string> namespace_of(const EmitInput& input) {
     std::string_view rest = input.cpp_namespace;
     while (true) {
         const auto end = rest.find("::");
-        if (!is_cpp_identifier(rest.substr(0, end))) {
+        if (!is_cpp_identifier(rest.substr(0, end)))
             return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
                         "use identifiers with '::' between them, such as game::shaders");
-        }
         if (end == std::string_view::npos) return input.cpp_namespace;
         rest.remove_prefix(end + 2);
     }
@@ -35,10 +34,10 @@ Result<std::string> namespace_of(const EmitInput& input) {
 
 Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
     HeaderTemplates templates;
-    templates.header.name = folder + "/header.hpp.in";
-    templates.structure.name = folder + "/struct.hpp.in";
-    for (TextTemplate* part : {&templates.header, &templates.structure}) {
-        GOBO_TRY(part->text, files.read(part->name));
+    for (const char* name : {"bytes", "check", "header", "struct", "taker"}) {
+        TextTemplate& part = templates[name];
+        part.name = fmt::format("{}/{}.hpp.in", folder, name);
+        GOBO_TRY(part.text, files.read(part.name));
     }
     return templates;
 }
@@ -72,14 +71,15 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     CppScope scope({taken.begin(), taken.end()});
     const CppKey key = name_key(family, scope);
     std::vector<Rule> rules;
-    std::copy_if(family.rules.begin(), family.rules.end(), std::back_inserter(rules),
-                 [&](const Rule& rule) { return applies_in(rule, name_of(input.composition.dialect)); });
-    key_section(rules, key, values);
+    std::ranges::copy_if(family.rules, std::back_inserter(rules), [&](const Rule& rule) {
+        return applies_in(rule, name_of(input.composition.dialect));
+    });
+    GOBO_TRY_DO(key_section(rules, key, templates, values));
     const Interface interface = with_places(input.interface);
-    GOBO_TRY_DO(block_section(interface.blocks, family.domains, templates.structure, scope, values));
+    GOBO_TRY_DO(block_section(interface.blocks, family.domains, templates, scope, values));
     interface_section(interface, family.domains, values);
     permutation_section(input.composition, key, values);
-    return fill(templates.header, values);
+    return fill(templates.at("header"), values);
 }
 
 }  // namespace gobo

@@ -9,42 +9,50 @@
 namespace gobo {
 namespace {
 
-/// Gives every item without a place the lowest free one. `place` is the member that says where an item
-/// stands, `size` says how many places it takes.
+/// Gives every item without a place the lowest free one. `size` says how many places an item takes.
 template <class Item, class SizeOf>
-void fill_places(std::vector<Item>& items, int Item::*place, SizeOf size) {
+void fill_places(std::vector<Item>& items, SizeOf size) {
     std::set<int> taken;
     const auto take = [&](const Item& item) {
-        for (int used = 0; used < size(item); ++used) taken.insert(item.*place + used);
+        for (int used = 0; used < size(item); ++used) taken.insert(place_of(item) + used);
     };
     for (const Item& item : items)
-        if (item.*place >= 0) take(item);
+        if (place_of(item) >= 0) take(item);
     for (Item& item : items) {
-        if (item.*place >= 0) continue;
+        if (place_of(item) >= 0) continue;
         int first = 0;
         for (int used = 0; used < size(item);) {
             const bool free = !taken.contains(first + used);
             used = free ? used + 1 : 0;
             if (!free) ++first;
         }
-        item.*place = first;
+        place_of(item) = first;
         take(item);
     }
 }
 
 /// A constant for each variable or sampler: where it is.
 template <class Item>
-std::string constants_of(const std::vector<Item>& items, int Item::*place,
-                         const std::vector<Domain>& domains) {
+std::string constants_of(const std::vector<Item>& items, const std::vector<Domain>& domains) {
     CppScope scope;
     std::string text;
     for (const Item& item : items) {
         const std::string domain = domain_text(domains, item.name);
         text += fmt::format("inline constexpr int {} = {};  ///< {}{}{}\n",
-                            scope.claim(cpp_identifier(item.name)), item.*place, item.type,
+                            scope.claim(cpp_identifier(item.name)), place_of(item), item.type,
                             domain.empty() ? "" : ", ", domain);
     }
     return text;
+}
+
+/// Name, type, place and, where each element takes a place, how many: as the header's tables have them.
+template <class Item>
+std::string row_of(const Item& item) {
+    std::string row = "{" + cpp_literal(item.name);
+    if constexpr (requires { item.type; }) row += ", " + cpp_literal(item.type);
+    row += fmt::format(", {}", place_of(item));
+    if constexpr (std::is_same_v<Item, Sampler>) row += fmt::format(", {}", element_count(item.array));
+    return row + "}";
 }
 
 /// A row for each name that OpenGL knows: members of structs, and elements of arrays of structs or arrays,
@@ -77,10 +85,9 @@ Interface with_places(Interface interface) {
     const auto is_built_in = [](const Variable& variable) { return variable.name.starts_with("gl_"); };
     std::erase_if(interface.inputs, is_built_in);
     std::erase_if(interface.outputs, is_built_in);
-    fill_places(interface.blocks, &Block::binding, [](const Block&) { return 1; });
-    fill_places(interface.samplers, &Sampler::binding,
-                [](const Sampler& sampler) { return element_count(sampler.array); });
-    fill_places(interface.inputs, &Variable::location,
+    fill_places(interface.blocks, [](const Block&) { return 1; });
+    fill_places(interface.samplers, [](const Sampler& sampler) { return element_count(sampler.array); });
+    fill_places(interface.inputs,
                 [](const Variable& input) { return location_count(input.type, input.array); });
     if (interface.outputs.size() == 1 && interface.outputs.front().location < 0)
         interface.outputs.front().location = 0;
@@ -89,27 +96,18 @@ Interface with_places(Interface interface) {
 
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
                        TemplateValues& values) {
-    values["attribute_constants"] = constants_of(interface.inputs, &Variable::location, domains);
-    values["output_constants"] = constants_of(interface.outputs, &Variable::location, domains);
-    values["sampler_constants"] = constants_of(interface.samplers, &Sampler::binding, {});
-    const auto add_rows = [&](const std::string& name, const auto& items, const auto& row_of) {
+    values["attribute_constants"] = constants_of(interface.inputs, domains);
+    values["output_constants"] = constants_of(interface.outputs, domains);
+    values["sampler_constants"] = constants_of(interface.samplers, {});
+    const auto add_rows = [&](const std::string& name, const auto& items) {
         std::vector<std::string> rows;
-        std::transform(items.begin(), items.end(), std::back_inserter(rows), row_of);
+        for (const auto& item : items) rows.push_back(row_of(item));
         add_table(values, name, rows);
     };
-    const auto variable_row = [](const Variable& variable) {
-        return fmt::format("{{{}, {}, {}}}", cpp_literal(variable.name), cpp_literal(variable.type),
-                           variable.location);
-    };
-    add_rows("attribute", interface.inputs, variable_row);
-    add_rows("output", interface.outputs, variable_row);
-    add_rows("block", interface.blocks, [](const Block& block) {
-        return fmt::format("{{{}, {}}}", cpp_literal(block.name), block.binding);
-    });
-    add_rows("sampler", interface.samplers, [](const Sampler& sampler) {
-        return fmt::format("{{{}, {}, {}, {}}}", cpp_literal(sampler.name), cpp_literal(sampler.type),
-                           sampler.binding, element_count(sampler.array));
-    });
+    add_rows("attribute", interface.inputs);
+    add_rows("output", interface.outputs);
+    add_rows("block", interface.blocks);
+    add_rows("sampler", interface.samplers);
     std::vector<std::string> uniforms;
     for (const Uniform& uniform : interface.uniforms) {
         int location = uniform.location;

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text.hpp"
 #include "emit/sections.hpp"
 
 namespace gobo {
@@ -19,7 +21,7 @@ std::string cpp_condition(const Expression& condition, const CppKey& key) {
     const auto sum = [&](const std::vector<int>& features) {
         std::vector<std::string> terms;
         for (const int feature : features) terms.push_back("key." + key[feature].member);
-        return fmt::format("{}", fmt::join(terms, " + "));
+        return join(terms, " + ");
     };
     std::vector<std::string> parts;
     switch (condition.kind) {
@@ -40,7 +42,7 @@ std::string cpp_condition(const Expression& condition, const CppKey& key) {
                 const std::string text = cpp_condition(*part, key);
                 parts.push_back(is_list ? "(" + text + ")" : text);
             }
-            return fmt::format("{}", fmt::join(parts, condition.kind == Kind::conjunction ? " && " : " || "));
+            return join(parts, condition.kind == Kind::conjunction ? " && " : " || ");
     }
     return "true";
 }
@@ -78,11 +80,10 @@ bool need_repetition(const std::vector<Rule>& rules) {
         looked_at.insert(condition.subtracted.begin(), condition.subtracted.end());
         for (const auto& part : condition.parts) self(self, *part);
     };
-    return std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+    return std::ranges::any_of(rules, [&](const Rule& rule) {
         if (rule.kind != Rule::Kind::defaults) return false;
         look(look, rule.when);
-        return std::any_of(rule.defaults.begin(), rule.defaults.end(),
-                           [&](int feature) { return looked_at.contains(feature); });
+        return std::ranges::any_of(rule.defaults, [&](int feature) { return looked_at.contains(feature); });
     });
 }
 
@@ -104,32 +105,14 @@ std::string default_rules_text(const std::vector<Rule>& rules, const CppKey& key
         text);
 }
 
-/// Takes a feature's value from a state that has a member of its name; one that has none is left alone.
-std::string taker_text(const CppFeature& named) {
-    return fmt::format(
-        "template <class State>\n"
-        "constexpr auto take_{0}(const State& state, Key& key, int) -> decltype(void(state.{0}), "
-        "std::true_type{{}}) {{\n"
-        "    key.{0} = gobo::runtime::value_from<{1}>(state.{0});\n"
-        "    return {{}};\n"
-        "}}\n"
-        "template <class State>\n"
-        "constexpr std::false_type take_{0}(const State&, Key&, long) {{\n"
-        "    return {{}};\n"
-        "}}\n",
-        named.member, named.type);
-}
-
 }  // namespace
 
 std::string_view name_of(Role role) {
-    if (role == Role::pipeline) return "pipeline";
-    return role == Role::quality ? "quality" : "effect";
+    return std::array{"effect", "quality", "pipeline"}[static_cast<std::size_t>(role)];
 }
 
 std::string_view name_of(FeatureKind kind) {
-    if (kind == FeatureKind::define) return "define";
-    return kind == FeatureKind::count ? "count" : "choice";
+    return std::array{"choice", "count", "define"}[static_cast<std::size_t>(kind)];
 }
 
 std::string CppFeature::value(int number) const {
@@ -171,7 +154,8 @@ CppKey name_key(const Family& family, CppScope& scope) {
     return key;
 }
 
-void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValues& values) {
+Result<void> key_section(const std::vector<Rule>& rules, const CppKey& key, const HeaderTemplates& templates,
+                         TemplateValues& values) {
     for (const char* part : {"enums", "key_members", "unpacked", "forbid_rules", "state_members",
                              "state_takers", "state_taken", "state_takes_any"})
         values[part].clear();
@@ -196,24 +180,22 @@ void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValu
         }
         rows.push_back(fmt::format("{{{}, gobo::runtime::FeatureKind::{}, {}, {}}}",
                                    cpp_literal(feature.name), name_of(feature.kind), count, names.size()));
-        if (!is_count)
-            std::transform(feature.values.begin(), feature.values.end(), std::back_inserter(names),
-                           cpp_literal);
+        if (!is_count) std::ranges::transform(feature.values, std::back_inserter(names), cpp_literal);
         if (named.bits > 0)
             values["unpacked"] +=
                 fmt::format("    key.{} = static_cast<{}>({} >> {}U & {}U);\n", member, named.type,
                             key.words == 1 ? "bits" : fmt::format("bits.words[{}]", named.word), named.shift,
                             (std::uint64_t{1} << named.bits) - 1);
         if (feature.role == Role::effect) values["state_members"] += declaration + "\n";
-        values["state_takers"] += taker_text(named);
+        // A state that has no member of the feature's name leaves its value alone.
+        GOBO_TRY(const std::string taker,
+                 fill(templates.at("taker"), {{"member", member}, {"type", named.type}}));
+        values["state_takers"] += taker;
         values["state_taken"] += fmt::format("    take_{}(state, key, 0);\n", member);
         values["state_takes_any"] += fmt::format(" || decltype(take_{}(state, key, 0))::value", member);
     }
-    const auto all_of = [](const std::vector<std::string>& parts, std::string_view separator) {
-        return parts.empty() ? "true" : fmt::format("{}", fmt::join(parts, separator));
-    };
-    values["key_equality"] = all_of(equal, " &&\n               ");
-    values["in_range"] = all_of(ranges, " &&\n           ");
+    values["key_equality"] = equal.empty() ? "true" : join(equal, " &&\n               ");
+    values["in_range"] = ranges.empty() ? "true" : join(ranges, " &&\n           ");
     values["values"] = cpp_list(numbers);
     values["packed_type"] =
         key.words == 1 ? "std::uint64_t" : fmt::format("gobo::runtime::WideKey<{}>", key.words);
@@ -225,6 +207,7 @@ void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValu
                                                   cpp_literal(rule.reason));
     add_table(values, "feature", rows);
     add_table(values, "value_name", names);
+    return {};
 }
 
 }  // namespace gobo

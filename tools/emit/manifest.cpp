@@ -61,7 +61,7 @@ std::vector<std::string> permutation_rows(const EmitInput& input) {
     std::vector<std::pair<std::string, const Permutation*>> sorted;
     for (const Permutation& permutation : input.composition.permutations)
         sorted.emplace_back(key_text(input.family, permutation.key), &permutation);
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     std::vector<std::string> rows;
     for (const auto& [key, permutation] : sorted)
         rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}{}}}", text_of(key),
@@ -111,7 +111,7 @@ std::string emit_manifest(const EmitInput& input) {
 
 std::string emit_depfile(const std::vector<std::string>& outputs, const std::vector<std::string>& files) {
     std::vector<std::string> targets;
-    std::transform(outputs.begin(), outputs.end(), std::back_inserter(targets), escaped);
+    std::ranges::transform(outputs, std::back_inserter(targets), escaped);
     std::string text = fmt::format("{}:", fmt::join(targets, " "));
     std::set<std::string_view> named;
     for (const std::string& file : files)

@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,53 +48,42 @@ std::string numbers_text(const Numbers& numbers) {
     return text + "\n    }";
 }
 
-/// Adds the texts of a piece, which fits no single literal where it is long.
-void add_texts(const Piece& piece, std::vector<std::string>& rows) {
+/// Adds the texts of a piece, which fits no single literal where it is long, and their numbers.
+void add_texts(const Piece& piece, std::vector<std::string>& rows, Numbers& numbers) {
     int line = 1;
     for (const std::string_view text : cut_for_literals(piece.text)) {
+        numbers.push_back(rows.size());
         rows.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name), cpp_literal(text),
                                    text.size(), line));
-        line += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+        line += static_cast<int>(std::ranges::count(text, '\n'));
     }
 }
 
 }  // namespace
 
 void permutation_section(const Composition& composition, const CppKey& key, TemplateValues& values) {
-    std::vector<bool> is_used(composition.stages.size());
+    std::set<int> used;  // stages
     std::vector<std::pair<PackedKey, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
-        for (const int stage : {permutation.vertex, permutation.fragment})
-            is_used[static_cast<std::size_t>(stage)] = true;
+        used.insert({permutation.vertex, permutation.fragment});
         sorted.emplace_back(pack(permutation.key, key), &permutation);
     }
-    std::sort(sorted.begin(), sorted.end(),
-              [](const auto& left, const auto& right) { return left.first < right.first; });
+    std::ranges::sort(sorted);
 
-    std::vector<bool> is_named(composition.pieces.size());
-    for (std::size_t i = 0; i < composition.stages.size(); ++i)
-        for (const int piece : composition.stages[i].pieces)
-            if (is_used[i]) is_named[static_cast<std::size_t>(piece)] = true;
+    std::map<int, Numbers> texts_of;  // each piece that is used
+    for (const int stage : used)
+        for (const int piece : composition.stage(stage).pieces) texts_of[piece];
     std::vector<std::string> texts;
-    Numbers first_text;  // of each piece, and at the end their number
-    for (std::size_t i = 0; i < composition.pieces.size(); ++i) {
-        first_text.push_back(texts.size());
-        if (is_named[i]) add_texts(composition.pieces[i], texts);
-    }
-    first_text.push_back(texts.size());
+    for (auto& [piece, numbers] : texts_of) add_texts(composition.piece(piece), texts, numbers);
 
     Numbers stage_begins;
     Numbers piece_lists;
-    Numbers stage_numbers;
-    for (std::size_t i = 0; i < composition.stages.size(); ++i) {
-        stage_numbers.push_back(stage_begins.size());
-        if (!is_used[i]) continue;
+    std::map<int, std::size_t> stage_numbers;
+    for (const int stage : used) {
+        stage_numbers[stage] = stage_begins.size();
         stage_begins.push_back(piece_lists.size());
-        for (const int piece : composition.stages[i].pieces) {
-            const auto at = static_cast<std::size_t>(piece);
-            for (std::size_t text = first_text[at]; text < first_text[at + 1]; ++text)
-                piece_lists.push_back(text);
-        }
+        for (const int piece : composition.stage(stage).pieces)
+            std::ranges::copy(texts_of[piece], std::back_inserter(piece_lists));
     }
     stage_begins.push_back(piece_lists.size());
 
@@ -100,9 +91,8 @@ void permutation_section(const Composition& composition, const CppKey& key, Temp
     std::vector<std::string> rows;
     for (const auto& [packed, permutation] : sorted) {
         keys.push_back(packed_text(packed));
-        rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}}}", keys.back(),
-                                   stage_numbers[static_cast<std::size_t>(permutation->vertex)],
-                                   stage_numbers[static_cast<std::size_t>(permutation->fragment)]));
+        rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}}}", keys.back(), stage_numbers[permutation->vertex],
+                                   stage_numbers[permutation->fragment]));
     }
     const bool is_wide = texts.size() > std::numeric_limits<std::uint16_t>::max();
     values["index_type"] = is_wide ? "std::uint32_t" : "std::uint16_t";

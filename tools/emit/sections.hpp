@@ -7,11 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "compose/composition.hpp"
-#include "core/text_template.hpp"
 #include "emit/cpp_text.hpp"
-#include "family/family.hpp"
-#include "reflect/interface.hpp"
+#include "emit/emit.hpp"
 
 namespace gobo {
 
@@ -47,7 +44,8 @@ struct CppKey {
 [[nodiscard]] std::string_view name_of(FeatureKind kind);
 
 /// Enums, Key, rules, packing and what select() takes from a state. `rules` are those of the dialect.
-void key_section(const std::vector<Rule>& rules, const CppKey& key, TemplateValues& values);
+[[nodiscard]] Result<void> key_section(const std::vector<Rule>& rules, const CppKey& key,
+                                       const HeaderTemplates& templates, TemplateValues& values);
 
 /// Packed keys, stages as lists of pieces, texts. Only stages and pieces that a permutation uses are written,
 /// in the order of the composition; permutations are sorted by packed key.
@@ -67,7 +65,7 @@ void interface_section(const Interface& interface, const std::vector<Domain>& do
 /// block ends in an array, `check(block, count)` looks at no more elements of it. A layout that no C++ struct
 /// can mirror is an error (Fault::input).
 [[nodiscard]] Result<void> block_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
-                                         const TextTemplate& structure, CppScope& scope,
+                                         const HeaderTemplates& templates, CppScope& scope,
                                          TemplateValues& values);
 
 /// A C++ type of known size, to be declared as `TYPE NAME EXTENTS`.
@@ -80,14 +78,6 @@ struct CppMemberType {
 /// The C++ of a GLSL scalar, vector or matrix with the strides it was reflected with. Nothing where the type
 /// is none of these (a struct) or no C++ type has that layout.
 [[nodiscard]] std::optional<CppMemberType> cpp_type_of(const Member& member);
-
-/// An array of `element`, whose size is `element_size`, with the extents and the stride of `member`;
-/// `element` itself where the member is no array. Nothing where the stride is less than the element's size.
-[[nodiscard]] std::optional<CppMemberType> cpp_array_of(const std::string& element, int element_size,
-                                                        const Member& member);
-
-/// Bytes from one innermost element of an array to the next; 0 where the member is no array.
-[[nodiscard]] int element_stride(const Member& member);
 
 /// The range of an input or uniform as a comment: "[0, 1000], or 0"; empty where the family declares none.
 /// Array indices in either name do not matter.

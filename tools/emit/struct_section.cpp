@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
@@ -14,6 +15,63 @@ constexpr int kStructAlignment = 16;
 
 int rounded_up(int size) {
     return (size + kStructAlignment - 1) / kStructAlignment * kStructAlignment;
+}
+
+/// In the order of Scalar, as far as C++ has types for them.
+constexpr std::string_view kNumbers[] = {"float", "std::int32_t", "std::uint32_t", "std140::Bool32",
+                                         "double"};
+
+std::string_view number_of(Scalar scalar) {
+    return kNumbers[static_cast<std::size_t>(scalar)];
+}
+
+CppMemberType vector_type(const GlslType& glsl) {
+    std::string type = glsl.rows == 1 ? std::string(number_of(glsl.scalar)) : "std140::" + glsl.name();
+    return {std::move(type), {}, glsl.column_size()};
+}
+
+std::optional<CppMemberType> matrix_type(const GlslType& glsl, const Member& member) {
+    CppMemberType result;
+    const int lines = member.row_major ? glsl.rows : glsl.columns;
+    const int line_size = (member.row_major ? glsl.columns : glsl.rows) * glsl.scalar_size();
+    if (member.matrix_stride < line_size) return std::nullopt;
+    result.size = lines * member.matrix_stride;
+    const std::string shape = fmt::format("<{}, {}, {}", glsl.columns, glsl.rows, number_of(glsl.scalar));
+    if (member.row_major) {
+        result.type = fmt::format("std140::RowMajorMatrix{}, {}>", shape, member.matrix_stride);
+    } else if (member.matrix_stride > line_size) {
+        result.type = fmt::format("std140::Matrix{}, {}>", shape, member.matrix_stride);
+    } else {
+        result.type = fmt::format("std140::PlainMatrix{}>", shape);
+    }
+    if (result.type == "std140::Matrix<2, 2, float, 16>") result.type = "std140::Mat2";
+    if (result.type == "std140::Matrix<3, 3, float, 16>") result.type = "std140::Mat3";
+    if (result.type == "std140::PlainMatrix<4, 4, float>") result.type = "std140::mat4";
+    return result;
+}
+
+/// Bytes from one innermost element of an array to the next; 0 where the member is no array.
+int element_stride(const Member& member) {
+    if (member.array.empty()) return 0;
+    const int inner = element_count({member.array.begin() + 1, member.array.end()});
+    return inner > 0 ? member.array_stride / inner : 0;
+}
+
+/// An array of `element`, whose size is `element_size`, with the extents and the stride of `member`;
+/// `element` itself where the member is no array. Nothing where the stride is less than the element's size.
+std::optional<CppMemberType> cpp_array_of(const std::string& element, int element_size,
+                                          const Member& member) {
+    CppMemberType result{element, {}, element_size};
+    if (member.array.empty()) return result;
+    const int stride = element_stride(member);
+    if (stride < element_size) return std::nullopt;
+    if (stride > element_size) result.type = fmt::format("std140::Padded<{}, {}>", element, stride);
+    result.size = stride;
+    for (const int extent : member.array) {
+        result.extents += fmt::format("[{}]", extent);
+        result.size *= extent;
+    }
+    return result;
 }
 
 /// A member as C++ names it, and its members where it is a struct.
@@ -57,50 +115,21 @@ struct StructText {
     }
 };
 
-/// A struct that was written, by what it mirrors.
-struct WrittenStruct {
-    std::string glsl_name;
-    std::vector<Member> members;
-    int size = 0;
-    std::string cpp_name;
-    std::vector<NamedMember> named;
-};
-
 const Domain* domain_of(const std::vector<Domain>& domains, const std::string& path) {
-    const auto without_indices = [](std::string_view name) {
-        std::string result;
-        int depth = 0;
-        for (const char character : name) {
-            if (character == '[') ++depth;
-            if (depth == 0) result += character;
-            if (character == ']') --depth;
-        }
-        return result;
-    };
-    const std::string wanted = without_indices(path);
-    const auto domain = std::find_if(domains.begin(), domains.end(), [&](const Domain& other) {
-        return without_indices(other.name) == wanted;
-    });
+    const auto name = [](const Domain& domain) { return without_indices(domain.name); };
+    const auto domain = std::ranges::find(domains, without_indices(path), name);
     return domain == domains.end() ? nullptr : &*domain;
 }
 
-/// bytes(count), where the block ends in an array: one buffer then serves every extent of it.
-std::string bytes_function(const Block& block) {
-    if (block.members.empty() || block.members.back().array.empty()) return {};
-    const Member& last = block.members.back();
-    return fmt::format(
-        "\n    /// Bytes of the block with `count` elements in `{}`, from 0: what a shader with that count "
-        "needs.\n"
-        "    static constexpr std::size_t bytes(int count) {{\n"
-        "        return ({} + static_cast<std::size_t>(count) * {} + {}) / {} * {};\n"
-        "    }}\n",
-        last.name, last.offset, last.array_stride, kStructAlignment - 1, kStructAlignment, kStructAlignment);
+/// The array that ends the block, if one does: one buffer then serves every extent of it.
+const Member* last_array(const Block& block) {
+    return block.members.empty() || block.members.back().array.empty() ? nullptr : &block.members.back();
 }
 
 class StructWriter {
   public:
-    StructWriter(const std::vector<Domain>& domains, const TextTemplate& structure, CppScope& scope)
-        : domains_(domains), structure_(structure), scope_(scope) {}
+    StructWriter(const std::vector<Domain>& domains, const HeaderTemplates& templates, CppScope& scope)
+        : domains_(domains), templates_(templates), scope_(scope) {}
 
     /// Adds the block's struct to text(), behind those of its members.
     Result<StructText> write_block(const Block& block) {
@@ -109,10 +138,17 @@ class StructWriter {
         GOBO_TRY_DO(add_members(structure, block.members, block.name));
         const int size = rounded_up(std::max(structure.end, block.size));
         structure.close(size);
-        GOBO_TRY_DO(append(structure, fmt::format("The uniform block {}.", block.name),
-                           fmt::format("\n    static constexpr int binding = {};\n"
-                                       "    static constexpr std::size_t size = {};\n{}",
-                                       block.binding, size, bytes_function(block))));
+        std::string constants = fmt::format(
+            "\n    static constexpr int binding = {};\n    static constexpr std::size_t size = {};\n",
+            block.binding, size);
+        if (const Member* last = last_array(block)) {
+            GOBO_TRY(const std::string bytes,
+                     fill(templates_.at("bytes"), {{"array", last->name},
+                                                   {"offset", std::to_string(last->offset)},
+                                                   {"stride", std::to_string(last->array_stride)}}));
+            constants += bytes;
+        }
+        GOBO_TRY_DO(append(structure, fmt::format("The uniform block {}.", block.name), constants));
         return structure;
     }
 
@@ -120,9 +156,9 @@ class StructWriter {
 
   private:
     /// The struct that a member's type is, written now unless it has been.
-    Result<WrittenStruct> struct_of(const Member& member, const std::string& path) {
-        for (const WrittenStruct& other : written_)
-            if (other.glsl_name == member.type && other.members == member.members) return other;
+    Result<StructText> struct_of(const Member& member, const std::string& path) {
+        for (const auto& [mirrored, structure] : written_)
+            if (mirrored.type == member.type && mirrored.members == member.members) return structure;
         StructText structure{scope_.claim(cpp_identifier(member.type), "_struct")};
         structure.scope.claim(structure.name);
         GOBO_TRY_DO(add_members(structure, member.members, path));
@@ -132,8 +168,7 @@ class StructWriter {
         if (stride >= structure.end && stride < size) size = stride;
         structure.close(size);
         GOBO_TRY_DO(append(structure, fmt::format("The shaders' struct {}.", member.type), {}));
-        return written_.emplace_back(
-            WrittenStruct{member.type, member.members, size, structure.name, std::move(structure.named)});
+        return written_.emplace_back(member, std::move(structure)).second;
     }
 
     Result<void> add_members(StructText& structure, const std::vector<Member>& members,
@@ -148,8 +183,8 @@ class StructWriter {
             std::optional<CppMemberType> type = cpp_type_of(member);
             std::vector<NamedMember> parts;
             if (!member.members.empty()) {
-                GOBO_TRY(WrittenStruct inner, struct_of(member, path + "." + member.name));
-                type = cpp_array_of(inner.cpp_name, inner.size, member);
+                GOBO_TRY(StructText inner, struct_of(member, path + "." + member.name));
+                type = cpp_array_of(inner.name, inner.end, member);
                 parts = std::move(inner.named);
             }
             if (!type) return unsupported(member);
@@ -168,19 +203,20 @@ class StructWriter {
 
     Result<void> append(const StructText& structure, const std::string& description,
                         const std::string& constants) {
-        GOBO_TRY(const std::string text, fill(structure_, {{"description", description},
-                                                           {"name", structure.name},
-                                                           {"members", structure.members},
-                                                           {"constants", constants},
-                                                           {"assertions", structure.assertions}}));
+        GOBO_TRY(const std::string text,
+                 fill(templates_.at("struct"), {{"description", description},
+                                                {"name", structure.name},
+                                                {"members", structure.members},
+                                                {"constants", constants},
+                                                {"assertions", structure.assertions}}));
         text_ += text;
         return {};
     }
 
     const std::vector<Domain>& domains_;
-    const TextTemplate& structure_;
+    const HeaderTemplates& templates_;
     CppScope& scope_;
-    std::vector<WrittenStruct> written_;
+    std::vector<std::pair<Member, StructText>> written_;  ///< with the member that each was written for
     std::string text_;
 };
 
@@ -228,29 +264,38 @@ std::string member_checks(const NamedMember& named, const Spot& parent, const st
     return body.empty() ? body : head + body + tail;
 }
 
-std::string block_check(const Block& block, const StructText& structure, const std::vector<Domain>& domains) {
-    const Member* counted =
-        block.members.empty() || block.members.back().array.empty() ? nullptr : &block.members.back();
+Result<std::string> block_check(const Block& block, const StructText& structure,
+                                const std::vector<Domain>& domains, const TextTemplate& check) {
+    const Member* last = last_array(block);
     std::string body;
     for (const NamedMember& named : structure.named) {
-        const bool is_counted = counted != nullptr && &named == &structure.named.back();
+        const bool is_counted = last != nullptr && &named == &structure.named.back();
         body += member_checks(named, {block.name, "block", {}}, domains, is_counted ? "count" : "");
     }
-    return fmt::format(
-        "/// What of the block {} lies outside its ranges{}; empty where nothing does.\n"
-        "[[nodiscard]] inline std::vector<gobo::OutOfRange> check({}const {}& block{}) {{\n"
-        "    std::vector<gobo::OutOfRange> found;\n"
-        "{}"
-        "    return found;\n"
-        "}}\n\n",
-        block.name,
-        counted == nullptr ? "" : fmt::format(", as far as the first `count` of `{}`", counted->name),
-        body.empty() ? "[[maybe_unused]] " : "", structure.name,
-        counted == nullptr ? "" : fmt::format(", [[maybe_unused]] int count = {}", counted->array.front()),
-        body);
+    std::string extent;
+    std::string count;
+    if (last != nullptr) {
+        extent = fmt::format(", as far as the first `count` of `{}`", last->name);
+        count = fmt::format(", [[maybe_unused]] int count = {}", last->array.front());
+    }
+    return fill(check, {{"block", block.name},
+                        {"extent", extent},
+                        {"unused", body.empty() ? "[[maybe_unused]] " : ""},
+                        {"type", structure.name},
+                        {"count", count},
+                        {"checks", body}});
 }
 
 }  // namespace
+
+std::optional<CppMemberType> cpp_type_of(const Member& member) {
+    const std::optional<GlslType> glsl = glsl_type(member.type);
+    // The numbers of 8, 16 and 64 bits that extensions of GLSL know are none of them.
+    if (!glsl || glsl->scalar > Scalar::float64) return std::nullopt;
+    const auto element = glsl->is_matrix() ? matrix_type(*glsl, member) : vector_type(*glsl);
+    if (!element) return std::nullopt;
+    return cpp_array_of(element->type, element->size, member);
+}
 
 std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
     const Domain* domain = domain_of(domains, path);
@@ -263,12 +308,13 @@ std::string domain_text(const std::vector<Domain>& domains, const std::string& p
 }
 
 Result<void> block_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
-                           const TextTemplate& structure, CppScope& scope, TemplateValues& values) {
-    StructWriter writer(domains, structure, scope);
+                           const HeaderTemplates& templates, CppScope& scope, TemplateValues& values) {
+    StructWriter writer(domains, templates, scope);
     std::string& checks = values["checks"] = "";
     for (const Block& block : blocks) {
         GOBO_TRY(const StructText written, writer.write_block(block));
-        checks += block_check(block, written, domains);
+        GOBO_TRY(const std::string check, block_check(block, written, domains, templates.at("check")));
+        checks += check;
     }
     values["structs"] = writer.text();
     return {};

@@ -49,7 +49,8 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
 
     std::set<std::string> files(family.files.begin(), family.files.end());
     files.insert(composition.files.begin(), composition.files.end());
-    if (!world.options.library.empty()) files.insert({templates.header.name, templates.structure.name});
+    if (!world.options.library.empty())
+        for (const auto& [name, part] : templates) files.insert(part.name);
     const std::string stem = options.folder + "/" + family.family.name;
     const std::string target = options.depfile_target.empty() ? stem + ".hpp" : options.depfile_target;
     GOBO_TRY(const bool is_new_header, world.disk.write(stem + ".hpp", header));
