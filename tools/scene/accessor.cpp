@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
-
 namespace gobo::scene {
 namespace {
 
@@ -36,11 +34,11 @@ const ComponentKind& kind_of(Component component) {
 }
 
 Component read_component(const Value& value) {
-    const std::int64_t number = value["componentType"].required().integer().value_or(0);
+    const std::int64_t number = *value["componentType"].required().integer();
     const auto* const found = std::ranges::find(kComponents, number, &ComponentKind::number);
-    if (found != std::end(kComponents)) return static_cast<Component>(found - kComponents);
-    value["componentType"].fail("is {}, but must be one of 5120, 5121, 5122, 5123, 5125, 5126", number);
-    return Component::float32;
+    if (found == std::end(kComponents))
+        value["componentType"].fail("is {}, but must be one of 5120, 5121, 5122, 5123, 5125, 5126", number);
+    return static_cast<Component>(found - kComponents);
 }
 
 /// Little-endian.
@@ -49,6 +47,10 @@ std::uint32_t bits_at(std::string_view bytes, std::size_t offset, std::size_t si
     for (std::size_t i = 0; i < size; ++i)
         bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[offset + i])) << (8 * i);
     return bits;
+}
+
+bool has(const auto& list, const auto& item) {
+    return std::ranges::find(list, item) != list.end();
 }
 
 std::size_t rows_of(std::string_view shape) {
@@ -65,18 +67,18 @@ std::size_t element_size(std::string_view shape, Component component) {
     return columns_of(shape) == 1 ? column : columns_of(shape) * ((column + 3) / 4 * 4);
 }
 
-/// RFC 4648, also its URL alphabet.
-std::optional<std::string> decode_base64(std::string_view text) {
+/// RFC 4648, also its URL alphabet; `uri` is where the text stands.
+std::string decode_base64(std::string_view text, const Value& uri) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/-_";
     while (text.ends_with('=')) text.remove_suffix(1);
     std::string bytes;
-    bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t pending = 0;
     int bits = 0;
     for (const char digit : text) {
         const std::size_t value = digits.find(digit);
-        if (value == std::string_view::npos) return std::nullopt;
-        pending = (pending << 6 | static_cast<std::uint32_t>(value < 64 ? value : value - 2)) & 0xFFFFFF;
+        if (value == std::string_view::npos)
+            uri.fail("is a data URI whose base64 holds a character that is none of its digits");
+        pending = pending << 6 | static_cast<std::uint32_t>(value < 64 ? value : value - 2);
         bits += 6;
         if (bits < 8) continue;
         bits -= 8;
@@ -101,102 +103,77 @@ std::string decode_percent(std::string_view uri) {
 
 }  // namespace
 
-Result<Container> open_container(std::string_view content, const std::string& path) {
+Container open_container(std::string_view content) {
     constexpr std::size_t header_size = 12;
     constexpr std::size_t chunk_header_size = 8;
     constexpr std::uint32_t json_chunk = 0x4E4F534A;
     constexpr std::uint32_t binary_chunk = 0x004E4942;
-    const auto broken = [&](std::string message) {
-        Diagnostic diagnostic;
-        diagnostic.place.file = path;
-        diagnostic.message = "this container " + std::move(message);
-        return fail(std::move(diagnostic));
-    };
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    const Value container{nullptr, "this container"};
     if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
-    if (!content.starts_with("glTF")) return Container{content, std::nullopt};
-    if (content.size() < header_size) return broken("is cut short: it has no whole header");
+    if (!content.starts_with("glTF")) return {content, std::nullopt};
+    if (content.size() < header_size) container.fail("is cut short: it has no whole header");
     if (const std::uint32_t version = bits_at(content, 4); version != 2)
-        return broken(fmt::format("has version {}, but only version 2 is read", version));
+        container.fail("has version {}, but only version 2 is read", version);
     const std::size_t length = bits_at(content, 8);
     if (length > content.size() || length < header_size)
-        return broken(
-            fmt::format("is cut short: its header says {} bytes, but there are {}", length, content.size()));
-    Container container;
-    std::string_view rest = content.substr(header_size, length - header_size);
-    do {
-        const std::size_t offset = length - rest.size();
-        if (rest.size() < chunk_header_size)
-            return broken(fmt::format("is cut short: the chunk at byte {} has no header", offset));
-        const std::size_t size = bits_at(rest, 0);
-        const std::size_t left = rest.size() - chunk_header_size;
-        if (size > left)
-            return broken(
-                fmt::format("is cut short: the chunk at byte {} should have {} bytes, but only {} follow",
-                            offset, size, left));
-        const std::uint32_t type = bits_at(rest, 4);
-        const std::string_view chunk = rest.substr(chunk_header_size, size);
-        if (offset == header_size) {
-            if (type != json_chunk) return broken("does not begin with a chunk of JSON");
-            container.json = chunk;
-        } else if (type == binary_chunk && !container.binary) {
-            container.binary = chunk;
-        }
-        rest.remove_prefix(chunk_header_size + size);
-    } while (!rest.empty());
-    return container;
+        container.fail("is cut short: its header says {} bytes, but there are {}", length, content.size());
+    Container parts;
+    for (std::size_t at = header_size; parts.json.data() == nullptr || at < length;) {
+        if (length - at < chunk_header_size)
+            container.fail("is cut short: the chunk at byte {} has no header", at);
+        const std::size_t size = bits_at(content, at);
+        const std::uint32_t type = bits_at(content, at + 4);
+        at += chunk_header_size;
+        if (size > length - at)
+            container.fail("is cut short: the chunk at byte {} should have {} bytes, but only {} follow",
+                           at - chunk_header_size, size, length - at);
+        if (parts.json.data() == nullptr && type != json_chunk)
+            container.fail("does not begin with a chunk of JSON");
+        if (parts.json.data() == nullptr)
+            parts.json = content.substr(at, size);
+        else if (type == binary_chunk && !parts.binary)
+            parts.binary = content.substr(at, size);
+        at += size;
+    }
+    return parts;
 }
 
-std::string read_uri(const FileSystem& disk, const Value& user, std::string_view uri,
-                     std::vector<std::string>& files) {
-    if (uri.starts_with("data:")) {
-        const std::string_view type = uri.substr(0, uri.find(','));
-        if (type == uri || !type.ends_with(";base64"))
-            user["uri"].fail("is a data URI that is not in base64");
-        const auto bytes = decode_base64(uri.substr(std::min(type.size() + 1, uri.size())));
-        if (!bytes)
-            user["uri"].fail("is a data URI whose base64 holds a character that is none of its digits");
-        return bytes.value_or("");
+std::string read_uri(const FileSystem& disk, const Value& uri, Scene& scene) {
+    std::string text;
+    uri.read(text);
+    if (text.starts_with("data:")) {
+        const auto comma = text.find(',');
+        if (comma == std::string::npos || !text.substr(0, comma).ends_with(";base64"))
+            uri.fail("is a data URI that is not in base64");
+        return decode_base64(std::string_view(text).substr(comma + 1), uri);
     }
-    const auto colon = uri.find(':');
-    const bool has_scheme =
-        colon != std::string_view::npos && uri.find('/') > colon;  // RFC 3986: `https:`, `file:`
-    if (has_scheme || uri.starts_with('/')) {
-        user["uri"].fail_with("buffers and pictures are data URIs or paths relative to the file", "is '{}'",
-                              uri);
-        return {};
-    }
-    const std::string& document = user.document->path();
-    const std::string path = document.substr(0, document.rfind('/') + 1) + decode_percent(uri);
+    const auto colon = text.find(':');
+    const bool has_scheme = colon != std::string::npos && text.find('/') > colon;  // RFC 3986: `https:`
+    if (has_scheme || text.starts_with('/'))
+        uri.fail_with("buffers and pictures are data URIs or paths relative to the file", "is '{}'", text);
+    const std::string path = scene.path.substr(0, scene.path.rfind('/') + 1) + decode_percent(text);
     Result<std::string> content = disk.read(path);
     if (!content) {
-        content.error().front().help = fmt::format("{} of {} names it", user["uri"].path, document);
-        user.document->take(std::move(content.error()));
-        return {};
+        content.error().front().help = fmt::format("{} of {} names it", uri.path, scene.path);
+        throw std::move(content.error());
     }
-    files.push_back(path);
+    scene.files.push_back(path);
     return std::move(*content);
 }
 
 std::vector<std::string> read_buffers(const FileSystem& disk, const Value& root,
-                                      std::optional<std::string_view> binary,
-                                      std::vector<std::string>& files) {
+                                      std::optional<std::string_view> binary, Scene& scene) {
     std::vector<std::string> buffers;
     for (const Value& value : root["buffers"].objects()) {
         const std::size_t length = value["byteLength"].count();
-        std::string content;
-        if (std::string uri; value["uri"].read(uri)) {
-            content = read_uri(disk, value, uri, files);
-        } else if (buffers.empty() && binary) {
-            content = *binary;
-        } else {
+        const Value uri = value["uri"];
+        if (!uri && (!buffers.empty() || !binary))
             value.fail("has no uri, and the file holds no binary chunk for it");
-        }
+        std::string& content = buffers.emplace_back(uri ? read_uri(disk, uri, scene) : std::string(*binary));
         if (content.size() < length)
             value.fail("holds {} bytes, but its byteLength is {}", content.size(), length);
-        if (root.document->failed()) return buffers;
         content.resize(length);
-        buffers.push_back(std::move(content));
     }
     return buffers;
 }
@@ -211,13 +188,12 @@ double Accessors::Array::at(std::size_t element, std::size_t part) const {
     return normalized && kind.most > 0 ? std::max(value / kind.most, -1.0) : value;
 }
 
-Accessors::Accessors(const Value& root, const std::vector<std::string>& buffers) : document_(*root.document) {
+Accessors::Accessors(const Value& root, const std::vector<std::string>& buffers) {
     for (const Value& value : root["bufferViews"].objects()) {
-        const std::size_t buffer = value["buffer"].required().index(buffers.size(), "buffers").value_or(0);
+        const std::size_t buffer = *value["buffer"].required().index(buffers.size(), "buffers");
         const std::int64_t offset = value["byteOffset"].integer().value_or(0);
-        const std::int64_t length = value["byteLength"].required().integer().value_or(0);
+        const std::int64_t length = *value["byteLength"].required().integer();
         const auto stride = value["byteStride"].integer();
-        if (document_.failed()) return;
         const std::string_view content = buffers[buffer];
         const auto available = static_cast<std::int64_t>(content.size());
         if (offset < 0 || length < 1 || offset > available || length > available - offset)
@@ -225,35 +201,29 @@ Accessors::Accessors(const Value& root, const std::vector<std::string>& buffers)
                        available);
         if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0))
             value["byteStride"].fail("is {}, but must be a multiple of 4 from 4 to 252", *stride);
-        if (document_.failed()) return;
         views_.push_back({content.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)),
                           static_cast<std::size_t>(stride.value_or(0))});
     }
-    for (const Value& value : root["accessors"].objects()) {
-        accessors_.push_back(read_accessor(value));
-        if (document_.failed()) return;
-    }
+    for (const Value& value : root["accessors"].objects()) accessors_.push_back(read_accessor(value));
 }
 
 Accessors::Accessor Accessors::read_accessor(const Value& value) const {
     Accessor accessor;
-    accessor.path = value.path;
+    accessor.value = value;
     accessor.numbers.component = read_component(value);
     accessor.shape = kShapes[value["type"].choice(kShapes)];
     accessor.count = value["count"].count();
     value["normalized"].read(accessor.numbers.normalized);
-    if (document_.failed()) return accessor;
     const Value sparse = value["sparse"].object();
     accessor.sparse_numbers = accessor.numbers;
     read_array(value, accessor.shape, accessor.count, accessor.numbers);
     if (!sparse) return accessor;
     const Value indices = sparse["indices"].object();
     const Value values = sparse["values"].object();
-    const std::int64_t sparse_count = sparse["count"].required().integer().value_or(0);
+    const std::int64_t sparse_count = *sparse["count"].required().integer();
     if (!indices || !values) sparse.fail("needs both indices and values");
     if (sparse_count < 1 || static_cast<std::size_t>(sparse_count) > accessor.count)
         sparse["count"].fail("is {}, but must be from 1 to {}", sparse_count, accessor.count);
-    if (document_.failed()) return accessor;
     accessor.sparse_count = static_cast<std::size_t>(sparse_count);
     accessor.sparse_indices.component = read_component(indices);
     read_array(indices, kShapes[0], accessor.sparse_count, accessor.sparse_indices);
@@ -272,82 +242,74 @@ void Accessors::read_array(const Value& value, std::string_view shape, std::size
     const View& view = views_[*index];
     const std::size_t size = element_size(shape, array.component);
     const std::size_t alignment = kind_of(array.component).size;
-    const std::size_t stride = view.stride == 0 ? size : view.stride;
     const std::size_t available = view.bytes.size();
     const auto start = static_cast<std::size_t>(offset);
+    array.stride = view.stride == 0 ? size : view.stride;
     if (offset < 0 || start % alignment != 0)
         value["byteOffset"].fail("is {}, but must be a multiple of {}", offset, alignment);
-    if (stride < size)
-        value.fail("has elements of {} bytes, but bufferViews[{}].byteStride is {}", size, *index, stride);
+    if (array.stride < size)
+        value.fail("has elements of {} bytes, but bufferViews[{}].byteStride is {}", size, *index,
+                   array.stride);
     const bool has_room = start <= available && size <= available - start;
-    const std::size_t room = has_room ? (available - start - size) / stride + 1 : 0;
+    const std::size_t room = has_room ? (available - start - size) / array.stride + 1 : 0;
     if (count > room)
         value.fail("asks for {} elements, but bufferViews[{}] has room for {}", count, *index, room);
-    if (document_.failed()) return;
     array.bytes = view.bytes.substr(start);
-    array.stride = stride;
-}
-
-bool Accessors::accepts(const Accessor& accessor, const Wanted& wanted, const Value& user) const {
-    const Component component = accessor.numbers.component;
-    if (std::ranges::find(wanted.shapes, accessor.shape) != wanted.shapes.end() &&
-        std::ranges::find(wanted.components, component) != wanted.components.end())
-        return true;
-    std::vector<std::string> kinds;
-    for (const Component accepted : wanted.components) kinds.emplace_back(kind_of(accepted).name);
-    user.fail("names {}, which holds {} of {}, not {} of {}", accessor.path, accessor.shape,
-              kind_of(component).name, fmt::join(wanted.shapes, " or "), join(kinds, " or "));
-    return false;
 }
 
 std::optional<std::string_view> Accessors::view(const Value& user) const {
     const auto index = user.index(views_.size(), "buffer views");
-    return index && !document_.failed() ? std::optional(views_[*index].bytes) : std::nullopt;
+    return index ? std::optional(views_[*index].bytes) : std::nullopt;
 }
 
 Values Accessors::read(const Value& user, const Wanted& wanted) {
     const auto index = user.index(accessors_.size(), "accessors");
     if (!index) return {};
     const Accessor& accessor = accessors_[*index];
-    const Value named{&document_, nullptr, accessor.path};
+    const Array& numbers = accessor.numbers;
+    if (!has(wanted.shapes, accessor.shape) || !has(wanted.components, numbers.component)) {
+        std::vector<std::string_view> kinds;
+        for (const Component accepted : wanted.components) kinds.emplace_back(kind_of(accepted).name);
+        user.fail("names {}, which holds {} of {}, not {} of {}", accessor.value.path, accessor.shape,
+                  kind_of(numbers.component).name, fmt::join(wanted.shapes, " or "),
+                  fmt::join(kinds, " or "));
+    }
     const std::size_t width = columns_of(accessor.shape) * rows_of(accessor.shape);
-    const bool has_bytes = accessor.numbers.stride > 0;
-    if (!accepts(accessor, wanted, user)) return {};
+    const bool has_bytes = numbers.stride > 0;
     if (accessor.count > (kMostComponents - components_read_) / width)
-        named.fail("has {} elements: the scene would hold more than {} numbers", accessor.count,
-                   kMostComponents);
+        accessor.value.fail("has {} elements: the scene would hold more than {} numbers", accessor.count,
+                            kMostComponents);
     if (!has_bytes && accessor.count > kMostZeros / width)
-        named.fail("has {} elements without a buffer view: more than {} zeros", accessor.count, kMostZeros);
-    if (document_.failed()) return {};
+        accessor.value.fail("has {} elements without a buffer view: more than {} zeros", accessor.count,
+                            kMostZeros);
     Values values{width, accessor.count, std::vector<double>(accessor.count * width, 0.0)};
     components_read_ += values.numbers.size();
     for (std::size_t i = 0; has_bytes && i < values.count; ++i)
-        for (std::size_t k = 0; k < width; ++k) values.numbers[i * width + k] = accessor.numbers.at(i, k);
+        for (std::size_t k = 0; k < width; ++k) values.numbers[i * width + k] = numbers.at(i, k);
     double before = -1;
-    for (std::size_t i = 0; i < accessor.sparse_count && !document_.failed(); ++i) {
+    for (std::size_t i = 0; i < accessor.sparse_count; ++i) {
         const double element = accessor.sparse_indices.at(i, 0);
-        const bool rises = element > before && element < static_cast<double>(values.count);
-        if (!rises)
-            named.fail("has sparse indices that do not rise from 0 to {}: {} after {}", values.count - 1,
-                       element, before);
+        if (!(element > before && element < static_cast<double>(values.count)))
+            accessor.value.fail("has sparse indices that do not rise from 0 to {}: {} after {}",
+                                values.count - 1, element, before);
         before = element;
-        for (std::size_t k = 0; rises && k < width; ++k)
+        for (std::size_t k = 0; k < width; ++k)
             values.numbers[static_cast<std::size_t>(element) * width + k] = accessor.sparse_numbers.at(i, k);
     }
     const auto bad =
         std::ranges::find_if_not(values.numbers, [](double number) { return std::isfinite(number); });
     if (bad != values.numbers.end())
         user.fail("is not finite in element {} of {}",
-                  static_cast<std::size_t>(bad - values.numbers.begin()) / width, accessor.path);
-    return document_.failed() ? Values() : values;
+                  static_cast<std::size_t>(bad - values.numbers.begin()) / width, accessor.value.path);
+    return values;
 }
 
 Values Attributes::read(std::string_view name, const Wanted& wanted) {
     Values values = accessors.read(attributes[name], wanted);
     if (count == 0) count = values.count;
-    if (values.count == 0 || values.count == count) return values;
-    attributes[name].fail("has {} elements, but there are {} {}", values.count, count, elements);
-    return {};
+    if (values.count != 0 && values.count != count)
+        attributes[name].fail("has {} elements, but there are {} {}", values.count, count, elements);
+    return values;
 }
 
 }  // namespace gobo::scene

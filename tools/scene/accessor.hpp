@@ -12,6 +12,7 @@
 
 #include "core/file_system.hpp"
 #include "scene/document.hpp"
+#include "scene/scene.hpp"
 
 namespace gobo::scene {
 
@@ -22,18 +23,16 @@ struct Container {
 };
 
 /// Takes a file apart. What begins with "glTF" is a container of version 2 (glTF 2.0 specification, ch. 4),
-/// anything else is JSON. Fault::input where a container is cut short or its chunks are not as they must be.
-[[nodiscard]] Result<Container> open_container(std::string_view content, const std::string& path);
+/// anything else is JSON. An error where a container is cut short or its chunks are not as they must be.
+[[nodiscard]] Container open_container(std::string_view content);
 
-/// What the member `uri` names: data in base64, or a file beside the document, which is added to `files`.
-/// Anything wrong is an error of the document; Fault::file where a file cannot be read.
-[[nodiscard]] std::string read_uri(const FileSystem& disk, const Value& user, std::string_view uri,
-                                   std::vector<std::string>& files);
+/// What a `uri` of the scene's file names: data in base64, or a file beside it, which is added to the
+/// scene's. Fault::file where it cannot be read.
+[[nodiscard]] std::string read_uri(const FileSystem& disk, const Value& uri, Scene& scene);
 
 /// The contents of every buffer of the document, each of exactly its byteLength.
 [[nodiscard]] std::vector<std::string> read_buffers(const FileSystem& disk, const Value& root,
-                                                    std::optional<std::string_view> binary,
-                                                    std::vector<std::string>& files);
+                                                    std::optional<std::string_view> binary, Scene& scene);
 
 /// Component types, in the order of their table.
 enum class Component { int8, uint8, int16, uint16, uint32, float32 };
@@ -47,7 +46,7 @@ struct Wanted {
 /// The values of an accessor, element after element.
 struct Values {
     std::size_t width = 0;  ///< components of an element
-    std::size_t count = 0;  ///< elements; 0: there is no such accessor, or it is wrong
+    std::size_t count = 0;  ///< elements; 0: there is no such accessor
     std::vector<double> numbers;
 
     [[nodiscard]] double at(std::size_t element, std::size_t component = 0) const {
@@ -61,15 +60,14 @@ struct Values {
 /// All accessors of a document.
 class Accessors {
   public:
-    /// Reads and checks every buffer view and accessor: whatever lies outside its buffer is an error of the
-    /// document.
+    /// Reads and checks every buffer view and accessor: whatever lies outside its buffer is an error.
     Accessors(const Value& root, const std::vector<std::string>& buffers);
 
     [[nodiscard]] std::size_t size() const { return accessors_.size(); }
-    /// The bytes of the buffer view whose number `user` holds; nothing where it is absent or wrong.
+    /// The bytes of the buffer view whose number `user` holds; nothing where it is absent.
     [[nodiscard]] std::optional<std::string_view> view(const Value& user) const;
     /// The values of the accessor whose number `user` holds, normalized ones as numbers from 0 or -1 to 1. A
-    /// kind that is not wanted, and numbers that are not finite, are errors of the document.
+    /// kind that is not wanted, and numbers that are not finite, are errors.
     [[nodiscard]] Values read(const Value& user, const Wanted& wanted);
 
   private:
@@ -85,7 +83,7 @@ class Accessors {
         [[nodiscard]] double at(std::size_t element, std::size_t part) const;
     };
     struct Accessor {
-        std::string path;
+        Value value;
         std::string shape;
         std::size_t count = 0;
         Array numbers;
@@ -96,9 +94,7 @@ class Accessors {
 
     [[nodiscard]] Accessor read_accessor(const Value& value) const;
     void read_array(const Value& value, std::string_view shape, std::size_t count, Array& array) const;
-    [[nodiscard]] bool accepts(const Accessor& accessor, const Wanted& wanted, const Value& user) const;
 
-    Document& document_;
     std::vector<View> views_;
     std::vector<Accessor> accessors_;
     std::size_t components_read_ = 0;

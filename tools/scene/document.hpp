@@ -1,5 +1,6 @@
-// A JSON document read strictly: each value must have the type asked for, each index must lie in its array,
-// and the first thing wrong is said with the path that leads to it.
+// A JSON document read strictly: each value must have the type asked for, each index must lie in its array.
+// The first thing wrong ends the reading: it is thrown as Diagnostics, whose message begins with the path
+// that leads to it, and read_scene() alone catches it and names the file.
 #pragma once
 
 #include <cstdint>
@@ -27,50 +28,29 @@ struct Range {
 inline constexpr Range kNotNegative{0};
 inline constexpr Range kUpToOne{0, 1};
 
-/// A document being read. The first error is kept; reads after it return nothing, so that callers need not
-/// test each.
-class Document {
-  public:
-    /// Parses `text`; a syntax error, or a root that is no object, is already an error of the document.
-    /// `path` stands in diagnostics.
-    Document(std::string_view text, std::string path);
-    Document(const Document&) = delete;
-    Document& operator=(const Document&) = delete;
-
-    [[nodiscard]] const nlohmann::json& json() const { return root_; }
-    [[nodiscard]] const std::string& path() const { return path_; }
-    [[nodiscard]] bool failed() const { return !errors_.empty(); }
-    [[nodiscard]] const Diagnostics& errors() const { return errors_; }
-    /// Keeps the errors unless there are some already.
-    void take(Diagnostics errors);
-
-  private:
-    std::string path_;
-    nlohmann::json root_;
-    Diagnostics errors_;
-};
+/// Parses a document. A syntax error, or a root that is no object, is thrown as everything else is.
+[[nodiscard]] nlohmann::json parse_document(std::string_view text);
 
 /// A value of a document and the path that leads to it: `nodes[3].mesh`. It may be absent: that is no error
-/// unless it is required, and nothing is read of it. A value of another type, or out of range, is an error of
-/// the document.
+/// unless it is required, and nothing is read of it. A value of another type, or out of range, is an error.
 struct Value {
-    Document* document;
     const nlohmann::json* json = nullptr;  ///< null: absent
     std::string path;
 
     explicit operator bool() const { return json != nullptr; }
-    /// A member of an object; absent where the document has an error already.
+    /// A member of an object.
     [[nodiscard]] Value operator[](std::string_view name) const;
     /// The value itself; an error where it is absent.
     [[nodiscard]] Value required() const;
-    /// Keeps the error, and how to fix it, unless the document has one already. It begins with the path.
+    /// Throws the error, and how to fix it.
     template <class... Args>
-    void fail(fmt::format_string<Args...> message, Args&&... args) const {
-        fail_with("", message, std::forward<Args>(args)...);
+    [[noreturn]] void fail(fmt::format_string<Args...> message, Args&&... args) const {
+        throw_error(fmt::format(message, std::forward<Args>(args)...), "");
     }
     template <class... Args>
-    void fail_with(std::string_view help, fmt::format_string<Args...> message, Args&&... args) const {
-        if (!document->failed()) keep(fmt::format(message, std::forward<Args>(args)...), help);
+    [[noreturn]] void fail_with(std::string_view help, fmt::format_string<Args...> message,
+                                Args&&... args) const {
+        throw_error(fmt::format(message, std::forward<Args>(args)...), help);
     }
 
     /// The value itself, if it is an object, and its `extras.gobo`. Other programs' extras may be of any
@@ -111,7 +91,7 @@ struct Value {
     void only(const std::vector<std::string>& known) const;
 
   private:
-    void keep(const std::string& message, std::string_view help) const;
+    [[noreturn]] void throw_error(const std::string& message, std::string_view help) const;
     [[nodiscard]] bool is(bool (nlohmann::json::*type)() const noexcept, std::string_view wanted) const;
 };
 

@@ -373,15 +373,12 @@ std::vector<PlacedLight> place_lights(const Scene& scene) {
     for (const std::size_t index : scene.order) {
         const Node& node = scene.nodes[index];
         if (!node.light) continue;
-        PlacedLight& placed = lights.emplace_back();
-        placed.light = &scene.lights[*node.light];
-        placed.node = index;
-        const auto kind = static_cast<std::size_t>(placed.light->kind);
-        placed.feature = kLightKinds[kind];
-        placed.label = fmt::format("{} {}", placed.feature, counts[kind]++);
-        placed.positions = world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)});
-        placed.turns = is_moving(scene, index);
-        placed.direction = unit_or_zero(glm::dmat3(node.world) * glm::dvec3(0, 0, -1));
+        const Light& light = scene.lights[*node.light];
+        const auto kind = static_cast<std::size_t>(light.kind);
+        lights.push_back({&light, index, kLightKinds[kind],
+                          fmt::format("{} {}", kLightKinds[kind], counts[kind]++),
+                          world_box(scene, index, {glm::dvec3(0), glm::dvec3(0)}), is_moving(scene, index),
+                          unit_or_zero(glm::dmat3(node.world) * glm::dvec3(0, 0, -1))});
     }
     return lights;
 }

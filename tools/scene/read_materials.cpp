@@ -25,7 +25,7 @@ const std::vector<std::string> kFogKinds = {"none", "linear", "exponential", "ex
 const std::vector<std::string> kProbeKinds = {"none", "hemisphere", "spherical_harmonics", "image"};
 const std::vector<std::string> kHighlights = {"none", "phong", "blinn"};
 
-/// The alpha of a PNG; nothing where all of it is opaque, or where it cannot be decoded, which is an error.
+/// The alpha of a PNG; nothing where all of it is opaque.
 std::optional<AlphaMap> decode(std::string_view bytes, const Value& image) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     unsigned width = 0;
@@ -35,8 +35,7 @@ std::optional<AlphaMap> decode(std::string_view bytes, const Value& image) {
     unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
     if (error == 0 && std::size_t{width} * height > kMostTexels)
         image.fail("is of {} x {} pixels, which is more than gobo decodes", width, height);
-    else if (error == 0)
-        error = lodepng::decode(pixels, width, height, data, bytes.size());
+    if (error == 0) error = lodepng::decode(pixels, width, height, data, bytes.size());
     if (error != 0) image.fail("is no PNG that can be decoded: {}", lodepng_error_text(error));
     AlphaMap map{static_cast<int>(width), static_cast<int>(height), {}};
     for (std::size_t i = 3; i < pixels.size(); i += 4) map.texels.push_back(pixels[i]);
@@ -49,14 +48,13 @@ struct Textures {
     Value root;
     const Accessors& accessors;
     const FileSystem& disk;
-    std::vector<std::string>& files;
+    Scene& scene;
     std::vector<Value> textures = root["textures"].objects();
     std::vector<Value> images = root["images"].objects();
 
     /// Checks that the texture that a material names exists. Whether it names one.
     [[nodiscard]] bool is_named(const Value& info) const {
-        if (info) static_cast<void>(info["index"].required().index(textures.size(), "textures"));
-        return static_cast<bool>(info);
+        return info && info["index"].required().index(textures.size(), "textures");
     }
 
     /// Whether it is laid out plainly: by TEXCOORD_0, repeated, without a transform.
@@ -71,50 +69,61 @@ struct Textures {
 
     [[nodiscard]] std::string bytes_of(const Value& image) const {
         if (const auto view = accessors.view(image["bufferView"])) return std::string(*view);
-        if (std::string uri; image["uri"].read(uri)) return read_uri(disk, image, uri, files);
+        if (const Value uri = image["uri"]) return read_uri(disk, uri, scene);
         image.fail("has neither uri nor bufferView");
-        return {};
     }
 
     /// The alpha of the picture that a material names; nothing where it names none, or it has none. The map
-    /// is empty where its alpha is not known: it is neither PNG nor JPEG, or is not laid out plainly. A
-    /// picture that cannot be decoded is an error of the document.
+    /// is empty where its alpha is not known: it is neither PNG nor JPEG, or is not laid out plainly.
     [[nodiscard]] std::optional<AlphaMap> alpha(const Value& info) const {
         const auto number = info["index"].index(textures.size(), "textures");
         if (!number) return std::nullopt;
         const auto source = textures[*number]["source"].index(images.size(), "images");
         if (!source || !is_plain(info, textures[*number])) return AlphaMap();
-        const Value& image = images[*source];
-        const std::string bytes = bytes_of(image);
-        if (root.document->failed() || bytes.starts_with("\xff\xd8\xff"))
-            return std::nullopt;  // JPEG has no alpha
-        return bytes.starts_with("\x89PNG\r\n\x1a\n") ? decode(bytes, image) : AlphaMap();
+        const std::string bytes = bytes_of(images[*source]);
+        if (bytes.starts_with("\xff\xd8\xff")) return std::nullopt;  // JPEG has no alpha
+        return bytes.starts_with("\x89PNG\r\n\x1a\n") ? decode(bytes, images[*source]) : AlphaMap();
     }
-};
-
-/// glTF's metallic and roughness.
-struct Surface {
-    glm::dvec3 base{1};
-    double metallic = 1;
-    double roughness = 1;
-    double specular_factor = 1;
-    glm::dvec3 specular_color{1};
-    bool has_roughness_texture = false;
 };
 
 /// docs/scene_format.md, "Materials", states this rule and where it comes from.
-void apply_surface(const Surface& surface, Material& material) {
+void read_surface(const Value& value, const Textures& textures, Material& material) {
+    glm::dvec4 factor(1);
+    double metallic = 1;
+    double roughness = 1;
+    double emissive_strength = 1;
+    double specular_factor = 1;
+    glm::dvec3 specular_color(1);
+    const Value model = value["pbrMetallicRoughness"].object();
+    model["baseColorFactor"].read_numbers(&factor.x, 4);
+    if (glm::clamp(factor, 0.0, 1.0) != factor)
+        model["baseColorFactor"].fail("holds a number that is not between 0 and 1");
+    model["metallicFactor"].read(metallic, kUpToOne);
+    model["roughnessFactor"].read(roughness, kUpToOne);
+    const bool has_roughness_texture = textures.is_named(model["metallicRoughnessTexture"]);
+    material.is_textured = textures.is_named(model["baseColorTexture"]) || has_roughness_texture;
+    if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(model["baseColorTexture"]);
+    const Value extensions = value["extensions"].object();
+    material.unlit = static_cast<bool>(extensions["KHR_materials_unlit"].object());
+    extensions["KHR_materials_emissive_strength"]["emissiveStrength"].read(emissive_strength, kNotNegative);
+    const Value specular = extensions["KHR_materials_specular"];
+    specular["specularFactor"].read(specular_factor, kUpToOne);
+    specular["specularColorFactor"].read_color(specular_color);
+
+    const glm::dvec3 base(factor);
+    material.alpha = factor.a;
+    material.emission *= emissive_strength;
     if (material.unlit) {  // KHR_materials_unlit: the base colour is what is seen
-        material.emission = surface.base;
+        material.emission = base;
         return;
     }
     const glm::dvec3 dielectric =
-        glm::min(kDielectricReflectance * surface.specular_color, glm::dvec3(1)) * surface.specular_factor;
-    const glm::dvec3 reflectance = glm::mix(dielectric, surface.base, surface.metallic);
-    material.diffuse = surface.base * (1 - surface.metallic);
-    const double alpha = surface.roughness * surface.roughness;
+        glm::min(kDielectricReflectance * specular_color, glm::dvec3(1)) * specular_factor;
+    const glm::dvec3 reflectance = glm::mix(dielectric, base, metallic);
+    material.diffuse = base * (1 - metallic);
+    const double alpha = roughness * roughness;
     const double shininess = alpha == 0 ? 8 * kMostStrength : 2 / (alpha * alpha) - 2;
-    if (shininess >= 1 || surface.has_roughness_texture) {
+    if (shininess >= 1 || has_roughness_texture) {
         material.shininess = std::clamp(shininess, 1.0, 8 * kMostStrength - 2);
         material.strength = (material.shininess + 2) / 8;
         material.specular = reflectance;
@@ -122,32 +131,6 @@ void apply_surface(const Surface& surface, Material& material) {
         material.diffuse = glm::min(material.diffuse + reflectance, glm::dvec3(1));
     }
     material.ambient = material.diffuse;
-}
-
-Surface read_surface(const Value& value, const Textures& textures, Material& material) {
-    Surface surface;
-    const Value model = value["pbrMetallicRoughness"].object();
-    if (glm::dvec4 factor(1); model["baseColorFactor"].read_numbers(&factor.x, 4)) {
-        surface.base = factor;
-        material.alpha = factor.a;
-        for (glm::length_t i = 0; i < 4; ++i)
-            if (!(factor[i] >= 0 && factor[i] <= 1))
-                model["baseColorFactor"].fail("holds a number that is not between 0 and 1");
-    }
-    model["metallicFactor"].read(surface.metallic, kUpToOne);
-    model["roughnessFactor"].read(surface.roughness, kUpToOne);
-    surface.has_roughness_texture = textures.is_named(model["metallicRoughnessTexture"]);
-    material.is_textured = textures.is_named(model["baseColorTexture"]) || surface.has_roughness_texture;
-    if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(model["baseColorTexture"]);
-    const Value extensions = value["extensions"].object();
-    material.unlit = static_cast<bool>(extensions["KHR_materials_unlit"].object());
-    double strength = 1;
-    extensions["KHR_materials_emissive_strength"]["emissiveStrength"].read(strength, kNotNegative);
-    material.emission *= strength;
-    const Value specular = extensions["KHR_materials_specular"];
-    specular["specularFactor"].read(surface.specular_factor, kUpToOne);
-    specular["specularColorFactor"].read_color(surface.specular_color);
-    return surface;
 }
 
 /// The model stated outright takes the place of what the rule gives.
@@ -173,7 +156,7 @@ Material read_material(const Value& value, const Textures& textures) {
     value["doubleSided"].read(material.double_sided);
     material.alpha_mode = static_cast<AlphaMode>(value["alphaMode"].choice({"OPAQUE", "MASK", "BLEND"}, 0));
     value["alphaCutoff"].read(material.alpha_cutoff, kNotNegative);
-    apply_surface(read_surface(value, textures, material), material);
+    read_surface(value, textures, material);
     read_material_extras(value, material);
     for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"})
         material.is_textured = textures.is_named(value[texture]) || material.is_textured;
@@ -210,8 +193,7 @@ Probe read_probe(const Value& value) {
     const std::vector<Value> rows = value["coefficients"].elements();
     if (rows.size() != probe.coefficients.size())
         value["coefficients"].fail("must hold 9 colours, not {}", rows.size());
-    for (std::size_t i = 0; i < rows.size() && !value.document->failed(); ++i)
-        rows[i].read(probe.coefficients[i]);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].read(probe.coefficients[i]);
     return probe;
 }
 
@@ -250,14 +232,13 @@ Overrides read_overrides(const Value& extras, std::vector<std::string> others) {
 }
 
 void read_materials(const Value& root, const Accessors& accessors, const FileSystem& disk, Scene& scene) {
-    const Textures textures{root, accessors, disk, scene.files};
+    const Textures textures{root, accessors, disk, scene};
     for (const Value& texture : textures.textures)
         static_cast<void>(texture["source"].index(textures.images.size(), "images"));
     for (const Value& value : root["materials"].objects())
         scene.materials.push_back(read_material(value, textures));
-    Material& standard = scene.materials.emplace_back();
-    standard.name = "default material";
-    apply_surface({}, standard);
+    scene.materials.push_back(read_material({}, textures));  // what stands where nothing is stated
+    scene.materials.back().name = "default material";
 }
 
 }  // namespace gobo::scene

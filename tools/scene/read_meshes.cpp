@@ -9,17 +9,22 @@
 namespace gobo::scene {
 namespace {
 
+const Wanted kTriples = {{"VEC3"}, kFloatOrSmall};
 const std::vector<Component> kUnsigned = {Component::float32, Component::uint8, Component::uint16};
 
 /// glTF's modes: points, four kinds of lines, triangles, strips, fans.
 constexpr int kTriangles = 4;
 constexpr int kFan = 6;
 
-std::vector<glm::vec3> read_triples(Attributes& attributes, std::string_view name) {
-    const Values values = attributes.read(name, {{"VEC3"}, kFloatOrSmall});
-    std::vector<glm::vec3> result;
-    for (std::size_t i = 0; i < values.count; ++i) result.emplace_back(values.triple(i));
-    return result;
+/// Components that the file does not hold are 1: the alpha of colours.
+template <class Vector>
+std::vector<Vector> read_vectors(Attributes& attributes, std::string_view name, const Wanted& wanted) {
+    const Values values = attributes.read(name, wanted);
+    std::vector<Vector> vectors(values.count, Vector(1));
+    for (std::size_t i = 0; i < values.numbers.size(); ++i)
+        vectors[i / values.width][static_cast<glm::length_t>(i % values.width)] =
+            static_cast<float>(values.numbers[i]);
+    return vectors;
 }
 
 /// JOINTS_0 and WEIGHTS_0, JOINTS_1 and WEIGHTS_1, ...
@@ -34,7 +39,7 @@ void read_influences(const Value& source, Attributes& attributes, Primitive& pri
         for (std::size_t i = 0; i < joints.count; ++i) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const double weight = weights.at(i, k);
-                if (weight < 0) return source[weight_name].fail("is negative in element {}", i);
+                if (weight < 0) source[weight_name].fail("is negative in element {}", i);
                 if (weight == 0) continue;
                 primitive.influences[i].push_back(
                     {static_cast<std::uint32_t>(joints.at(i, k)), static_cast<float>(weight)});
@@ -54,7 +59,7 @@ void read_indices(const Value& value, Accessors& accessors, Primitive& primitive
     for (std::size_t i = 0; i < values.count; ++i) {
         const double vertex = values.at(i);
         if (vertex >= count)
-            return value["indices"].fail("names vertex {} in element {}, but there are {}", vertex, i, count);
+            value["indices"].fail("names vertex {} in element {}, but there are {}", vertex, i, count);
         primitive.indices.push_back(static_cast<std::uint32_t>(vertex));
     }
 }
@@ -62,13 +67,12 @@ void read_indices(const Value& value, Accessors& accessors, Primitive& primitive
 void read_targets(const Value& value, Accessors& accessors, Primitive& primitive) {
     for (const Value& target : value["targets"].objects()) {
         Attributes attributes{accessors, target, "positions", primitive.positions.size()};
-        primitive.target_positions.push_back(read_triples(attributes, "POSITION"));
+        primitive.target_positions.push_back(read_vectors<glm::vec3>(attributes, "POSITION", kTriples));
         // Zero for a target of normals only.
         primitive.target_positions.back().resize(primitive.positions.size(), glm::vec3(0));
         // Without normals at rest there is nothing to add to: they are computed from what is morphed.
         if (!primitive.normals.empty())
-            primitive.target_normals.push_back(read_triples(attributes, "NORMAL"));
-        if (value.document->failed()) return;
+            primitive.target_normals.push_back(read_vectors<glm::vec3>(attributes, "NORMAL", kTriples));
     }
 }
 
@@ -116,21 +120,16 @@ Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& 
     value["mode"].read(mode, {0, kFan});
     if (mode < kTriangles) primitive.topology = mode == 0 ? Topology::points : Topology::lines;
     const Value source = value["attributes"].required().object();
-    if (!source) return primitive;
     Attributes attributes{accessors, source, "positions"};
-    primitive.positions = read_triples(attributes, "POSITION");
+    primitive.positions = read_vectors<glm::vec3>(attributes, "POSITION", kTriples);
     if (primitive.positions.empty()) return primitive;  // allowed: something else supplies them
-    primitive.normals = read_triples(attributes, "NORMAL");
-    const Values texcoords = attributes.read("TEXCOORD_0", {{"VEC2"}, kFloatOrSmall});
-    for (std::size_t i = 0; i < texcoords.count; ++i)
-        primitive.texcoords.emplace_back(texcoords.at(i, 0), texcoords.at(i, 1));
-    const Values colors = attributes.read("COLOR_0", {{"VEC3", "VEC4"}, kUnsigned});
-    for (std::size_t i = 0; i < colors.count; ++i)
-        primitive.colors.emplace_back(colors.triple(i), colors.width == 4 ? colors.at(i, 3) : 1);
+    primitive.normals = read_vectors<glm::vec3>(attributes, "NORMAL", kTriples);
+    primitive.texcoords = read_vectors<glm::vec2>(attributes, "TEXCOORD_0", {{"VEC2"}, kFloatOrSmall});
+    primitive.colors = read_vectors<glm::vec4>(attributes, "COLOR_0", {{"VEC3", "VEC4"}, kUnsigned});
     read_influences(source, attributes, primitive);
     read_indices(value, accessors, primitive);
     read_targets(value, accessors, primitive);
-    if (value.document->failed() || primitive.topology != Topology::triangles) return primitive;
+    if (primitive.topology != Topology::triangles) return primitive;
     primitive.indices = listed(primitive.indices, static_cast<int>(mode));
     if (primitive.normals.empty() && !primitive.indices.empty()) spread_with_flat_normals(primitive);
     return primitive;
@@ -154,11 +153,9 @@ void read_meshes(const Value& root, Accessors& accessors, Scene& scene) {
     for (const Value& value : root["meshes"].objects()) {
         Mesh mesh;
         value["name"].read(mesh.name);
-        for (const Value& primitive : value["primitives"].objects()) {
+        for (const Value& primitive : value["primitives"].objects())
             mesh.primitives.push_back(read_primitive(primitive, accessors, scene));
-            if (root.document->failed()) return;
-        }
-        if (mesh.primitives.empty()) return value["primitives"].fail("must hold at least one primitive");
+        if (mesh.primitives.empty()) value["primitives"].fail("must hold at least one primitive");
         const std::size_t targets = mesh.primitives.front().target_positions.size();
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
             if (const std::size_t count = mesh.primitives[i].target_positions.size(); count != targets)
@@ -166,7 +163,6 @@ void read_meshes(const Value& root, Accessors& accessors, Scene& scene) {
                     "has {} morph targets, but the first primitive has {}", count, targets);
         mesh.weights.resize(targets);  // zero where it states none
         value["weights"].read_numbers(mesh.weights.data(), targets);
-        if (root.document->failed()) return;
         scene.meshes.push_back(std::move(mesh));
     }
 }

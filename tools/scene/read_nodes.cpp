@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "scene/read_parts.hpp"
 
@@ -33,8 +34,7 @@ void read_transform(const Value& value, Node& node) {
     if (glm::dvec4 r(0); value["rotation"].read_numbers(&r.x, 4)) {
         const glm::dquat rotation(r.w, r.x, r.y, r.z);
         const double length = glm::length(rotation);
-        if (!(length > 1e-6 && length < 1e6))
-            return value["rotation"].fail("is no rotation: its length must be 1");
+        if (!(length > 1e-6 && length < 1e6)) value["rotation"].fail("is no rotation: its length must be 1");
         node.rotation = rotation / length;
     }
     node.local = glm::translate(glm::dmat4(1), node.translation) * glm::mat4_cast(node.rotation) *
@@ -48,7 +48,7 @@ std::vector<glm::dmat4> read_instances(const Value& attributes, Accessors& acces
     const Values rotation = reader.read("ROTATION", {{"VEC4"}, kSigned});
     const Values scale = reader.read("SCALE", {{"VEC3"}, kSigned});
     std::vector<glm::dmat4> instances;
-    for (std::size_t i = 0; i < reader.count && !attributes.document->failed(); ++i) {
+    for (std::size_t i = 0; i < reader.count; ++i) {
         glm::dmat4& instance = instances.emplace_back(1);
         if (translation.count > 0) instance = glm::translate(instance, translation.triple(i));
         if (rotation.count > 0) {
@@ -67,11 +67,9 @@ void read_instancing(const Value& value, Accessors& accessors, const Scene& scen
     const Value extension = value["extensions"]["EXT_mesh_gpu_instancing"].object();
     if (!extension) return;
     if (node.skin)
-        return extension.fail_with("export each instance as a node of its own",
-                                   "stands beside a skin: gobo draws no skinned instances");
-    const Value attributes = extension["attributes"].required().object();
-    if (!attributes) return;
-    node.instances = read_instances(attributes, accessors);
+        extension.fail_with("export each instance as a node of its own",
+                            "stands beside a skin: gobo draws no skinned instances");
+    node.instances = read_instances(extension["attributes"].required().object(), accessors);
     std::size_t vertices = 0;
     for (const Primitive& primitive : scene.meshes[*node.mesh].primitives)
         vertices += primitive.positions.size();
@@ -105,7 +103,7 @@ void name_parents(const Value& root, std::vector<Node>& nodes) {
         for (const std::size_t child : nodes[i].children) {
             auto& parent = nodes[child].parent;
             if (parent)
-                return root[fmt::format("nodes[{}]", child)].fail_with(
+                root[fmt::format("nodes[{}]", child)].fail_with(
                     "a node has at most one parent; let two nodes share a mesh instead",
                     "is a child of both node {} and node {}", *parent, i);
             parent = i;
@@ -120,8 +118,7 @@ void check_depth(const Value& root, const std::vector<Node>& nodes) {
         int depth = 0;
         std::optional<std::size_t> above = nodes[i].parent;
         for (; above && above != i && depth <= kDeepestHierarchy; above = nodes[*above].parent) ++depth;
-        if (above == i)
-            return root[fmt::format("nodes[{}]", i)].fail("is its own ancestor: the nodes form a cycle");
+        if (above == i) root[fmt::format("nodes[{}]", i)].fail("is its own ancestor: the nodes form a cycle");
         if (depth > kDeepestHierarchy && !too_deep) too_deep = i;
     }
     if (too_deep)
@@ -136,7 +133,7 @@ void check_influences(const Value& root, const Scene& scene) {
             for (const auto& influences : primitive.influences)
                 for (const Influence& influence : influences)
                     named[i] = std::max(named[i], std::size_t{influence.joint} + 1);
-    for (std::size_t i = 0; i < scene.nodes.size() && !root.document->failed(); ++i) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (!node.skin || !node.mesh) continue;
         const std::size_t joints = scene.skins[*node.skin].joints.size();
@@ -147,7 +144,7 @@ void check_influences(const Value& root, const Scene& scene) {
     }
 }
 
-/// The hull of each of `width` numbers that a sampler gives at a time; empty where something is wrong.
+/// The hull of each of `width` numbers that a sampler gives at a time.
 /// Between two keyframes a curve stays within the hull of its control points: the keyframes and, of a cubic
 /// spline, the inner Bezier points p0 + m0 dt / 3 and p1 - m1 dt / 3 of each segment.
 std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, const Wanted& wanted,
@@ -157,7 +154,6 @@ std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, cons
     const bool is_cubic = sampler["interpolation"].choice({"LINEAR", "STEP", "CUBICSPLINE"}, 0) == 2;
     const Values times = accessors.read(sampler["input"], {{"SCALAR"}, {Component::float32}});
     const Values values = accessors.read(sampler["output"], wanted);
-    if (sampler.document->failed()) return {};
     const std::size_t expected = times.count * (is_cubic ? 3 : 1) * width / values.width;
     if (values.count != expected)
         sampler["output"].fail("has {} elements, but {} keyframes need {}", values.count, times.count,
@@ -165,7 +161,6 @@ std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, cons
     const auto fall = std::ranges::adjacent_find(times.numbers, std::greater_equal());
     if (fall != times.numbers.end())
         sampler["input"].fail("does not rise at keyframe {}", fall - times.numbers.begin() + 1);
-    if (sampler.document->failed()) return {};
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<Interval> hull(width, {infinity, -infinity});
     for (std::size_t i = 0; i < times.count; ++i) {
@@ -187,7 +182,7 @@ std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, cons
 void read_weights(const Value& target, const Value& sampler, Accessors& accessors, const Scene& scene,
                   Node& node) {
     if (!node.mesh || scene.meshes[*node.mesh].weights.empty())
-        return target.fail("animates the weights of a node whose mesh has no morph targets");
+        target.fail("animates the weights of a node whose mesh has no morph targets");
     const std::vector<double>& rest = weights_at_rest(scene, node);
     const auto hull = read_hull(sampler, accessors, {{"SCALAR"}, kFloatOrSmall}, rest.size());
     std::vector<Interval>& weights = node.motion->weights;
@@ -200,19 +195,17 @@ void read_weights(const Value& target, const Value& sampler, Accessors& accessor
 
 void read_channel(const Value& target, const Value& sampler, Accessors& accessors, Scene& scene) {
     std::string path;
-    if (!target["path"].read(path)) target["path"].fail("is missing");
+    target["path"].required().read(path);
     const auto index = target["node"].index(scene.nodes.size(), "nodes");
     if (!index) return;  // without a node an extension animates something else
     Node& node = scene.nodes[*index];
-    if (node.has_matrix && path != "weights")
-        return target.fail("animates nodes[{}], which has a matrix", *index);
+    if (node.has_matrix && path != "weights") target.fail("animates nodes[{}], which has a matrix", *index);
     if (!node.motion)
         node.motion = Motion{{node.translation, node.translation}, {node.scale, node.scale}, {}, {}, {}};
     if (path == "translation" || path == "scale") {
         const auto hull = read_hull(sampler, accessors, {{"VEC3"}, {Component::float32}}, 3);
         Box& box = path == "scale" ? node.motion->scale : node.motion->translation;
-        if (!hull.empty())
-            box.add(Box{{hull[0].low, hull[1].low, hull[2].low}, {hull[0].high, hull[1].high, hull[2].high}});
+        box.add(Box{{hull[0].low, hull[1].low, hull[2].low}, {hull[0].high, hull[1].high, hull[2].high}});
         node.motion->moves = true;
     } else if (path == "rotation") {
         static_cast<void>(read_hull(sampler, accessors, {{"VEC4"}, kFloatOrSmall}, 4));  // for its errors
@@ -235,11 +228,8 @@ void read_skins(const Value& root, Accessors& accessors, Scene& scene) {
         if (values.count > 0 && values.count < skin.joints.size())
             value["inverseBindMatrices"].fail("has {} matrices for {} joints", values.count,
                                               skin.joints.size());
-        if (root.document->failed()) return;
         for (std::size_t i = 0; i < skin.joints.size() && values.count > 0; ++i)
-            for (std::size_t k = 0; k < 16; ++k)
-                skin.inverse_bind[i][static_cast<glm::length_t>(k / 4)][static_cast<glm::length_t>(k % 4)] =
-                    values.at(i, k);
+            skin.inverse_bind[i] = glm::make_mat4(&values.numbers[16 * i]);
     }
     check_influences(root, scene);
 }
@@ -250,7 +240,6 @@ void read_animations(const Value& root, Accessors& accessors, Scene& scene) {
         for (const Value& channel : animation["channels"].objects()) {
             const auto sampler = channel["sampler"].required().index(samplers.size(), "samplers");
             const Value target = channel["target"].required().object();
-            if (root.document->failed()) return;
             read_channel(target, samplers[*sampler], accessors, scene);
         }
     }
@@ -261,10 +250,8 @@ void read_animations(const Value& root, Accessors& accessors, Scene& scene) {
 void read_nodes(const Value& root, Accessors& accessors, Scene& scene) {
     const std::vector<Value> values = root["nodes"].objects();
     const std::size_t skin_count = root["skins"].objects().size();
-    for (const Value& value : values) {
+    for (const Value& value : values)
         scene.nodes.push_back(read_node(value, accessors, values.size(), skin_count, scene));
-        if (root.document->failed()) return;
-    }
     name_parents(root, scene.nodes);
     check_depth(root, scene.nodes);
     read_skins(root, accessors, scene);

@@ -1,9 +1,7 @@
-// The parts that read_scene() is made of: each fills one part of a scene from the document. Whatever is wrong
-// becomes an error of the document.
+// The parts that read_scene() is made of: each fills one part of a scene from the document.
 #pragma once
 
 #include "scene/accessor.hpp"
-#include "scene/scene.hpp"
 
 namespace gobo::scene {
 

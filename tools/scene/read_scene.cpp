@@ -21,11 +21,9 @@ const std::vector<std::string> kKnownExtensions = {
 
 void read_asset(const Value& root) {
     const Value asset = root["asset"].object();
-    if (!asset)
-        return root["asset"].fail_with("a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}",
-                                       "is missing");
+    if (!asset) asset.fail_with("a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}", "is missing");
     std::string version;
-    if (!asset["version"].read(version)) asset["version"].fail("is missing");
+    asset["version"].required().read(version);
     if (!version.starts_with("2.")) asset["version"].fail("is '{}', but only glTF 2 is read", version);
     std::string least = "2.0";
     asset["minVersion"].read(least);
@@ -34,7 +32,7 @@ void read_asset(const Value& root) {
 
 void check_extensions(const Value& root) {
     for (const Value& value : root["extensionsRequired"].elements()) {
-        if (!value.json->is_string()) return value.fail("must be a string");
+        if (!value.json->is_string()) value.fail("must be a string");
         const auto name = value.json->get<std::string>();
         if (std::ranges::find(kKnownExtensions, name) == kKnownExtensions.end())
             value.fail_with(fmt::format("export without it; read are {}", join(kKnownExtensions, ", ")),
@@ -159,7 +157,6 @@ bool is_placed(const glm::dmat4& world) {
 /// Marks what is in the scene, in order, with its place in the world and the overrides of the nodes above it.
 void place_nodes(const Value& root, Scene& scene) {
     std::vector<std::size_t> open = scene_roots(root, scene);
-    if (root.document->failed()) return;
     std::ranges::reverse(open);
     while (!open.empty()) {
         const std::size_t index = open.back();
@@ -182,23 +179,27 @@ void place_nodes(const Value& root, Scene& scene) {
 
 Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
     GOBO_TRY(const std::string content, files.read(path));
-    GOBO_TRY(const Container container, open_container(content, path));
-    Document document(container.json, path);
-    const Value root{&document, &document.json(), ""};
     Scene scene;
     scene.path = path;
     scene.files = {path};
-    read_asset(root);
-    check_extensions(root);
-    const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene.files);
-    Accessors accessors(root, buffers);
-    read_lights(root, scene);
-    read_cameras(root, scene);
-    read_materials(root, accessors, files, scene);
-    read_meshes(root, accessors, scene);
-    read_nodes(root, accessors, scene);
-    place_nodes(root, scene);
-    if (document.failed()) return tl::unexpected(document.errors());
+    try {
+        const Container container = open_container(content);
+        const nlohmann::json document = parse_document(container.json);
+        const Value root{&document, ""};
+        read_asset(root);
+        check_extensions(root);
+        const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene);
+        Accessors accessors(root, buffers);
+        read_lights(root, scene);
+        read_cameras(root, scene);
+        read_materials(root, accessors, files, scene);
+        read_meshes(root, accessors, scene);
+        read_nodes(root, accessors, scene);
+        place_nodes(root, scene);
+    } catch (Diagnostics& wrong) {
+        if (wrong.front().place.file.empty()) wrong.front().place.file = path;
+        return tl::unexpected(std::move(wrong));
+    }
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -103,12 +104,10 @@ Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
 }
 
 std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws) {
-    std::vector<Key> keys;
+    std::set<Key> keys;
     for (const auto& draw : draws)
-        if (draw) keys.push_back(draw->key);
-    std::ranges::sort(keys);
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    return keys;
+        if (draw) keys.insert(draw->key);
+    return {keys.begin(), keys.end()};
 }
 
 Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws, const Buckets& buckets,
