@@ -14,4 +14,8 @@ ctest --preset release -j "$(nproc)" "${tier[@]}" --output-junit "$PWD/$results/
 echo "The ten slowest, in seconds:"
 sed -nE 's/.*<testcase name="([^"]*)".* classname="([^"]*)".* time="([0-9.]+)".*/\3 \1/p; s/.*<testcase name="([^"]*)".* time="([0-9.]+)".* classname="([^"]*)".*/\2 \3.\1/p' \
   "$results"/*.xml | sort -rn | sed -n 1,10p
+if [ ${#tier[@]} -eq 0 ]; then
+  # Figures to look at: no test fails by them.
+  timeout 60 tools/bench_start.sh build/release/bin/gobo 5 || echo "test.sh: tools/bench_start.sh did not come to its end" >&2
+fi
 exit $status

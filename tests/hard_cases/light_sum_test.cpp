@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../shipped_pieces.hpp"
-#include "evaluate_support.hpp"
+#include "../unit/evaluate_support.hpp"
 #include "lab/sanitize/machine.hpp"
 
 namespace gobo {

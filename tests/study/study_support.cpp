@@ -1,8 +1,8 @@
 #include "study_support.hpp"
 
+#include "../verify/lit_library.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lit_library.hpp"
 
 namespace gobo::study {
 namespace {
