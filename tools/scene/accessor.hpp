@@ -63,7 +63,6 @@ class Accessors {
     /// Reads and checks every buffer view and accessor: whatever lies outside its buffer is an error.
     Accessors(const Value& root, const std::vector<std::string>& buffers);
 
-    [[nodiscard]] std::size_t size() const { return accessors_.size(); }
     /// The bytes of the buffer view whose number `user` holds; nothing where it is absent.
     [[nodiscard]] std::optional<std::string_view> view(const Value& user) const;
     /// The values of the accessor whose number `user` holds, normalized ones as numbers from 0 or -1 to 1. A

@@ -149,11 +149,9 @@ void check_influences(const Value& root, const Scene& scene) {
 /// spline, the inner Bezier points p0 + m0 dt / 3 and p1 - m1 dt / 3 of each segment.
 std::vector<Interval> read_hull(const Value& sampler, Accessors& accessors, const Wanted& wanted,
                                 std::size_t width) {
-    for (const char* name : {"input", "output"})
-        static_cast<void>(sampler[name].required().index(accessors.size(), "accessors"));
     const bool is_cubic = sampler["interpolation"].choice({"LINEAR", "STEP", "CUBICSPLINE"}, 0) == 2;
-    const Values times = accessors.read(sampler["input"], {{"SCALAR"}, {Component::float32}});
-    const Values values = accessors.read(sampler["output"], wanted);
+    const Values times = accessors.read(sampler["input"].required(), {{"SCALAR"}, {Component::float32}});
+    const Values values = accessors.read(sampler["output"].required(), wanted);
     const std::size_t expected = times.count * (is_cubic ? 3 : 1) * width / values.width;
     if (values.count != expected)
         sampler["output"].fail("has {} elements, but {} keyframes need {}", values.count, times.count,

@@ -32,8 +32,8 @@ void read_asset(const Value& root) {
 
 void check_extensions(const Value& root) {
     for (const Value& value : root["extensionsRequired"].elements()) {
-        if (!value.json->is_string()) value.fail("must be a string");
-        const auto name = value.json->get<std::string>();
+        std::string name;
+        value.read(name);
         if (std::ranges::find(kKnownExtensions, name) == kKnownExtensions.end())
             value.fail_with(fmt::format("export without it; read are {}", join(kKnownExtensions, ", ")),
                             "is {}, which gobo does not read", name);
@@ -46,8 +46,7 @@ constexpr double kAngleSlack = 1e-6;
 
 void read_cone(const Value& value, Light& light) {
     light.outer_angle = std::numbers::pi / 4;
-    const Value cone = value["spot"].object();
-    if (!cone) return;
+    const Value cone = value["spot"];
     const Range angles{0, kRightAngle + kAngleSlack};
     cone["innerConeAngle"].read(light.inner_angle, angles);
     cone["outerConeAngle"].read(light.outer_angle, angles);
@@ -69,12 +68,11 @@ Light read_light(const Value& value) {
     value["range"].read(light.range);
     if (light.range <= 0) value["range"].fail("is {:g}, but must be above 0", light.range);
     if (light.kind == LightKind::spot) read_cone(value, light);
-    if (const Value extras = value.gobo_extras()) {
-        extras.only({"attenuation", "exponent", "shadow"});
-        extras["attenuation"].read_color(light.attenuation);
-        extras["exponent"].read(light.exponent, {0, 1e6});
-        extras["shadow"].read(light.casts_shadow);
-    }
+    const Value extras = value.gobo_extras();
+    extras.only({"attenuation", "exponent", "shadow"});
+    extras["attenuation"].read_color(light.attenuation);
+    extras["exponent"].read(light.exponent, {0, 1e6});
+    extras["shadow"].read(light.casts_shadow);
     return light;
 }
 
@@ -99,12 +97,6 @@ void read_orthographic(const Value& view, Camera& camera) {
         view.fail("must have xmag and ymag other than 0");
     if (camera.near_plane < 0 || camera.far_plane <= camera.near_plane)
         view.fail("must have 0 <= znear < zfar");
-}
-
-void read_lights(const Value& root, Scene& scene) {
-    const Value extension = root["extensions"]["KHR_lights_punctual"].object();
-    if (!extension) return;
-    for (const Value& value : extension["lights"].objects()) scene.lights.push_back(read_light(value));
 }
 
 void read_cameras(const Value& root, Scene& scene) {
@@ -133,11 +125,10 @@ std::vector<std::size_t> scene_roots(const Value& root, Scene& scene) {
     }
     const Value& value = scenes[chosen];
     roots = value["nodes"].indices(scene.nodes.size(), "nodes");
-    if (const Value extras = value.gobo_extras()) {
-        scene.overrides = read_overrides(extras, {"ambient", "background"});
-        extras["ambient"].read_color(scene.ambient);
-        if (glm::dvec3 color(0); extras["background"].read_color(color)) scene.background = color;
-    }
+    const Value extras = value.gobo_extras();
+    scene.overrides = read_overrides(extras, {"ambient", "background"});
+    extras["ambient"].read_color(scene.ambient);
+    if (glm::dvec3 color(0); extras["background"].read_color(color)) scene.background = color;
     for (std::size_t i = 0; i < roots.size(); ++i)
         if (const auto& parent = scene.nodes[roots[i]].parent)
             value[fmt::format("nodes[{}]", i)].fail_with("a scene lists root nodes only",
@@ -190,7 +181,8 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
         check_extensions(root);
         const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene);
         Accessors accessors(root, buffers);
-        read_lights(root, scene);
+        for (const Value& light : root["extensions"]["KHR_lights_punctual"]["lights"].objects())
+            scene.lights.push_back(read_light(light));
         read_cameras(root, scene);
         read_materials(root, accessors, files, scene);
         read_meshes(root, accessors, scene);
