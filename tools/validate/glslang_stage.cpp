@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "compose/dialect.hpp"
@@ -166,22 +165,6 @@ tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
 }
 
 }  // namespace
-
-/// glslang's shader with the strings it points into.
-struct GlslangStage::Shader {
-    explicit Shader(EShLanguage language) : shader(language) {}
-
-    std::string prologue;
-    std::vector<const char*> texts;
-    std::vector<int> lengths;
-    std::vector<const char*> names;
-    glslang::TShader shader;
-};
-
-GlslangStage::GlslangStage(StageKind kind, std::vector<const Piece*> pieces)
-    : kind_(kind), pieces_(std::move(pieces)) {}
-
-GlslangStage::~GlslangStage() = default;
 
 Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, bool map_bindings) {
     // Its tables are kept for the next composition.

@@ -3,7 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <glslang/Public/ShaderLang.h>
 
 #include "validate/validate.hpp"
 
@@ -12,8 +15,8 @@ namespace gobo {
 /// A parsed stage. The pieces must outlive it. Not safe for use by two threads at once.
 class GlslangStage {
   public:
-    GlslangStage(StageKind kind, std::vector<const Piece*> pieces);
-    ~GlslangStage();
+    GlslangStage(StageKind kind, std::vector<const Piece*> pieces)
+        : kind_(kind), pieces_(std::move(pieces)) {}
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
     /// own rules, then raised. What glslang says of it.
@@ -27,7 +30,16 @@ class GlslangStage {
     friend Diagnostics link(GlslangStage& vertex, GlslangStage& fragment);
 
   private:
-    struct Shader;
+    /// glslang's shader with the strings it points into.
+    struct Shader {
+        explicit Shader(EShLanguage language) : shader(language) {}
+
+        std::string prologue;
+        std::vector<const char*> texts;
+        std::vector<int> lengths;
+        std::vector<const char*> names;
+        glslang::TShader shader;
+    };
 
     Diagnostics parse_as(const std::string& prologue, bool for_spirv, bool map_bindings);
 
