@@ -242,8 +242,7 @@ class Composer {
 
     tl::unexpected<Diagnostics> cycle(const Placement& placement, int piece, const Include& from) const {
         std::string path;
-        for (auto at = std::find(placement.open.begin(), placement.open.end(), piece);
-             at != placement.open.end(); ++at)
+        for (auto at = std::ranges::find(placement.open, piece); at != placement.open.end(); ++at)
             path += composition_.piece(*at).name + " -> ";
         return fail_at(from, "include cycle: " + path + composition_.piece(piece).name,
                        "move what both need into a piece of its own");

@@ -19,15 +19,11 @@ constexpr std::string_view kHeaderNames =
 
 Result<std::string> namespace_of(const EmitInput& input) {
     if (input.cpp_namespace.empty()) return cpp_identifier(input.family.name);
-    std::string_view rest = input.cpp_namespace;
-    while (true) {
-        const auto end = rest.find("::");
-        if (!is_cpp_identifier(rest.substr(0, end)))
-            return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
-                        "use identifiers with '::' between them, such as game::shaders");
-        if (end == std::string_view::npos) return input.cpp_namespace;
-        rest.remove_prefix(end + 2);
-    }
+    const std::vector<std::string> names = split(input.cpp_namespace, ':');
+    if (join(names, "::") == input.cpp_namespace && std::ranges::all_of(names, is_cpp_identifier))
+        return input.cpp_namespace;
+    return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
+                "use identifiers with '::' between them, such as game::shaders");
 }
 
 }  // namespace
@@ -49,8 +45,7 @@ std::string version_of(const Composition& composition) {
         const GlslVersion version = version_of(piece.text);
         if (version.es && version.number == 300) return "es300";
         const bool has_profile = !version.profile.empty() && version.profile != "core";
-        return fmt::format("{}{}{}", version.number, has_profile ? " " : "",
-                           has_profile ? version.profile : "");
+        return fmt::format("{}{}", version.number, has_profile ? " " + version.profile : "");
     }
     return std::string(name_of(composition.dialect));
 }

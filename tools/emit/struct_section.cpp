@@ -21,29 +21,23 @@ int rounded_up(int size) {
 constexpr std::string_view kNumbers[] = {"float", "std::int32_t", "std::uint32_t", "std140::Bool32",
                                          "double"};
 
-std::string_view number_of(Scalar scalar) {
-    return kNumbers[static_cast<std::size_t>(scalar)];
-}
-
-CppMemberType vector_type(const GlslType& glsl) {
-    std::string type = glsl.rows == 1 ? std::string(number_of(glsl.scalar)) : "std140::" + glsl.name();
-    return {std::move(type), {}, glsl.column_size()};
-}
-
-std::optional<CppMemberType> matrix_type(const GlslType& glsl, const Member& member) {
-    CppMemberType result;
+/// That of a scalar, vector or matrix that is no array.
+std::optional<CppMemberType> element_type(const GlslType& glsl, const Member& member) {
+    const std::string_view number = kNumbers[static_cast<std::size_t>(glsl.scalar)];
+    CppMemberType result{
+        glsl.rows == 1 ? std::string(number) : "std140::" + glsl.name(), {}, glsl.column_size()};
+    if (!glsl.is_matrix()) return result;
     const int lines = member.row_major ? glsl.rows : glsl.columns;
     const int line_size = (member.row_major ? glsl.columns : glsl.rows) * glsl.scalar_size();
     if (member.matrix_stride < line_size) return std::nullopt;
     result.size = lines * member.matrix_stride;
-    const std::string shape = fmt::format("<{}, {}, {}", glsl.columns, glsl.rows, number_of(glsl.scalar));
-    if (member.row_major) {
+    const std::string shape = fmt::format("<{}, {}, {}", glsl.columns, glsl.rows, number);
+    if (member.row_major)
         result.type = fmt::format("std140::RowMajorMatrix{}, {}>", shape, member.matrix_stride);
-    } else if (member.matrix_stride > line_size) {
+    else if (member.matrix_stride > line_size)
         result.type = fmt::format("std140::Matrix{}, {}>", shape, member.matrix_stride);
-    } else {
+    else
         result.type = fmt::format("std140::PlainMatrix{}>", shape);
-    }
     if (result.type == "std140::Matrix<2, 2, float, 16>") result.type = "std140::Mat2";
     if (result.type == "std140::Matrix<3, 3, float, 16>") result.type = "std140::Mat3";
     if (result.type == "std140::PlainMatrix<4, 4, float>") result.type = "std140::mat4";
@@ -292,9 +286,8 @@ std::optional<CppMemberType> cpp_type_of(const Member& member) {
     const std::optional<GlslType> glsl = glsl_type(member.type);
     // The numbers of 8, 16 and 64 bits that extensions of GLSL know are none of them.
     if (!glsl || glsl->scalar > Scalar::float64) return std::nullopt;
-    const auto element = glsl->is_matrix() ? matrix_type(*glsl, member) : vector_type(*glsl);
-    if (!element) return std::nullopt;
-    return cpp_array_of(element->type, element->size, member);
+    const auto element = element_type(*glsl, member);
+    return element ? cpp_array_of(element->type, element->size, member) : std::nullopt;
 }
 
 std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
