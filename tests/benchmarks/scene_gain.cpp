@@ -17,9 +17,9 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/render/framebuffer.hpp"
+#include "lab/render/render.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
-#include "lab/study/weights.hpp"
+#include "lab/study/measure.hpp"
 #include "scene/read_scene.hpp"
 #include "software_scene.hpp"
 #include "uber_values.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/gallery/picture.hpp"
+#include "lab/gallery/gallery.hpp"
 
 namespace gobo::gallery {
 namespace {

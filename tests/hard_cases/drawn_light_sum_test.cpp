@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "../shipped_pieces.hpp"
-#include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo {
 namespace {

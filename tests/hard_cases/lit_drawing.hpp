@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
+#include "lab/render/render.hpp"
 #include "lit_under_test.hpp"
 
 namespace gobo {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/scene_picture/scene_view.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
 
 namespace gobo::scene {
 

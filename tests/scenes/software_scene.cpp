@@ -206,7 +206,7 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         }
         auto object = raster::rasterise_object(
             programs[*permutation], shaders.interfaces[*permutation], with_shadows,
-            raster::with_plain_textures(shaders.interfaces[*permutation], values), viewed_by(view));
+            raster::with_plain_textures(shaders.interfaces[*permutation], values), view);
         if (!object) return tl::unexpected(object.error());
         give_images(images, i, object->uniforms);
         rasterised[i] = std::move(*object);

@@ -1,9 +1,10 @@
 // Charts: axes that hold their values, and marks where they belong.
-#include "lab/study/chart.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "core/text.hpp"
+#include "lab/study/front.hpp"
 
 namespace gobo::study {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lab/study/scenes.hpp"
+#include "lab/study/plan.hpp"
 
 namespace gobo::study {
 

@@ -3,7 +3,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/study/scenes.hpp"
+#include "lab/study/plan.hpp"
 
 namespace gobo::study {
 namespace {

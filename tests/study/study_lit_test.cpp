@@ -6,7 +6,6 @@
 
 #include "budget/qualities.hpp"
 #include "family/key.hpp"
-#include "lab/study/choices.hpp"
 #include "lab/study/rows.hpp"
 #include "study_support.hpp"
 

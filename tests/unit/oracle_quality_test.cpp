@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "lab/oracle/oracle.hpp"
-#include "lab/oracle/response.hpp"
 
 namespace gobo::oracle {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/oracle/response.hpp"
 
 namespace gobo::oracle {
 namespace {

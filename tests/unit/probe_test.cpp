@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
-#include "lab/probe/convolution.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/oracle/environment.hpp"
+#include "lab/probe/environment.hpp"
+#include "lab/render/image.hpp"
 
 namespace gobo::probe {
 namespace {
@@ -222,7 +223,9 @@ TEST(Probe, ShippedEnvironmentsKeepTheirEnergy) {
                 const double weight = s * s * s;  // a texel's solid angle, up to a factor
                 const double green = cube.at(column, row, 1);
                 scattered += weight * glm::dvec3(cube.at(column, row, 0), green, cube.at(column, row, 2));
-                squares += weight * std::pow(irradiance(harmonics, n).g / kPi - green, 2);
+                squares +=
+                    weight *
+                    std::pow(oracle::irradiance(oracle::Harmonics::second, harmonics, n).g / kPi - green, 2);
                 area += weight;
             }
         // 384 directions stand for all: 1 %. The nine coefficients come within 8 % of the mean in a

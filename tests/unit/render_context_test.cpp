@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "lab/render/context.hpp"
-#include "lab/render/framebuffer.hpp"
 #include "lab/render/program.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "image_comparison.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/render/image.hpp"
 
 namespace gobo {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "../unit/image_comparison.hpp"
 #include "core/file_system.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/render/image.hpp"
 
 namespace gobo {
 namespace {

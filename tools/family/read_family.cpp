@@ -132,29 +132,6 @@ std::vector<Domain> read_domains(TomlReader& reader, const toml::table& root) {
     return domains;
 }
 
-std::vector<RenderValue> read_render(TomlReader& reader, const toml::table& root) {
-    std::vector<RenderValue> values;
-    const toml::table* table = reader.table(root, "render");
-    if (table == nullptr) return values;
-    for (const auto& [key, node] : *table) {
-        RenderValue value;
-        value.name = key.str();
-        value.place = reader.place_of(node);
-        const std::string what = fmt::format("the render value of '{}'", value.name);
-        if (const auto* source = node.as_string()) {
-            value.source = source->get();
-        } else if (const toml::table* row = node.as_table()) {
-            reader.only(*row, what, {"source", "numbers"});
-            value.source = reader.required_string(*row, what, "source");
-            value.numbers = reader.numbers(*row, "numbers");
-        } else {
-            value.numbers = reader.numbers_of(node, value.name);
-        }
-        values.push_back(std::move(value));
-    }
-    return values;
-}
-
 std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root,
                                                  const Family& family) {
     const toml::table* table = reader.table(root, "default_set");
@@ -220,7 +197,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.rules = read_rules(reader, root, family.features);
     family.varyings = read_varyings(reader, root, family.features);
     family.domains = read_domains(reader, root);
-    family.render = read_render(reader, root);
+    family.render = read_render_values(reader, root, "render");
     family.relations = read_relations(reader, root, family.features);
     family.default_selection = read_default_set(reader, root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());

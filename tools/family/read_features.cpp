@@ -321,4 +321,28 @@ std::string to_text(const Relation& relation, const std::vector<Feature>& featur
                        names_feature ? features[relation.feature].name : relation.names.front());
 }
 
+std::vector<RenderValue> read_render_values(TomlReader& reader, const toml::table& parent,
+                                            std::string_view name) {
+    std::vector<RenderValue> values;
+    const toml::table* table = reader.table(parent, name);
+    if (table == nullptr) return values;
+    for (const auto& [key, node] : *table) {
+        RenderValue value;
+        value.name = key.str();
+        value.place = reader.place_of(node);
+        const std::string what = fmt::format("the render value of '{}'", value.name);
+        if (const auto* source = node.as_string()) {
+            value.source = source->get();
+        } else if (const toml::table* row = node.as_table()) {
+            reader.only(*row, what, {"source", "numbers"});
+            value.source = reader.required_string(*row, what, "source");
+            value.numbers = reader.numbers(*row, "numbers");
+        } else {
+            value.numbers = reader.numbers_of(node, value.name);
+        }
+        values.push_back(std::move(value));
+    }
+    return values;
+}
+
 }  // namespace gobo

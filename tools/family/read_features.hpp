@@ -20,6 +20,10 @@ namespace gobo {
 [[nodiscard]] std::vector<Relation> read_relations(TomlReader& reader, const toml::table& root,
                                                    const std::vector<Feature>& features);
 
+/// The values of a table such as [render]: each a source's name, a table with source and numbers, or numbers.
+[[nodiscard]] std::vector<RenderValue> read_render_values(TomlReader& reader, const toml::table& parent,
+                                                          std::string_view name);
+
 /// The condition in the entry `name` of a table, which has it.
 Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
                           const std::vector<Feature>& features);

@@ -1,7 +1,7 @@
 // gobo eval: one invocation of a stage, in fp32 and fp64.
 #include <nlohmann/json.hpp>
 
-#include "lab/commands/commands.hpp"
+#include "lab/commands/lab_input.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
 #include "lab/verify/expectation.hpp"
@@ -29,23 +29,6 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
     return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv);
 }
 
-/// Quotes the pieces, whose paths are the files of the trace.
-evaluate::SourceLine quote_pieces(const Composition& composition) {
-    return [&composition](const Place& place) -> std::string {
-        for (const Piece& piece : composition.pieces)
-            if (piece.path == place.file) return std::string(line_of(piece, place.line));
-        return {};
-    };
-}
-
-/// {"oracle": [{"output", "exact", "fp32_bound"}]} beside what the report says.
-nlohmann::ordered_json with_answers(nlohmann::ordered_json json, const std::vector<verify::Answer>& answers) {
-    for (const verify::Answer& answer : answers)
-        json["oracle"].push_back(
-            {{"output", answer.output}, {"exact", answer.value}, {"fp32_bound", answer.float_error}});
-    return json;
-}
-
 Result<Outcome> run(const EvalOptions& options, const World& world) {
     GOBO_TRY(const Subject subject, load_subject(world, options.names, options.dialect));
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
@@ -54,16 +37,22 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
     GOBO_TRY(const evaluate::Program program, program_of(world, subject, stage));
     GOBO_TRY(const evaluate::Invocations invocations, evaluate::invocations_of(inputs, program));
     GOBO_TRY(const auto report, evaluate::evaluate_once(program, invocations, options.trace));
-    std::vector<verify::Answer>
-        answers;  // of the lighting models, where the family is ours and reads nothing new
+    // Of the lighting models, where the family is ours and reads nothing new.
+    std::vector<verify::Answer> answers;
     if (!subject.are_files)
         answers = verify::ask_oracle(subject.family.family, subject.composition.permutations.front().key,
                                      stage, program, invocations)
                       .value_or(answers);
-    return Outcome{options.json ? with_answers(evaluate::to_json(report), answers).dump(2) + "\n"
-                                : evaluate::to_text(report, quote_pieces(subject.composition)) +
-                                      verify::to_text(answers),
-                   evaluate::inputs_left_out(inputs, program)};
+    const Diagnostics notes = evaluate::inputs_left_out(inputs, program);
+    if (options.json) {
+        nlohmann::ordered_json json = evaluate::to_json(report);
+        for (const verify::Answer& answer : answers)
+            json["oracle"].push_back(
+                {{"output", answer.output}, {"exact", answer.value}, {"fp32_bound", answer.float_error}});
+        return Outcome{json.dump(2) + "\n", notes};
+    }
+    const auto quote = [&](const Place& place) { return quoted_line(subject.composition, place); };
+    return Outcome{evaluate::to_text(report, quote) + verify::to_text(answers), notes};
 }
 
 }  // namespace

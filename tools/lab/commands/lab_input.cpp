@@ -10,8 +10,7 @@
 #include "budget/qualities.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/probe/convolution.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
 
 namespace gobo {
@@ -21,12 +20,8 @@ Result<CubeImages> shipped_environment(const World& world) {
     const std::string path = "data/environments/studio.exr";
     GOBO_TRY(const Image image, read_image(world.shipped, path));
     GOBO_TRY(const auto environment, probe::environment_of(image, path));
-    const auto cube = [&](double shininess, int side) {
-        const probe::Lobe lobe(environment, shininess);
-        return probe::make_cube_map(side, world.jobs(),
-                                    [&](const glm::dvec3& direction) { return lobe.around(direction); });
-    };
-    return CubeImages{{"diffuseMap", cube(1, 16)}, {"specularMap", cube(48, 32)}};
+    return CubeImages{{"diffuseMap", probe::lobe_map(environment, 1, 16, world.jobs())},
+                      {"specularMap", probe::lobe_map(environment, 48, 32, world.jobs())}};
 }
 
 bool looks_up_environment(const Interface& interface) {
@@ -138,6 +133,20 @@ Result<std::vector<StudiedKey>> measure_qualities(const World& world, const Load
                                  plan, journal));
     progress("", 1, 1);
     return study::studied_keys(result, weights);
+}
+
+Diagnostic note_in(const std::string& file, std::string message) {
+    Diagnostic note;
+    note.severity = Severity::note;
+    note.place.file = file;
+    note.message = std::move(message);
+    return note;
+}
+
+std::string quoted_line(const Composition& composition, const Place& place) {
+    const auto piece = std::find_if(composition.pieces.begin(), composition.pieces.end(),
+                                    [&](const Piece& other) { return other.path == place.file; });
+    return piece == composition.pieces.end() ? "" : std::string(line_of(*piece, place.line));
 }
 
 tl::unexpected<Diagnostics> with_help(Diagnostics errors, const std::string& help) {

@@ -1,4 +1,4 @@
-// What the lab's commands read beside what gobo's do, and where they keep what failed.
+// The commands of gobo-lab, what they read beside what gobo's do, and where they keep what failed.
 #pragma once
 
 #include <map>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gobo/input.hpp"
+#include "gobo/commands.hpp"
 #include "lab/render/image.hpp"
 #include "lab/study/study.hpp"
 #include "lab/verify/shadow_map_check.hpp"
@@ -55,10 +55,22 @@ using CubeImages = std::map<std::string, Image>;
                                                                 const StudiedEffects& studied,
                                                                 const Key& effects);
 
+/// A note about a file, or where the name is empty about none.
+[[nodiscard]] Diagnostic note_in(const std::string& file, std::string message);
+/// The line of the piece that a place names; empty where there is none.
+[[nodiscard]] std::string quoted_line(const Composition& composition, const Place& place);
+
 /// The errors with what to do about them.
 [[nodiscard]] tl::unexpected<Diagnostics> with_help(Diagnostics errors, const std::string& help);
 
 /// -o of commands that keep what failed, and without it write nothing.
 [[nodiscard]] Option keep_option(std::string& folder, const std::string& what);
+
+[[nodiscard]] Command eval_command();
+[[nodiscard]] Command test_command();
+[[nodiscard]] Command sanitize_command();
+[[nodiscard]] Command probe_command();
+[[nodiscard]] Command render_command();
+[[nodiscard]] Command study_command();
 
 }  // namespace gobo

@@ -1,10 +1,9 @@
 // gobo probe: light-probe maps and spherical-harmonic coefficients from an HDR map of an environment.
 #include <fmt/format.h>
 
-#include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
-#include "lab/probe/convolution.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/probe/environment.hpp"
+#include "lab/render/image.hpp"
 
 namespace gobo {
 namespace {
@@ -32,21 +31,15 @@ Result<Outcome> run(const ProbeOptions& options, const World& world) {
             append(outcome.diagnostics, written.error());
     };
     const auto add_cube = [&](const std::string& name, double exponent, int side) {
-        const probe::Lobe lobe(environment, exponent);
-        const Image cube = probe::make_cube_map(
-            side, world.jobs(), [&](const glm::dvec3& direction) { return lobe.around(direction); });
+        const Image cube = probe::lobe_map(environment, exponent, side, world.jobs());
         add(options.folder + name, write_image(world.disk, options.folder + name, cube));
     };
     add_cube("/diffuse.exr", 1, options.diffuse_size);
     add_cube("/specular.exr", options.shininess, options.specular_size);
-    if (environment.negatives > 0) {
-        Diagnostic note;
-        note.severity = Severity::note;
-        note.place.file = options.map;
-        note.message = fmt::format("{} negative radiances, down to {:.3g}, are taken as 0",
-                                   environment.negatives, environment.most_negative);
-        outcome.diagnostics.push_back(std::move(note));
-    }
+    if (environment.negatives > 0)
+        outcome.diagnostics.push_back(
+            note_in(options.map, fmt::format("{} negative radiances, down to {:.3g}, are taken as 0",
+                                             environment.negatives, environment.most_negative)));
     const std::string path = options.folder + "/harmonics.csv";
     add(path, world.disk.write(path, probe::to_csv(probe::project(environment), stem_of(options.map))));
     outcome.summary = fmt::format("{} x {} texels: diffuse {} and specular (shininess {}) {} texels a side",
@@ -75,8 +68,7 @@ Command probe_command() {
             "  gobo probe night.exr -o night --shininess 200 --specular-size 128",
             [options](const World& world) { return run(*options, world); },
             "Prints the paths of the files. A cube map is one picture, its faces +x -x +y -y +z -z one below "
-            "the other. "
-            "docs/probes.md says what the numbers mean."};
+            "the other. docs/probes.md says what the numbers mean."};
 }
 
 }  // namespace gobo

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/gallery/gallery.hpp"
 #include "lab/render/texture.hpp"
@@ -212,10 +211,9 @@ Command render_command() {
             "  gobo render game.toml --all -o pictures",
             [options](const World& world) { return run(*options, world); },
             "Prints the paths of the pictures. Pictures of --all, --cover or the default set come with a "
-            "page, index.html, "
-            "that shows each one's error and cost, and beside it the picture that was expected. The family's "
-            "[render] table says what its uniforms "
-            "hold; with --scene the scene does, and each of its draws has the permutation that it needs."};
+            "page, index.html, that shows each one's error and cost, and beside it the picture that was "
+            "expected. The family's [render] table says what its uniforms hold; with --scene the scene does, "
+            "and each of its draws has the permutation that it needs."};
 }
 
 }  // namespace gobo

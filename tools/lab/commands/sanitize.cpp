@@ -8,7 +8,6 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/sanitize/precision.hpp"
 
@@ -24,13 +23,6 @@ struct SanitizeCommandOptions : SelectionOptions {
     bool json = false;
     std::vector<std::string> machines = {"ieee", "flushed"};
 };
-
-/// The text of the piece that a place names.
-std::string quoted_line(const Composition& composition, const Place& place) {
-    const auto piece = std::find_if(composition.pieces.begin(), composition.pieces.end(),
-                                    [&](const Piece& other) { return other.path == place.file; });
-    return piece == composition.pieces.end() ? "" : std::string(line_of(*piece, place.line));
-}
 
 /// The finding as an error, its example as an input file where -o says.
 Diagnostics report(const World& world, const SanitizeCommandOptions& options, const Subject& subject,
@@ -155,8 +147,7 @@ Command sanitize_command() {
         "  gobo sanitize game.vert game.frag --inputs ranges.toml -o found",
         [options](const World& world) { return run(*options, world); },
         "Inputs lie within the family's domains; of files, and where no domain is declared, within [-100, "
-        "100]. Each "
-        "is run with every arithmetic that --machine names."};
+        "100]. Each is run with every arithmetic that --machine names."};
 }
 
 }  // namespace gobo

@@ -1,7 +1,6 @@
 // gobo study: error against cost of every quality, as tables and as a report.
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -9,11 +8,10 @@
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
-#include "lab/study/choices.hpp"
 #include "lab/study/front.hpp"
 #include "lab/study/report.hpp"
+#include "lab/study/rows.hpp"
 
 namespace gobo {
 namespace {
@@ -21,18 +19,17 @@ namespace {
 struct StudyCommandOptions {
     std::string family;
     std::string folder;
-    std::vector<std::string> effects;
+    study::StudyOptions study;  ///< as far as the command line has it
+    int rounds = study::kLeastRounds;
     std::string backend = "osmesa";
     std::string weights_from;
     std::string plan;
-    int rounds = study::kLeastRounds;
-    bool quick = false;
     bool no_time = false;
     bool weigh = false;
     bool callgrind = false;
     std::string front;  ///< effects of a finished study to show
     std::string svg;
-    std::string study;
+    std::string study_file;
     std::string draw;       ///< a key to draw once: what callgrind watches
     std::string draw_size;  ///< "160x120"
 };
@@ -40,8 +37,8 @@ struct StudyCommandOptions {
 /// What made the report, for who reads it.
 std::string command_line(const StudyCommandOptions& options) {
     std::string line = fmt::format("gobo study {} -o {}", options.family, options.folder);
-    for (const std::string& effects : options.effects) line += fmt::format(" --effects '{}'", effects);
-    if (options.quick) line += " --quick";
+    for (const std::string& effects : options.study.effects) line += fmt::format(" --effects '{}'", effects);
+    if (options.study.quick) line += " --quick";
     if (options.no_time) line += " --no-time";
     if (options.rounds != study::kLeastRounds) line += fmt::format(" --rounds {}", options.rounds);
     if (!options.plan.empty()) line += " --plan " + options.plan;
@@ -70,8 +67,8 @@ Result<Outcome> show_front(const StudyCommandOptions& options, const World& worl
     GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
     GOBO_TRY(const Key key, parse_key(family.family, options.front));
     const Key effects = effects_of(family.family, key);
-    GOBO_TRY(const auto file,
-             read_or_shipped(world, options.study, fmt::format("data/study/{}.csv", family.family.name)));
+    GOBO_TRY(const auto file, read_or_shipped(world, options.study_file,
+                                              fmt::format("data/study/{}.csv", family.family.name)));
     GOBO_TRY(const auto rows, study::read_rows(file.text, file.path, family.family, effects));
     if (!options.svg.empty()) {
         std::vector<const study::StudyRow*> all;
@@ -192,18 +189,16 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     if (!options.draw.empty()) return draw(options, world);
     GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
     const Family& family = loaded.family;
-    study::StudyOptions study_options;
+    study::StudyOptions study_options = options.study;
     GOBO_TRY(study_options.weights, load_weights(world, options.weights_from));
     GOBO_TRY(study_options.plan, load_plan(world, family, options.plan));
     const study::Weights& weights = study_options.weights;
-    study_options.effects = options.effects;
-    study_options.quick = options.quick;
     study_options.progress = progress_on_terminal(world);
     study::Journal journal(world.disk, options.folder + "/measurements.jsonl", append_to_disk);
     const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
     GOBO_TRY(study::Study study, study::run_study(subject, study_options, journal));
     const study::TimeOptions time_options{options.rounds, machine_name(world.disk), study_options.progress};
-    if (!options.quick && !options.no_time) {
+    if (!options.study.quick && !options.no_time) {
         GOBO_TRY(const Context context, open_timing_context(options));
         GOBO_TRY_DO(study::add_times(subject, context, weights, time_options, journal, study));
     }
@@ -244,9 +239,10 @@ Command study_command() {
          {"--svg", "FILE", "With --front: its chart", &options->svg},
          {"--study", "FILE",
           "With --front: a study.csv or summary.csv; by default the one that came with the family",
-          &options->study},
-         {"--effects", "KEY", "A combination of effects; by default those of the plan", &options->effects},
-         {"--quick", "", "Few effects, no times: a usable front in under a minute", &options->quick},
+          &options->study_file},
+         {"--effects", "KEY", "A combination of effects; by default those of the plan",
+          &options->study.effects},
+         {"--quick", "", "Few effects, no times: a usable front in under a minute", &options->study.quick},
          {"--no-time", "", "Errors and costs only: no renderer is needed", &options->no_time},
          {"--rounds", "N", "Interleaved rounds of timing", &options->rounds,
           between(study::kLeastRounds, 1000)},

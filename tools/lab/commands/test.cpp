@@ -1,19 +1,30 @@
-// gobo test: evaluates every permutation of a selection and compares it with the oracle.
+// gobo test: evaluates every permutation of a selection and compares it with the oracle; with --render, what
+// the renderer draws with the evaluation, pixel by pixel.
+#include <algorithm>
 #include <cctype>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
-#include "lab/commands/commands.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
+#include "lab/verify/cross_check.hpp"
 #include "lab/verify/on_mesh.hpp"
 #include "lab/verify/verify.hpp"
 
 namespace gobo {
 namespace {
+
+struct TestOptions : SelectionOptions {
+    std::string folder;  ///< for the worst points of keys that fail; empty: they are not kept
+    std::string shard;
+    std::string figures_file;
+    bool render = false;
+    std::string backend = "osmesa";
+};
 
 /// The I-th of every N keys, for "I/N". The parts of all I together hold each key once.
 Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
@@ -41,16 +52,11 @@ std::string file_name(const std::string& key, StageKind stage, const std::string
 /// A note for a point that failed, at the file that keeps it.
 Diagnostics keep_point(const World& world, const TestOptions& options, const std::string& file,
                        const std::string& input, const std::string& message) {
+    if (options.folder.empty()) return {note_in("", message)};
+    const std::string path = fmt::format("{}/{}", options.folder, file);
     Diagnostics diagnostics;
-    Diagnostic note;
-    note.severity = Severity::note;
-    note.message = message;
-    if (!options.folder.empty()) {
-        note.place.file = fmt::format("{}/{}", options.folder, file);
-        if (const auto written = world.disk.write(note.place.file, input); !written)
-            append(diagnostics, written.error());
-    }
-    diagnostics.push_back(std::move(note));
+    if (const auto written = world.disk.write(path, input); !written) append(diagnostics, written.error());
+    diagnostics.push_back(note_in(path, message));
     return diagnostics;
 }
 
@@ -161,6 +167,116 @@ std::string figures_text(const verify::VerifyReport& report) {
     return text;
 }
 
+constexpr int kSide = 64;
+
+/// A difference of this much is white in the picture of differences.
+constexpr float kWhiteDifference = 1e-3F;
+
+/// The side of a shadow map: coarse, so that many edges of its texels are seen.
+constexpr int kMapSide = 64;
+
+Diagnostics report_picture(const World& world, const std::string& folder, const std::string& key,
+                           const raster::PictureReport& report) {
+    Diagnostic error;
+    error.subject = key;
+    error.message =
+        fmt::format("{} of {} pixels are not what the evaluation gives, {} at an edge, rms {:.1e}",
+                    report.wrong, report.pixels, report.edges, report.root_mean_square);
+    for (const raster::WrongPixel& pixel : report.worst)
+        error.message +=
+            fmt::format("\n  pixel ({}, {}): drawn {:.7g}, evaluated {:.7g}, {:.3g} times the limit", pixel.x,
+                        pixel.y, fmt::join(pixel.actual, " "), fmt::join(pixel.expected, " "), pixel.ratio);
+    if (folder.empty()) {
+        error.help = "keep what is drawn, expected and their difference with -o DIR";
+        return {error};
+    }
+    const std::string stem = fmt::format("{}/{}", folder, picture_name(key));
+    error.help = fmt::format("see {}.actual.exr, .expected.exr and .difference.png", stem);
+    Diagnostics diagnostics = {std::move(error)};
+    const auto keep = [&](const char* end, const Image& image) {
+        if (const auto written = write_image(world.disk, stem + end, image); !written)
+            append(diagnostics, written.error());
+    };
+    keep(".actual.exr", report.actual);
+    keep(".expected.exr", report.expected);
+    keep(".difference.png", difference_picture(report.actual, report.expected, kWhiteDifference));
+    return diagnostics;
+}
+
+/// `totals` are of all pictures together.
+std::string totals_text(const raster::PictureReport& totals, std::size_t permutations,
+                        const std::string& renderer) {
+    const auto share = [&](std::size_t part) {
+        return totals.pixels > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(totals.pixels) : 0;
+    };
+    return fmt::format(
+        "{} x {} pixels: {:.1f} % drawn, {} ({:.3f} %) decided at an edge; at most {:.2f} of the limit\n"
+        "{} permutations drawn by {}, max {:.1e}, rms {:.1e}\n",
+        kSide, kSide, share(totals.drawn), totals.edges, share(totals.edges), totals.largest_ratio,
+        permutations, renderer, totals.largest_error, totals.root_mean_square);
+}
+
+/// The largest of each error, the worst root mean square, all pixels.
+void add(const raster::PictureReport& picture, raster::PictureReport& totals) {
+    totals.largest_error = std::max(totals.largest_error, picture.largest_error);
+    totals.root_mean_square = std::max(totals.root_mean_square, picture.root_mean_square);
+    totals.largest_ratio = std::max(totals.largest_ratio, picture.largest_ratio);
+    totals.pixels += picture.pixels;
+    totals.drawn += picture.drawn;
+    totals.edges += picture.edges;
+}
+
+/// What became of the shadow maps; nothing where none were drawn.
+std::string maps_text(const std::optional<verify::ShadowMapReport>& report, Diagnostics& diagnostics) {
+    if (!report) return {};
+    append(diagnostics, report->diagnostics);
+    if (report->fails()) {
+        const std::string message =
+            fmt::format("{} of the {} texels of shadow maps are not what the evaluation gives, {} at an edge",
+                        report->wrong, report->texels, report->edges);
+        append(diagnostics, fail(Fault::input, message).value());
+    }
+    return fmt::format(
+        "{} shadow maps of {} x {} texels, {} decided at an edge; at most {:.2f} of the limit\n",
+        report->maps, kMapSide, kMapSide, report->edges, report->largest_ratio);
+}
+
+/// gobo test --render: draws every permutation and compares each picture with its evaluation. A picture that
+/// fails is an error for its key, and three images in the folder. `validated` holds the SPIR-V of every
+/// stage.
+Result<Outcome> compare_pictures(const World& world, const TestOptions& options, const Family& family,
+                                 const Composition& composition, const Validated& validated) {
+    GOBO_TRY(const Backend backend, backend_of(options.backend));
+    GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
+    verify::CrossCheckScene scene;  // what gobo render shows, smaller
+    scene.objects = demo_objects(std::move(teapot));
+    scene.values = family.render;
+    scene.family = &family;
+    scene.view.camera = demo_camera();
+    scene.view.width = scene.view.height = kSide;
+    GOBO_TRY(scene.cubes, load_environment(world, "", interfaces_of(composition, validated)));
+    GOBO_TRY(auto shadow_pass, load_shadow_pass(world, family, composition));
+    if (shadow_pass) {
+        shadow_pass->pass.side = kMapSide;
+        scene.shadow_pass = &*shadow_pass;
+    }
+    GOBO_TRY(const Context context, open_context(backend));
+    const auto report = verify::cross_check(context, composition, validated, scene, world.jobs());
+    Outcome outcome;
+    outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
+    raster::PictureReport totals;
+    for (const raster::PictureReport& picture : report.pictures) {
+        const std::string key = key_text(family, picture.key);
+        Diagnostics problems = picture.diagnostics;
+        for (Diagnostic& problem : problems) problem.subject = key;
+        if (picture.fails()) problems = report_picture(world, options.folder, key, picture);
+        append(outcome.diagnostics, problems);
+        add(picture, totals);
+    }
+    outcome.output += totals_text(totals, composition.permutations.size(), context.renderer());
+    return outcome;
+}
+
 Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family));
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
@@ -218,8 +334,8 @@ Command test_command() {
             "  gobo test game.toml -o build/failed_points",
             [options](const World& world) { return run(*options, world); },
             "The stages are evaluated in fp32 and fp64 at points made to exercise each model. Families of "
-            "your own "
-            "have no oracle, a second implementation of the models: there fp32 is compared with fp64."};
+            "your own have no oracle, a second implementation of the models: there fp32 is compared with "
+            "fp64."};
 }
 
 }  // namespace gobo

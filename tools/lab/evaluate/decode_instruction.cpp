@@ -39,54 +39,35 @@ bool is_float_matrix(const Type& type, std::uint32_t columns, std::uint32_t rows
 }  // namespace
 
 void Decoder::decode_instruction(const Instruction& instruction) {
-    switch (instruction.opcode) {
-        case spv::OpNop:
-        case spv::OpLine:
-        case spv::OpNoLine:
-        case spv::OpSelectionMerge:
-        case spv::OpLoopMerge:
-        case spv::OpPhi:
-            return;
-        case spv::OpUndef:
-            return decode_constant(instruction);
-        case spv::OpVariable:
-            return decode_local_variable(instruction);
-        case spv::OpLoad:
-            return decode_load(instruction);
-        case spv::OpStore:
-            return decode_store(instruction);
-        case spv::OpAccessChain:
-        case spv::OpInBoundsAccessChain:
-            return decode_access_chain(instruction);
-        case spv::OpCopyObject:
-        case spv::OpImage:
-            return share_or_copy(instruction, value(instruction, 3));
-        case spv::OpCompositeExtract:
-            return decode_extract(instruction);
-        case spv::OpCompositeConstruct:
-            return decode_construct(instruction);
-        case spv::OpCompositeInsert:
-            return decode_insert(instruction);
-        case spv::OpVectorShuffle:
-            return decode_shuffle(instruction);
-        case spv::OpVectorExtractDynamic:
-        case spv::OpVectorInsertDynamic:
-            return decode_dynamic_component(instruction);
-        case spv::OpMatrixTimesVector:
-        case spv::OpVectorTimesMatrix:
-        case spv::OpMatrixTimesMatrix:
-        case spv::OpOuterProduct:
-        case spv::OpTranspose:
-            return decode_product(instruction);
-        case spv::OpFunctionCall:
-            return decode_call(instruction);
-        case spv::OpExtInst:
-            return decode_extended(instruction);
-        default:
-            if (!decode_image(instruction) &&
-                !decode_by_signature(instruction, instruction.opcode, kFirstOperand))
-                report(instruction, "the evaluator does not know " + opcode_name(instruction.opcode));
-    }
+    static const std::unordered_map<std::uint32_t, void (Decoder::*)(const Instruction&)> kOwn = {
+        {spv::OpUndef, &Decoder::decode_constant},
+        {spv::OpVariable, &Decoder::decode_local_variable},
+        {spv::OpLoad, &Decoder::decode_load},
+        {spv::OpStore, &Decoder::decode_store},
+        {spv::OpAccessChain, &Decoder::decode_access_chain},
+        {spv::OpInBoundsAccessChain, &Decoder::decode_access_chain},
+        {spv::OpCopyObject, &Decoder::decode_copy},
+        {spv::OpImage, &Decoder::decode_copy},
+        {spv::OpCompositeExtract, &Decoder::decode_extract},
+        {spv::OpCompositeConstruct, &Decoder::decode_construct},
+        {spv::OpCompositeInsert, &Decoder::decode_insert},
+        {spv::OpVectorShuffle, &Decoder::decode_shuffle},
+        {spv::OpVectorExtractDynamic, &Decoder::decode_dynamic_component},
+        {spv::OpVectorInsertDynamic, &Decoder::decode_dynamic_component},
+        {spv::OpMatrixTimesVector, &Decoder::decode_product},
+        {spv::OpVectorTimesMatrix, &Decoder::decode_product},
+        {spv::OpMatrixTimesMatrix, &Decoder::decode_product},
+        {spv::OpOuterProduct, &Decoder::decode_product},
+        {spv::OpTranspose, &Decoder::decode_product},
+        {spv::OpFunctionCall, &Decoder::decode_call},
+        {spv::OpExtInst, &Decoder::decode_extended}};
+    if (is_one_of(instruction.opcode, {spv::OpNop, spv::OpLine, spv::OpNoLine, spv::OpSelectionMerge,
+                                       spv::OpLoopMerge, spv::OpPhi}))
+        return;
+    if (const auto own = kOwn.find(instruction.opcode); own != kOwn.end())
+        return (this->*own->second)(instruction);
+    if (!decode_image(instruction) && !decode_by_signature(instruction, instruction.opcode, kFirstOperand))
+        report(instruction, "the evaluator does not know " + opcode_name(instruction.opcode));
 }
 
 /// False where the table has no row for the code.
@@ -262,6 +243,10 @@ void Decoder::share_or_copy(const Instruction& instruction, const Value& value) 
     } else {
         emit(code, instruction, count, define(instruction), {value});
     }
+}
+
+void Decoder::decode_copy(const Instruction& instruction) {
+    share_or_copy(instruction, value(instruction, 3));
 }
 
 void Decoder::decode_load(const Instruction& instruction) {

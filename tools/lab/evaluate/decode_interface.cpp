@@ -6,39 +6,6 @@
 #include "lab/evaluate/decoder.hpp"
 
 namespace gobo::evaluate {
-namespace {
-
-/// The GLSL name of a built-in variable; empty for one that evaluation has no use for.
-std::string builtin_name(std::uint32_t builtin) {
-    static constexpr std::pair<spv::BuiltIn, const char*> kNames[] = {
-        {spv::BuiltInPosition, "gl_Position"},
-        {spv::BuiltInPointSize, "gl_PointSize"},
-        {spv::BuiltInClipDistance, "gl_ClipDistance"},
-        {spv::BuiltInCullDistance, "gl_CullDistance"},
-        {spv::BuiltInVertexId, "gl_VertexID"},
-        {spv::BuiltInInstanceId, "gl_InstanceID"},
-        {spv::BuiltInVertexIndex, "gl_VertexIndex"},
-        {spv::BuiltInInstanceIndex, "gl_InstanceIndex"},
-        {spv::BuiltInPrimitiveId, "gl_PrimitiveID"},
-        {spv::BuiltInFragCoord, "gl_FragCoord"},
-        {spv::BuiltInPointCoord, "gl_PointCoord"},
-        {spv::BuiltInFrontFacing, "gl_FrontFacing"},
-        {spv::BuiltInSampleId, "gl_SampleID"},
-        {spv::BuiltInSamplePosition, "gl_SamplePosition"},
-        {spv::BuiltInSampleMask, "gl_SampleMask"},
-        {spv::BuiltInFragDepth, "gl_FragDepth"},
-        {spv::BuiltInHelperInvocation, "gl_HelperInvocation"},
-        {spv::BuiltInLayer, "gl_Layer"},
-        {spv::BuiltInViewportIndex, "gl_ViewportIndex"},
-        {spv::BuiltInBaseVertex, "gl_BaseVertex"},
-        {spv::BuiltInBaseInstance, "gl_BaseInstance"},
-        {spv::BuiltInDrawIndex, "gl_DrawID"}};
-    const auto* found = std::ranges::find_if(kNames, [&](const auto& row) { return row.first == builtin; });
-    return found == std::end(kNames) ? std::string() : found->second;
-}
-
-}  // namespace
-
 void Decoder::decode_globals() {
     for (const Instruction& instruction : module_.instructions) {
         if (error_ || instruction.opcode == spv::OpFunction) return;
@@ -135,7 +102,6 @@ void Decoder::decode_variable(const Instruction& instruction) {
 void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t slot) {
     const Id named = variable.result;
     std::string name = module_.name(named);
-    if (const auto builtin = module_.decoration(named, spv::DecorationBuiltIn)) name = builtin_name(*builtin);
     int number = static_cast<int>(module_.decoration(named, spv::DecorationLocation).value_or(~0U));
     Location at{slot};
     switch (variable.word(3)) {
@@ -184,8 +150,7 @@ void Decoder::add_ports(std::vector<Port>& ports, const std::string& name, Id id
             inner.offset += decoration(spv::DecorationOffset).value_or(0);
             inner.matrix_stride = decoration(spv::DecorationMatrixStride).value_or(0);
             inner.is_row_major = decoration(spv::DecorationRowMajor).has_value();
-            const auto builtin = decoration(spv::DecorationBuiltIn);
-            full = builtin ? builtin_name(*builtin) : part_name(name, id, index);
+            full = part_name(decoration(spv::DecorationBuiltIn) ? "" : name, id, index);
         }
         add_ports(ports, full, part_type(id, index), number, inner);
     }

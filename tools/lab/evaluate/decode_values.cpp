@@ -167,11 +167,12 @@ const Value* Decoder::find(Id id, bool is_pointer) const {
     return local != nullptr ? local : among(globals_);
 }
 
-/// The value that the word of an instruction names.
-Value Decoder::value(const Instruction& instruction, std::size_t word) {
-    if (const Value* const found = find(instruction.id(word), false)) return *found;
-    report(instruction, fmt::format("{} uses id {}, which has no value here", opcode_name(instruction.opcode),
-                                    instruction.word(word)));
+/// What the word of an instruction names.
+Value Decoder::operand(const Instruction& instruction, std::size_t word, bool is_pointer) {
+    if (const Value* const found = find(instruction.id(word), is_pointer)) return *found;
+    report(instruction,
+           fmt::format("{} uses id {}, which {}", opcode_name(instruction.opcode), instruction.word(word),
+                       is_pointer ? "is not a variable" : "has no value here"));
     return {};
 }
 
@@ -180,13 +181,6 @@ Values Decoder::values(const Instruction& instruction, std::size_t first_word) {
     for (std::size_t word = first_word; word < instruction.words.size(); ++word)
         all.push_back(value(instruction, word));
     return all;
-}
-
-Value Decoder::pointer(const Instruction& instruction, std::size_t word) {
-    if (const Value* const found = find(instruction.id(word), true)) return *found;
-    report(instruction, fmt::format("{} uses id {}, which is not a variable", opcode_name(instruction.opcode),
-                                    instruction.word(word)));
-    return {};
 }
 
 std::uint32_t Decoder::intern(const std::string& name) {

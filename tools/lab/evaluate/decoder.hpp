@@ -120,9 +120,14 @@ class Decoder {
     [[nodiscard]] int variable_of(Id pointer) const;
     void finish_instruction(const Instruction& instruction);
     [[nodiscard]] const Value* find(Id id, bool is_pointer) const;
-    Value value(const Instruction& instruction, std::size_t word);
+    Value operand(const Instruction& instruction, std::size_t word, bool is_pointer);
+    Value value(const Instruction& instruction, std::size_t word) {
+        return operand(instruction, word, false);
+    }
+    Value pointer(const Instruction& instruction, std::size_t word) {
+        return operand(instruction, word, true);
+    }
     Values values(const Instruction& instruction, std::size_t first_word);
-    Value pointer(const Instruction& instruction, std::size_t word);
     std::uint32_t intern(const std::string& name);
     [[nodiscard]] Slice slice(const Value& value) const;
     void emit(std::uint32_t code, const Instruction& instruction, std::uint32_t count, std::uint32_t result,
@@ -144,6 +149,7 @@ class Decoder {
     void decode_interpolate(const Instruction& instruction, std::uint32_t code);
 
     void decode_local_variable(const Instruction& instruction);
+    void decode_copy(const Instruction& instruction);
     void decode_load(const Instruction& instruction);
     void decode_store(const Instruction& instruction);
     void store(const Instruction& instruction, const Value& target, const Value& value);

@@ -1,7 +1,6 @@
 // One invocation as a file: what `gobo eval` reads, and what others write so that it repeats their point.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <string_view>

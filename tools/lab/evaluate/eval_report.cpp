@@ -28,28 +28,6 @@ std::string value_text(const TracedValue& value) {
     return value.name.empty() ? numbers : fmt::format("{}={}", value.name, numbers);
 }
 
-/// With the source line behind each place, where it is known.
-std::string trace_text(const std::vector<TraceStep>& steps, const SourceLine& source_line) {
-    std::string text;
-    const Place* place = nullptr;
-    for (const TraceStep& step : steps) {
-        if (place == nullptr || step.place != *place) {
-            place = &step.place;
-            const std::string source(trim(source_line(step.place)));
-            text += place->file.empty() ? std::string("(no line)")
-                                        : fmt::format("{}:{}", place->file, place->line);
-            text += source.empty() ? "\n" : ": " + source + "\n";
-        }
-        std::vector<std::string> operands;
-        for (const TracedValue& operand : step.operands) operands.push_back(value_text(operand));
-        text += fmt::format("    {}", step.operation);
-        if (!operands.empty()) text += fmt::format(" {}", fmt::join(operands, ", "));
-        const std::string result = value_text(step.result);
-        text += result.empty() ? "\n" : " -> " + result + "\n";
-    }
-    return text;
-}
-
 /// Of each component; NaN where one arithmetic gives a number and the other none.
 std::vector<double> differences(const EvalOutput& output) {
     std::vector<double> all;
@@ -162,15 +140,31 @@ std::string to_text(const std::vector<double>& components) {
     return fmt::format("({})", fmt::join(numbers, ", "));
 }
 
-std::string to_text(const std::vector<TraceStep>& steps) {
-    return trace_text(steps, [](const Place&) { return std::string(); });
+std::string to_text(const std::vector<TraceStep>& steps, const SourceLine& source_line) {
+    std::string text;
+    const Place* place = nullptr;
+    for (const TraceStep& step : steps) {
+        if (place == nullptr || step.place != *place) {
+            place = &step.place;
+            const std::string source(trim(source_line(step.place)));
+            text += place->file.empty() ? std::string("(no line)")
+                                        : fmt::format("{}:{}", place->file, place->line);
+            text += source.empty() ? "\n" : ": " + source + "\n";
+        }
+        std::vector<std::string> operands;
+        for (const TracedValue& operand : step.operands) operands.push_back(value_text(operand));
+        text += fmt::format("    {}", step.operation);
+        if (!operands.empty()) text += fmt::format(" {}", fmt::join(operands, ", "));
+        const std::string result = value_text(step.result);
+        text += result.empty() ? "\n" : " -> " + result + "\n";
+    }
+    return text;
 }
 
 Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations, bool with_trace) {
-    Options options;
-    options.count = true;
     Trace<float> trace;
-    GOBO_TRY(Outputs in_float, run<float>(program, invocations, options, with_trace ? &trace : nullptr));
+    GOBO_TRY(Outputs in_float,
+             run<float>(program, invocations, {.count = true}, with_trace ? &trace : nullptr));
     GOBO_TRY(Outputs in_double, run<double>(program, invocations));
     EvalReport report;
     for (const Port& port : program.outputs)
@@ -184,7 +178,7 @@ Result<EvalReport> evaluate_once(const Program& program, const Invocations& invo
 }
 
 std::string to_text(const EvalReport& report, const SourceLine& source_line) {
-    std::string text = trace_text(report.trace, source_line);
+    std::string text = to_text(report.trace, source_line);
     if (!text.empty()) text += "\n";
     std::vector<std::string> counts;
     for (std::size_t kind = 0; kind < kKinds; ++kind)

@@ -43,8 +43,13 @@ class Trace final : public Observer<T> {
 extern template class Trace<float>;
 extern template class Trace<double>;
 
-/// One line for each step, under a line for each place.
-[[nodiscard]] std::string to_text(const std::vector<TraceStep>& steps);
+/// Line `place.line` of the text that `place.file` names; empty where that is unknown.
+using SourceLine = std::function<std::string(const Place& place)>;
+
+/// One line for each step, under a line for each place with the source there.
+[[nodiscard]] std::string to_text(
+    const std::vector<TraceStep>& steps,
+    const SourceLine& source_line = [](const Place&) { return std::string(); });
 
 /// A number in the shortest decimal that stands for it (in fp32 where it is an fp32 number: 0.1); several as
 /// "(1, 0.5, 0.25)".
@@ -68,9 +73,6 @@ struct EvalReport {
 /// Runs one invocation in both arithmetics.
 [[nodiscard]] Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations,
                                                bool with_trace);
-
-/// Line `place.line` of the text that `place.file` names; empty where that is unknown.
-using SourceLine = std::function<std::string(const Place& place)>;
 
 /// The trace (with the source line above the operations it consists of), outputs, differences and counts.
 [[nodiscard]] std::string to_text(const EvalReport& report, const SourceLine& source_line);

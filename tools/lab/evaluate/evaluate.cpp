@@ -1,7 +1,6 @@
 #include "lab/evaluate/evaluate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -70,30 +69,6 @@ struct Binding {
     bool is_per_invocation = false;  ///< otherwise the same for all
 };
 
-double read_scalar(Scalar scalar, const std::byte* bytes) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, bytes, sizeof bits);
-    if (scalar == Scalar::int32) return static_cast<std::int32_t>(bits);
-    if (scalar != Scalar::float32) return bits;
-    float real = 0;
-    std::memcpy(&real, &bits, sizeof real);
-    return static_cast<double>(real);
-}
-
-/// Members that lie beyond the end of the bytes stay 0: a buffer for fewer array elements is enough.
-void bind_block(const Program& program, std::size_t block, const std::vector<std::byte>& bytes,
-                std::vector<Binding>& bindings) {
-    for (const Port& port : program.uniforms) {
-        if (port.block != static_cast<int>(block)) continue;
-        Binding binding{&port, {}, false};
-        for (const std::uint32_t offset : port.offsets) {
-            const bool is_inside = std::size_t{offset} + 4 <= bytes.size();
-            binding.values.push_back(is_inside ? read_scalar(port.scalar, bytes.data() + offset) : 0.0);
-        }
-        bindings.push_back(std::move(binding));
-    }
-}
-
 /// Bindings in the order in which they overrule one another. Errors: names that the stage does not have, and
 /// wrong numbers of values.
 Result<std::vector<Binding>> bind(const Program& program, const Invocations& invocations) {
@@ -104,7 +79,9 @@ Result<std::vector<Binding>> bind(const Program& program, const Invocations& inv
         if (found == blocks.end())
             return fail(Fault::input, fmt::format("the stage has no uniform block '{}'", name),
                         suggestion(name, names_of(blocks)));
-        bind_block(program, static_cast<std::size_t>(found - blocks.begin()), bytes, bindings);
+        for (const Port& port : program.uniforms)
+            if (port.block == found - blocks.begin())
+                bindings.push_back({&port, numbers_in_block(port, bytes), false});
     }
     for (const auto& [name, values] : invocations.values) {
         const Port* port = find_port(program.inputs, name);
@@ -259,6 +236,20 @@ class Evaluation {
 };
 
 }  // namespace
+
+std::vector<double> numbers_in_block(const Port& port, const std::vector<std::byte>& bytes) {
+    std::vector<double> numbers;
+    for (const std::uint32_t offset : port.offsets) {
+        std::uint32_t bits = 0;
+        if (offset + sizeof bits <= bytes.size()) std::memcpy(&bits, bytes.data() + offset, sizeof bits);
+        if (port.scalar == Scalar::float32)
+            numbers.push_back(static_cast<double>(std::bit_cast<float>(bits)));
+        else
+            numbers.push_back(port.scalar == Scalar::int32 ? static_cast<double>(to_signed(bits))
+                                                           : static_cast<double>(bits));
+    }
+    return numbers;
+}
 
 template <class T>
 Result<Outputs> run(const Program& program, const Invocations& invocations, const Options& options,

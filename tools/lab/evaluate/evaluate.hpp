@@ -71,6 +71,10 @@ struct Invocations {
     Images images;
 };
 
+/// What the bytes of its uniform block hold of a member. Where they end before it, it is 0: a buffer for
+/// fewer array elements is enough.
+[[nodiscard]] std::vector<double> numbers_in_block(const Port& port, const std::vector<std::byte>& bytes);
+
 /// Which errors arithmetic makes beside those of rounding.
 enum class Errors {
     none,

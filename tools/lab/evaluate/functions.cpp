@@ -1,7 +1,5 @@
 #include "lab/evaluate/functions.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <spirv-tools/libspirv.h>
 

@@ -148,66 +148,51 @@ void Decoder::read_image_operands(const Instruction& instruction, std::size_t at
 
 namespace {
 
-/// Fills the request of one lane from the operands that the call has.
+/// The request of one lane, from the operands that the call has.
 template <class T>
-class RequestReader {
-  public:
-    RequestReader(const ImageCall& call, Registers<T>& registers, std::size_t lane)
-        : call_(call), registers_(registers), lane_(lane) {}
-
-    ImageRequest read() {
-        ImageRequest request;
-        request.what = static_cast<What>(call_.what);
-        request.dimensions = static_cast<int>(call_.dimensions);
-        request.arrayed = call_.is_arrayed != 0;
-        request.invocation = registers_.first_invocation + lane_;
-        request.compares = call_.reference != 0;
-        request.has_lod = call_.lod != 0;
-        const double divisor = call_.divisor != 0 ? number(call_.divisor) : 1.0;
-        for (std::uint32_t axis = 0; axis < call_.dimensions + call_.is_arrayed && call_.coordinates != 0;
-             ++axis)
-            request.coordinates[axis] = call_.has_int_coordinates != 0
-                                            ? integer(call_.coordinates, axis)
-                                            : number(call_.coordinates, axis) / divisor;
-        if (request.compares) request.reference = number(call_.reference) / divisor;
-        if (call_.bias != 0) request.bias = number(call_.bias);
-        if (request.has_lod) request.lod = call_.has_int_level != 0 ? integer(call_.lod) : number(call_.lod);
-        for (std::uint32_t axis = 0; axis < call_.dimensions; ++axis) {
-            if (call_.gradient_x != 0) {
-                request.dx[axis] = number(call_.gradient_x, axis);
-                request.dy[axis] = number(call_.gradient_y, axis);
-            } else if (call_.is_implicit != 0) {
-                request.dx[axis] = across_quad(axis, lane_ & ~std::size_t{1}, 1);
-                request.dy[axis] = across_quad(axis, lane_ & ~std::size_t{2}, 2);
-            }
-            if (call_.offset != 0) request.offset[axis] = integer(call_.offset, axis);
-        }
-        if (call_.sample != 0) request.sample = integer(call_.sample);
-        if (call_.component != 0) request.component = integer(call_.component);
-        return request;
-    }
-
-  private:
-    [[nodiscard]] double number(std::uint32_t slot, std::uint32_t component = 0) const {
-        return static_cast<double>(registers_.floats(slot - 1 + component)[lane_]);
-    }
-    [[nodiscard]] int integer(std::uint32_t slot, std::uint32_t component = 0) const {
-        return to_signed(registers_.ints(slot - 1 + component)[lane_]);
-    }
-
-    /// The change of a (projected) coordinate between two lanes of the quad.
-    [[nodiscard]] double across_quad(std::uint32_t axis, std::size_t from, std::size_t step) const {
-        const T* values = registers_.floats(call_.coordinates - 1 + axis);
-        if (call_.divisor == 0) return static_cast<double>(values[from + step] - values[from]);
-        const T* divisors = registers_.floats(call_.divisor - 1);
+ImageRequest request_of(const ImageCall& call, Registers<T>& registers, std::size_t lane) {
+    const auto number = [&](std::uint32_t slot, std::uint32_t component = 0) {
+        return static_cast<double>(registers.floats(slot - 1 + component)[lane]);
+    };
+    const auto integer = [&](std::uint32_t slot, std::uint32_t component = 0) {
+        return to_signed(registers.ints(slot - 1 + component)[lane]);
+    };
+    // The change of a (projected) coordinate between two lanes of the quad.
+    const auto across_quad = [&](std::uint32_t axis, std::size_t from, std::size_t step) {
+        const T* values = registers.floats(call.coordinates - 1 + axis);
+        if (call.divisor == 0) return static_cast<double>(values[from + step] - values[from]);
+        const T* divisors = registers.floats(call.divisor - 1);
         return static_cast<double>(values[from + step] / divisors[from + step] -
                                    values[from] / divisors[from]);
+    };
+    ImageRequest request;
+    request.what = static_cast<What>(call.what);
+    request.dimensions = static_cast<int>(call.dimensions);
+    request.arrayed = call.is_arrayed != 0;
+    request.invocation = registers.first_invocation + lane;
+    request.compares = call.reference != 0;
+    request.has_lod = call.lod != 0;
+    const double divisor = call.divisor != 0 ? number(call.divisor) : 1.0;
+    for (std::uint32_t axis = 0; axis < call.dimensions + call.is_arrayed && call.coordinates != 0; ++axis)
+        request.coordinates[axis] = call.has_int_coordinates != 0 ? integer(call.coordinates, axis)
+                                                                  : number(call.coordinates, axis) / divisor;
+    if (request.compares) request.reference = number(call.reference) / divisor;
+    if (call.bias != 0) request.bias = number(call.bias);
+    if (request.has_lod) request.lod = call.has_int_level != 0 ? integer(call.lod) : number(call.lod);
+    for (std::uint32_t axis = 0; axis < call.dimensions; ++axis) {
+        if (call.gradient_x != 0) {
+            request.dx[axis] = number(call.gradient_x, axis);
+            request.dy[axis] = number(call.gradient_y, axis);
+        } else if (call.is_implicit != 0) {
+            request.dx[axis] = across_quad(axis, lane & ~std::size_t{1}, 1);
+            request.dy[axis] = across_quad(axis, lane & ~std::size_t{2}, 2);
+        }
+        if (call.offset != 0) request.offset[axis] = integer(call.offset, axis);
     }
-
-    const ImageCall& call_;
-    Registers<T>& registers_;
-    std::size_t lane_;
-};
+    if (call.sample != 0) request.sample = integer(call.sample);
+    if (call.component != 0) request.component = integer(call.component);
+    return request;
+}
 
 constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
     ImageWords words;
@@ -217,7 +202,7 @@ constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Register
         if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
         const Image* image = registers.image(static_cast<std::size_t>(registers.ints(call.image - 1)[lane]));
         if (image == nullptr) return;
-        const std::array<double, 4> texel = (*image)(RequestReader<T>(call, registers, lane).read());
+        const std::array<double, 4> texel = (*image)(request_of(call, registers, lane));
         for (std::uint32_t component = 0; component < operation.count; ++component) {
             if (call.has_int_result != 0)
                 registers.ints(operation.result + component)[lane] =
@@ -228,15 +213,15 @@ constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Register
     }
 }>;
 
+constexpr auto kRows = [] {
+    std::array<Row, std::size(kForms)> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = {kForms[i].code, kForms[i].name, Kind::image, "", kAsk};
+    return rows;
+}();
+
 }  // namespace
 
-std::span<const Row> image_rows() {
-    static const std::vector<Row> rows = [] {
-        std::vector<Row> all;
-        for (const ImageForm& form : kForms) all.push_back({form.code, form.name, Kind::image, "", kAsk});
-        return all;
-    }();
-    return rows;
-}
+constinit const std::span<const Row> kImageRows = kRows;
 
 }  // namespace gobo::evaluate

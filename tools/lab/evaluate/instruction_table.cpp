@@ -4,22 +4,17 @@
 #include <vector>
 
 namespace gobo::evaluate {
-namespace {
-
-std::vector<Row> all_rows() {
-    std::vector<Row> rows;
-    for (const auto part :
-         {float_rows(), integer_rows(), comparison_rows(), vector_rows(), memory_rows(), image_rows()})
-        rows.insert(rows.end(), part.begin(), part.end());
-    // Rows of the same code stay in order.
-    std::ranges::stable_sort(rows, {}, &Row::code);
-    return rows;
-}
-
-}  // namespace
 
 std::span<const Row> instruction_table() {
-    static const std::vector<Row> rows = all_rows();
+    static const std::vector<Row> rows = [] {
+        std::vector<Row> all;
+        for (const auto part :
+             {kFloatRows, kIntegerRows, kComparisonRows, kVectorRows, kMemoryRows, kImageRows})
+            all.insert(all.end(), part.begin(), part.end());
+        // Rows of the same code stay in order.
+        std::ranges::stable_sort(all, {}, &Row::code);
+        return all;
+    }();
     return rows;
 }
 

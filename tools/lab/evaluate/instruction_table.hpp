@@ -72,11 +72,11 @@ enum Internal : std::uint32_t {
 }
 
 // The parts of the table, one file each.
-[[nodiscard]] std::span<const Row> float_rows();
-[[nodiscard]] std::span<const Row> integer_rows();
-[[nodiscard]] std::span<const Row> comparison_rows();
-[[nodiscard]] std::span<const Row> vector_rows();
-[[nodiscard]] std::span<const Row> memory_rows();
-[[nodiscard]] std::span<const Row> image_rows();
+extern const std::span<const Row> kFloatRows;
+extern const std::span<const Row> kIntegerRows;
+extern const std::span<const Row> kComparisonRows;
+extern const std::span<const Row> kVectorRows;
+extern const std::span<const Row> kMemoryRows;
+extern const std::span<const Row> kImageRows;
 
 }  // namespace gobo::evaluate

@@ -1,7 +1,6 @@
 // Makes rows out of functions of a component or of a row. Internal to evaluation.
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 #include <utility>
 

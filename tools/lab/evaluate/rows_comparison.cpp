@@ -93,8 +93,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> comparison_rows() {
-    return kRows;
-}
+constinit const std::span<const Row> kComparisonRows = kRows;
 
 }  // namespace gobo::evaluate

@@ -183,8 +183,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> float_rows() {
-    return kRows;
-}
+constinit const std::span<const Row> kFloatRows = kRows;
 
 }  // namespace gobo::evaluate

@@ -236,8 +236,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> integer_rows() {
-    return kRows;
-}
+constinit const std::span<const Row> kIntegerRows = kRows;
 
 }  // namespace gobo::evaluate

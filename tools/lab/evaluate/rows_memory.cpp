@@ -140,8 +140,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> memory_rows() {
-    return kRows;
-}
+constinit const std::span<const Row> kMemoryRows = kRows;
 
 }  // namespace gobo::evaluate

@@ -293,8 +293,6 @@ constexpr Row kRows[] = {
 
 }  // namespace
 
-std::span<const Row> vector_rows() {
-    return kRows;
-}
+constinit const std::span<const Row> kVectorRows = kRows;
 
 }  // namespace gobo::evaluate

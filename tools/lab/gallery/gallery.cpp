@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cmath>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -14,6 +16,9 @@
 #include "core/parallel.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
+#include "lab/raster/raster_object.hpp"
+#include "lab/raster/shade.hpp"
+#include "lab/raster/shared_textures.hpp"
 
 namespace gobo::gallery {
 namespace {
@@ -69,42 +74,15 @@ Json entry_json(const Family& family, const Entry& entry) {
             {"vertex_cost", to_three_digits(entry.vertex_cost)}};
 }
 
-/// Draws a permutation, writes its picture, and evaluates it: an entry without the names of files of what
-/// cannot be evaluated. `warnings` are to be told all the same.
-Result<Entry> make_entry(const Context& context, const Scene& scene, const Family& family,
-                         const Composition& composition, const Validated& validated,
-                         const Permutation& permutation, const GalleryOptions& options, FileSystem& files,
-                         Diagnostics& warnings) {
-    GOBO_TRY(const Drawing drawing, draw(context, scene, family, composition, validated, permutation));
-    Entry entry;
-    const auto write = [&](std::string& name, const char* end, const Image& picture) {
-        name = picture_name(key_text(family, permutation.key)) + end;
-        return write_image(files, options.folder + "/" + name, picture);
-    };
-    entry.key = permutation.key;
-    const float exposure = exposure_of(drawing.color);
-    entry.exposure = exposure;
-    GOBO_TRY_DO(write(entry.actual, ".png", exposed(drawing.color, exposure)));
-    warnings = drawing.warnings;
-    const auto evaluation = evaluate_drawing(drawing, scene, validated, permutation, options.weights);
-    if (!evaluation) {
-        for (Diagnostic error : evaluation.error()) {
-            error.severity = Severity::warning;
-            warnings.push_back(std::move(error));
-        }
-        return entry;
+/// The values, and for each sampler2D that they leave out the texture that the renderer would take.
+std::vector<RenderValue> with_usual_textures(const Interface& interface, std::vector<RenderValue> values) {
+    for (const Sampler& sampler : interface.samplers) {
+        const bool is_given = find_value(values, sampler.name) != nullptr;
+        if (is_given || sampler.type != "sampler2D" || !sampler.array.empty()) continue;
+        TextureSource source = texture_source_of(sampler.name, values);
+        values.push_back({sampler.name, std::move(source.name), std::move(source.numbers), {}});
     }
-    const raster::PictureReport& report = evaluation->report;
-    entry.largest_error = report.largest_error;
-    entry.root_mean_square = report.root_mean_square;
-    entry.edges = report.edges;
-    entry.pixels = report.pixels;
-    entry.fragment_cost = evaluation->fragment_cost;
-    entry.vertex_cost = evaluation->vertex_cost;
-    GOBO_TRY_DO(write(entry.expected, ".expected.png", exposed(report.expected, exposure)));
-    GOBO_TRY_DO(write(entry.difference, ".error.png",
-                      difference_picture(report.actual, report.expected, kWhiteError)));
-    return entry;
+    return values;
 }
 
 }  // namespace
@@ -141,15 +119,48 @@ RenderedSelection make_gallery(const Scene& scene, const Family& family, const C
     Gallery gallery;
     std::mutex renderer;
     std::atomic<std::size_t> next = 0;
+    // Draws a permutation, writes its picture, and evaluates it: an entry without the names of files of what
+    // cannot be evaluated. Warnings are to be told all the same.
+    const auto make_entry = [&](const Context& context, std::size_t i) -> Result<Entry> {
+        const Permutation& permutation = permutations[i];
+        GOBO_TRY(const Drawing drawing, draw(context, scene, family, composition, validated, permutation));
+        Entry entry;
+        const auto write = [&](std::string& name, const char* end, const Image& picture) {
+            name = picture_name(key_text(family, permutation.key)) + end;
+            return write_image(files, options.folder + "/" + name, picture);
+        };
+        entry.key = permutation.key;
+        const float exposure = exposure_of(drawing.color);
+        entry.exposure = exposure;
+        GOBO_TRY_DO(write(entry.actual, ".png", exposed(drawing.color, exposure)));
+        warnings[i] = drawing.warnings;
+        const auto evaluation = evaluate_drawing(drawing, scene, validated, permutation, options.weights);
+        if (!evaluation) {
+            for (Diagnostic error : evaluation.error()) {
+                error.severity = Severity::warning;
+                warnings[i].push_back(std::move(error));
+            }
+            return entry;
+        }
+        const raster::PictureReport& report = evaluation->report;
+        entry.largest_error = report.largest_error;
+        entry.root_mean_square = report.root_mean_square;
+        entry.edges = report.edges;
+        entry.pixels = report.pixels;
+        entry.fragment_cost = evaluation->fragment_cost;
+        entry.vertex_cost = evaluation->vertex_cost;
+        GOBO_TRY_DO(write(entry.expected, ".expected.png", exposed(report.expected, exposure)));
+        GOBO_TRY_DO(write(entry.difference, ".error.png",
+                          difference_picture(report.actual, report.expected, kWhiteError)));
+        return entry;
+    };
     // Each thread has a context of its own.
     const int jobs =
         std::clamp(options.jobs, 1, static_cast<int>(std::max<std::size_t>(permutations.size(), 1)));
     parallel_for(jobs, static_cast<std::size_t>(jobs), [&](std::size_t) {
         const Result<Context> context = open_context(options.backend);
         for (std::size_t i = next++; i < permutations.size(); i = next++)
-            entries[i] = context ? make_entry(*context, scene, family, composition, validated,
-                                              permutations[i], options, files, warnings[i])
-                                 : tl::unexpected(context.error());
+            entries[i] = context ? make_entry(*context, i) : tl::unexpected(context.error());
         const std::lock_guard<std::mutex> lock(renderer);
         if (context) gallery.renderer = context->renderer();
     });
@@ -176,6 +187,101 @@ RenderedSelection make_gallery(const Scene& scene, const Family& family, const C
     made.files.push_back(path);
     for (const Entry& entry : gallery.entries) made.files.push_back(options.folder + "/" + entry.actual);
     return made;
+}
+
+Camera gallery_camera() {
+    return {.position = {0, 2.8, 4.3}, .target = {0, -0.14, 0}, .field_of_view = 0.5, .far_plane = 50};
+}
+
+Result<Drawing> draw(const Context& context, const Scene& scene, const Family& family,
+                     const Composition& composition, const Validated& validated,
+                     const Permutation& permutation) {
+    Drawing drawing;
+    drawing.interface = interface_of(validated, permutation);
+    drawing.values = with_usual_textures(drawing.interface, family.render);
+    raster::SharedTextures textures(context);
+    GOBO_TRY_DO(textures.add(drawing.interface, drawing.values, scene.cube_maps));
+    drawing.images = textures.images();
+    GivenTextures given = textures.given();
+    std::optional<ShadowMaps> maps;
+    const std::vector<ShadowLight> lights = shadow_lights(family, permutation.key);
+    if (!lights.empty() && !scene.depth_pass.stages.empty()) {
+        GOBO_TRY(ShadowMaps drawn, draw_shadow_maps(context, scene.depth_pass, lights, scene.objects,
+                                                    scene.view.camera.view()));
+        maps.emplace(std::move(drawn));
+        drawing.values.insert(drawing.values.end(), maps->values().begin(), maps->values().end());
+        drawing.images["shadowMaps"] = raster::depths_of(*maps, lights);
+        given["shadowMaps"] = maps->texture();
+    }
+    GOBO_TRY(Picture picture,
+             render_permutation(context, stages_of(composition, permutation), drawing.interface,
+                                scene.objects, drawing.values, scene.view, given));
+    drawing.color = std::move(picture.color);
+    drawing.warnings = std::move(picture.warnings);
+    return drawing;
+}
+
+Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, const Validated& validated,
+                                    const Permutation& permutation, const study::Weights& weights) {
+    const auto spirv = [&](int stage) -> const SpirvModule& {
+        return validated.stages[static_cast<std::size_t>(stage)].spirv;
+    };
+    GOBO_TRY(const raster::Pipeline program,
+             raster::pipeline_of(spirv(permutation.vertex), spirv(permutation.fragment)));
+    const auto objects_in = [&](const View& view) {
+        return raster::rasterise_objects(program, drawing.interface, scene.objects,
+                                         raster::with_plain_textures(drawing.interface, drawing.values), view,
+                                         drawing.images);
+    };
+    GOBO_TRY(const auto seen, objects_in(scene.view));
+    Evaluation evaluation;
+    evaluation.report = raster::compare_picture(drawing.color, program, seen, scene.view.background,
+                                                raster::KeptPictures::all);
+    if (!evaluation.report.diagnostics.empty()) return tl::unexpected(evaluation.report.diagnostics);
+
+    // Costs are averages: a picture this small tells them to a few parts in a hundred.
+    View small = scene.view;
+    small.width = 80;
+    small.height = 60;
+    GOBO_TRY(const auto objects, objects_in(small));
+    raster::Work work;
+    std::size_t fragments = 0;
+    std::size_t vertices = 0;
+    for (const raster::RasterObject& object : objects) {
+        GOBO_TRY(const auto shaded, raster::shade<float>(program, object, &work));
+        fragments += shaded.size();
+        vertices += shaded.empty() ? 0 : object.positions.size();
+    }
+    const auto each = [](double all, std::size_t count) {
+        return all / static_cast<double>(std::max<std::size_t>(count, 1));
+    };
+    evaluation.fragment_cost = each(study::weighted(work.fragments, weights), fragments);
+    evaluation.vertex_cost = each(study::weighted(work.vertices, weights), vertices);
+    return evaluation;
+}
+
+float exposure_of(const Image& picture) {
+    constexpr float kWhite = 0.95F;  // leaves the brightest hundredth room above it
+    std::vector<float> brightness;   // the largest colour that is not infinite, of each pixel
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            float& largest = brightness.emplace_back(0.0F);
+            for (int channel = 0; channel < std::min(picture.channels, 3); ++channel)
+                if (std::isfinite(picture.at(x, y, channel)))
+                    largest = std::max(largest, picture.at(x, y, channel));
+        }
+    }
+    if (brightness.empty()) return 1;
+    const auto place = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() / 100);
+    std::nth_element(brightness.begin(), place, brightness.end(), std::greater<>());
+    return *place > kWhite ? kWhite / *place : 1;
+}
+
+Image exposed(Image picture, float exposure) {
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    for (std::size_t i = 0; i < picture.values.size(); ++i)
+        if (channels < 4 || i % channels < 3) picture.values[i] *= exposure;
+    return picture;
 }
 
 }  // namespace gobo::gallery

@@ -79,6 +79,11 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return sine == 0 && cosine == 0 ? std::acos(0.0) : std::atan2(sine, cosine);
 }
 
+double one_minus_cosine_of(double angle) {
+    const double half_sine = std::sin(angle / 2);
+    return 2 * half_sine * half_sine;
+}
+
 glm::dvec3 direction_of(const glm::dvec3& vector) {
     const double length = glm::length(vector);
     return length > 0 ? vector / length : glm::dvec3(0);
@@ -96,8 +101,7 @@ double angle_resolution(SpotEdge edge, double angle) {
 }
 
 double cone_weight(const SpotLight& light, double angle, Decisions& decisions, double resolution) {
-    const double half_sine = std::sin(angle / 2);
-    const double one_minus_cosine = 2 * half_sine * half_sine;
+    const double one_minus_cosine = one_minus_cosine_of(angle);
     const double fade_width = light.outer_one_minus_cosine - light.inner_one_minus_cosine;
     double edge = 0;
     if (light.outer_one_minus_cosine >= 2) {  // all directions, the one straight back too

@@ -39,6 +39,9 @@ class Decisions {
 /// The angle between two directions of any length, 0 to pi; a right angle where either is zero.
 [[nodiscard]] double angle_between(const glm::dvec3& a, const glm::dvec3& b);
 
+/// 1 - cos of an angle, without the cancellation at small ones.
+[[nodiscard]] double one_minus_cosine_of(double angle);
+
 /// The vector's direction; zero where it is zero.
 [[nodiscard]] glm::dvec3 direction_of(const glm::dvec3& vector);
 

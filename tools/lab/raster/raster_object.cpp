@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "lab/evaluate/images.hpp"
 #include "lab/render/mesh.hpp"
@@ -203,9 +202,11 @@ std::vector<std::uint32_t> drop_unseen_triangles(RasterObject& object) {
     const std::vector<glm::dvec4> positions = std::exchange(object.positions, {});
     std::map<std::uint32_t, std::uint32_t> vertices;
     std::vector<std::uint32_t> kept;
-    std::optional<std::uint32_t> last;  // fragments come triangle by triangle
+    std::map<std::uint32_t, std::uint32_t> triangles;
     for (Fragment& fragment : object.fragments) {
-        for (std::size_t corner = 0; last != fragment.triangle && corner < 3; ++corner) {
+        const auto [triangle, is_first] =
+            triangles.try_emplace(fragment.triangle, static_cast<std::uint32_t>(triangles.size()));
+        for (std::size_t corner = 0; is_first && corner < 3; ++corner) {
             const std::uint32_t vertex = indices[3 * std::size_t{fragment.triangle} + corner];
             const auto [known, is_new] =
                 vertices.try_emplace(vertex, static_cast<std::uint32_t>(kept.size()));
@@ -214,8 +215,7 @@ std::vector<std::uint32_t> drop_unseen_triangles(RasterObject& object) {
             kept.push_back(vertex);
             object.positions.push_back(positions[vertex]);
         }
-        last = fragment.triangle;
-        fragment.triangle = static_cast<std::uint32_t>(object.indices.size() / 3 - 1);
+        fragment.triangle = triangle->second;
     }
     return kept;
 }

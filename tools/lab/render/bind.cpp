@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -20,56 +21,38 @@
 namespace gobo {
 namespace {
 
-/// What a struct or an outer array dimension adds to the name and the offset of what it holds.
-struct Prefix {
-    std::string name;
-    int offset = 0;
-};
+/// Of an inner dimension: std140 and std430 pack the elements of an array of arrays without a gap.
+int stride_of(const Member& member, std::size_t dimension) {
+    int stride = member.array_stride;
+    for (std::size_t i = 1; i <= dimension; ++i) stride /= member.array[i] > 0 ? member.array[i] : 1;
+    return stride;
+}
 
-class Flattener {
-  public:
-    Flattener(std::string block, std::vector<Leaf>& leaves) : block_(std::move(block)), leaves_(leaves) {}
-
-    /// `dimension` is the first of the member's array dimensions that the prefix does not spell out yet.
-    void add(const Member& member, const Prefix& prefix, std::size_t dimension = 0) {
-        const std::size_t left = member.array.size() - dimension;
-        if (left > (member.members.empty() ? 1U : 0U)) {
-            const int stride = stride_of(member, dimension);
-            for (int i = 0; i < member.array[dimension]; ++i)
-                add(member, {fmt::format("{}[{}]", prefix.name, i), prefix.offset + i * stride},
-                    dimension + 1);
-        } else if (member.members.empty()) {
-            add_leaf(member, prefix, left == 1);
-        } else {
-            for (const Member& inner : member.members)
-                add(inner, {prefix.name + "." + inner.name, prefix.offset + inner.offset});
-        }
+/// Adds the leaves of a member, which is called `name` and begins at `offset`. `dimension` is the first of
+/// its array dimensions that the name does not spell out yet.
+void flatten(const Member& member, const std::string& block, const std::string& name, int offset,
+             std::size_t dimension, std::vector<Leaf>& leaves) {
+    const std::size_t left = member.array.size() - dimension;
+    if (left > (member.members.empty() ? 1U : 0U)) {
+        for (int i = 0; i < member.array[dimension]; ++i)
+            flatten(member, block, fmt::format("{}[{}]", name, i), offset + i * stride_of(member, dimension),
+                    dimension + 1, leaves);
+        return;
     }
-
-  private:
-    /// Of an inner dimension: std140 and std430 pack the elements of an array of arrays without a gap.
-    static int stride_of(const Member& member, std::size_t dimension) {
-        int stride = member.array_stride;
-        for (std::size_t i = 1; i <= dimension; ++i) stride /= member.array[i] > 0 ? member.array[i] : 1;
-        return stride;
+    for (const Member& inner : member.members)
+        flatten(inner, block, name + "." + inner.name, offset + inner.offset, 0, leaves);
+    if (!member.members.empty()) return;
+    Leaf leaf{name, block, member.type};
+    leaf.is_array = left == 1;
+    leaf.offset = offset;
+    leaf.matrix_stride = member.matrix_stride;
+    leaf.row_major = member.row_major;
+    if (leaf.is_array) {
+        leaf.count = member.array.back();
+        leaf.array_stride = stride_of(member, member.array.size() - 1);
     }
-
-    void add_leaf(const Member& member, const Prefix& prefix, bool is_array) {
-        Leaf leaf{prefix.name, block_, member.type};
-        leaf.is_array = is_array;
-        leaf.offset = prefix.offset;
-        leaf.matrix_stride = member.matrix_stride;
-        leaf.row_major = member.row_major;
-        if (is_array) {
-            leaf.count = member.array.back();
-            leaf.array_stride = stride_of(member, member.array.size() - 1);
-        }
-        leaves_.push_back(std::move(leaf));
-    }
-
-    std::string block_;
-    std::vector<Leaf>& leaves_;
-};
+    leaves.push_back(std::move(leaf));
+}
 
 /// The leaf of that name. "weights[2]" finds the element 2 of the leaf "weights", with what follows it in its
 /// array counted. Nothing where there is none, or the element lies outside of the array.
@@ -163,17 +146,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kAttribut
      {"texcoord", "texcoord texcoords texcoord0 texturecoordinate texturecoord textureuv uv uv0"},
      {"color", "color colour color0 vertexcolor"}}};
 
-bool is_upper(char character) {
-    return std::isupper(static_cast<unsigned char>(character)) != 0;
-}
-
 /// Takes off `u_`, `in_` and the like, and a lower-case letter or "in" before a capital.
 std::string_view without_prefix(std::string_view name) {
     for (const std::string_view prefix : {"in", "attr", "u", "a", "v", "i", "m", "g", "vs"}) {
         if (!name.starts_with(prefix) || name.size() <= prefix.size()) continue;
         const char next = name[prefix.size()];
         if (next == '_') return name.substr(prefix.size() + 1);
-        if (is_upper(next)) return name.substr(prefix.size());
+        if (std::isupper(static_cast<unsigned char>(next)) != 0) return name.substr(prefix.size());
     }
     return name;
 }
@@ -190,18 +169,8 @@ std::string plain_spelling(std::string_view name) {
 }
 
 bool is_spelling(std::string_view plain, std::string_view spellings) {
-    while (!spellings.empty()) {
-        const std::size_t end = std::min(spellings.find(' '), spellings.size());
-        if (spellings.substr(0, end) == plain) return true;
-        spellings.remove_prefix(std::min(end + 1, spellings.size()));
-    }
-    return false;
-}
-
-std::vector<std::string> uniform_sources() {
-    std::vector<std::string> names;
-    for (const Source& source : kUniformSources) names.emplace_back(source.name);
-    return names;
+    return !plain.empty() &&
+           fmt::format(" {} ", spellings).find(fmt::format(" {} ", plain)) != std::string::npos;
 }
 
 /// The numbers of a source for a uniform of the given type, column by column. Nothing where there is no such
@@ -242,7 +211,8 @@ Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& valu
 }
 
 tl::unexpected<Diagnostics> cannot_supply(const Leaf& leaf, const RenderValue& value) {
-    const std::vector<std::string> known = uniform_sources();
+    std::vector<std::string> known;
+    for (const Source& source : kUniformSources) known.emplace_back(source.name);
     if (std::find(known.begin(), known.end(), value.source) == known.end())
         return unknown_source(value, known);
     return fail(value.place, {},
@@ -358,14 +328,14 @@ std::vector<Leaf> leaves_of(const Interface& interface) {
     std::vector<Leaf> leaves;
     for (const Block& block : interface.blocks)
         for (const Member& member : block.members)
-            Flattener(block.name, leaves).add(member, {block.name + "." + member.name, member.offset});
+            flatten(member, block.name, block.name + "." + member.name, member.offset, 0, leaves);
     for (const Uniform& uniform : interface.uniforms) {
         Member member;
         member.name = uniform.name;
         member.type = uniform.type;
         member.array = uniform.array;
         member.members = uniform.members;
-        Flattener("", leaves).add(member, {uniform.name, 0});
+        flatten(member, "", uniform.name, 0, 0, leaves);
     }
     return leaves;
 }

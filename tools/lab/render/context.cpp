@@ -165,8 +165,7 @@ Result<Context> open_context(Backend backend, int version) {
     };
     GladGLContext& gl = state->functions;
     const int loaded = gladLoadGLContextUserPtr(&gl, function, state->platform.get());
-    state->version = 10 * GLAD_VERSION_MAJOR(loaded) + GLAD_VERSION_MINOR(loaded);
-    if (state->version < version)
+    if (10 * GLAD_VERSION_MAJOR(loaded) + GLAD_VERSION_MINOR(loaded) < version)
         return fail(Fault::file, fmt::format("the {} context offers no OpenGL {}.{} core profile",
                                              name_of(backend), major, minor));
     state->renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));

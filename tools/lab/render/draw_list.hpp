@@ -2,7 +2,6 @@
 // timed.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "lab/render/bind.hpp"

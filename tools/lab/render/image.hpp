@@ -1,8 +1,12 @@
-// Pictures of floats.
+// Pictures of floats; and as files: PNG for the eye, EXR and PFM for measuring.
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/file_system.hpp"
 
 namespace gobo {
 
@@ -45,5 +49,33 @@ struct Image {
 /// A picture of the absolute differences, from black (none) through red and yellow to white (`scale` and
 /// above). The images must be of one size.
 [[nodiscard]] Image difference_picture(const Image& first, const Image& second, float scale);
+
+enum class ImageFormat { png, exr, pfm };
+
+/// "png", "exr" or "pfm": also the end of the file's name.
+[[nodiscard]] std::string_view name_of(ImageFormat format);
+/// The format of that name. Fault::usage otherwise.
+[[nodiscard]] Result<ImageFormat> image_format_of(std::string_view name);
+
+/// The sRGB transfer functions (IEC 61966-2-1) between linear radiance and a display's signal, both in [0,
+/// 1].
+[[nodiscard]] double srgb_of_linear(double linear);
+[[nodiscard]] double linear_of_srgb(double signal);
+
+/// The picture as the bytes of a file. No date, owner or host is written: equal pictures give equal bytes (an
+/// EXR under one version of zlib).
+///
+/// PNG: 8 bits a channel. Colour is clamped to [0, 1] (NaN becomes 0) and sRGB-encoded, alpha clamped and
+/// stored as it is; one channel (depth) is clamped and stored as grey without the sRGB curve.
+/// EXR: 32-bit floats, ZIP. PFM: 32-bit floats, one or three channels (a fourth is left out), little-endian.
+[[nodiscard]] Result<std::string> encode_image(const Image& image, ImageFormat format);
+
+/// The inverse. Fault::input, at `path`, where the bytes are no such file.
+/// A PNG gives four channels, its colour made linear. An EXR gives three, or four if it has an A, or one.
+[[nodiscard]] Result<Image> decode_image(std::string_view bytes, ImageFormat format, const std::string& path);
+
+/// Encodes by the end of the path's name and writes.
+[[nodiscard]] Result<bool> write_image(FileSystem& files, const std::string& path, const Image& image);
+[[nodiscard]] Result<Image> read_image(const FileSystem& files, const std::string& path);
 
 }  // namespace gobo

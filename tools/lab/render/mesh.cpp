@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <tiny_obj_loader.h>
 
 #include "core/text.hpp"
@@ -66,18 +67,6 @@ tl::unexpected<Diagnostics> unreadable(const std::string& path, std::string_view
     return fail(Place{path}, {}, fmt::format("this is not a readable OBJ file: {}", why));
 }
 
-glm::vec3 triple_at(const std::vector<float>& values, int index) {
-    const std::size_t first = 3 * static_cast<std::size_t>(index);
-    return {values[first], values[first + 1], values[first + 2]};
-}
-
-std::vector<tinyobj::index_t> corners_of(const tinyobj::ObjReader& reader) {
-    std::vector<tinyobj::index_t> corners;
-    for (const tinyobj::shape_t& shape : reader.GetShapes())
-        corners.insert(corners.end(), shape.mesh.indices.begin(), shape.mesh.indices.end());
-    return corners;
-}
-
 /// One vertex for each distinct triple of indices, as the file's own normals tell.
 Mesh with_own_normals(const tinyobj::attrib_t& attributes, const std::vector<tinyobj::index_t>& corners) {
     Mesh mesh;
@@ -88,8 +77,10 @@ Mesh with_own_normals(const tinyobj::attrib_t& attributes, const std::vector<tin
             std::tuple(corner.vertex_index, corner.normal_index, corner.texcoord_index), next);
         mesh.indices.push_back(vertex->second);
         if (!added) continue;
-        mesh.positions.push_back(triple_at(attributes.vertices, corner.vertex_index));
-        mesh.normals.push_back(triple_at(attributes.normals, corner.normal_index));
+        mesh.positions.push_back(
+            glm::make_vec3(&attributes.vertices[3 * static_cast<std::size_t>(corner.vertex_index)]));
+        mesh.normals.push_back(
+            glm::make_vec3(&attributes.normals[3 * static_cast<std::size_t>(corner.normal_index)]));
         const auto texcoord = 2 * static_cast<std::size_t>(std::max(corner.texcoord_index, 0));
         const bool has_texcoord = corner.texcoord_index >= 0;
         mesh.texcoords.emplace_back(
@@ -99,11 +90,41 @@ Mesh with_own_normals(const tinyobj::attrib_t& attributes, const std::vector<tin
     return mesh;
 }
 
+/// A mesh with smooth normals: each corner's is the area-weighted mean of the faces that meet there and lie
+/// within `crease_angle` (radians) of its own. Faces meet where positions are equal, whatever their index.
+/// Triangles without area are left out. Texture coordinates are x and y.
+Mesh with_smooth_normals(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices,
+                         double crease_angle) {
+    std::map<Position, std::vector<glm::dvec3>> faces_at;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::dvec3 normal = area_normal(positions, &indices[i]);
+        if (glm::length(normal) == 0) continue;
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            faces_at[key_of(positions[indices[i + corner]])].push_back(normal);
+    }
+    Mesh mesh;
+    std::map<std::pair<Position, Position>, std::uint32_t> vertices;  // by position and normal
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::dvec3 own = area_normal(positions, &indices[i]);
+        if (glm::length(own) == 0) continue;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::vec3& position = positions[indices[i + corner]];
+            const glm::vec3 normal(corner_normal(own, faces_at[key_of(position)], std::cos(crease_angle)));
+            const auto next = static_cast<std::uint32_t>(mesh.positions.size());
+            const auto [vertex, added] =
+                vertices.try_emplace(std::pair(key_of(position), key_of(normal)), next);
+            if (added) add_vertex(mesh, position, normal, position.x, position.y);
+            mesh.indices.push_back(vertex->second);
+        }
+    }
+    return mesh;
+}
+
 Mesh with_computed_normals(const tinyobj::attrib_t& attributes,
                            const std::vector<tinyobj::index_t>& corners) {
     std::vector<glm::vec3> positions;
-    for (int i = 0; i < static_cast<int>(attributes.vertices.size() / 3); ++i)
-        positions.push_back(triple_at(attributes.vertices, i));
+    for (std::size_t i = 0; i < attributes.vertices.size(); i += 3)
+        positions.push_back(glm::make_vec3(&attributes.vertices[i]));
     std::vector<std::uint32_t> indices;
     for (const tinyobj::index_t& corner : corners)
         indices.push_back(static_cast<std::uint32_t>(corner.vertex_index));
@@ -216,33 +237,6 @@ Mesh make_plane(double side, int cells) {
     });
 }
 
-Mesh with_smooth_normals(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices,
-                         double crease_angle) {
-    std::map<Position, std::vector<glm::dvec3>> faces_at;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::dvec3 normal = area_normal(positions, &indices[i]);
-        if (glm::length(normal) == 0) continue;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            faces_at[key_of(positions[indices[i + corner]])].push_back(normal);
-    }
-    Mesh mesh;
-    std::map<std::pair<Position, Position>, std::uint32_t> vertices;  // by position and normal
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const glm::dvec3 own = area_normal(positions, &indices[i]);
-        if (glm::length(own) == 0) continue;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const glm::vec3& position = positions[indices[i + corner]];
-            const glm::vec3 normal(corner_normal(own, faces_at[key_of(position)], std::cos(crease_angle)));
-            const auto next = static_cast<std::uint32_t>(mesh.positions.size());
-            const auto [vertex, added] =
-                vertices.try_emplace(std::pair(key_of(position), key_of(normal)), next);
-            if (added) add_vertex(mesh, position, normal, position.x, position.y);
-            mesh.indices.push_back(vertex->second);
-        }
-    }
-    return mesh;
-}
-
 Result<Mesh> read_obj(const FileSystem& files, const std::string& path) {
     GOBO_TRY(const std::string text, files.read(path));
     tinyobj::ObjReaderConfig configuration;
@@ -250,7 +244,9 @@ Result<Mesh> read_obj(const FileSystem& files, const std::string& path) {
     tinyobj::ObjReader reader;
     if (!reader.ParseFromString(text, "", configuration)) return unreadable(path, trim(reader.Error()));
     const tinyobj::attrib_t& attributes = reader.GetAttrib();
-    const std::vector<tinyobj::index_t> corners = corners_of(reader);
+    std::vector<tinyobj::index_t> corners;
+    for (const tinyobj::shape_t& shape : reader.GetShapes())
+        corners.insert(corners.end(), shape.mesh.indices.begin(), shape.mesh.indices.end());
     if (corners.empty()) return unreadable(path, "it has no faces");
     if (!in_range(attributes, corners)) return unreadable(path, "a face names a vertex that does not exist");
     for (const float value : attributes.vertices)

@@ -32,12 +32,6 @@ struct Mesh {
 /// A square in the plane y = 0 about the origin, its normal +y, of `side` length and cells * cells quads.
 [[nodiscard]] Mesh make_plane(double side, int cells);
 
-/// A mesh with smooth normals: each corner's is the area-weighted mean of the faces that meet there and lie
-/// within `crease_angle` (radians) of its own. Faces meet where positions are equal, whatever their index.
-/// Triangles without area are left out. Texture coordinates are x and y.
-[[nodiscard]] Mesh with_smooth_normals(const std::vector<glm::vec3>& positions,
-                                       const std::vector<std::uint32_t>& indices, double crease_angle);
-
 /// Reads a Wavefront OBJ: positions, faces (cut into triangles), and normals and texture coordinates where
 /// every corner has them; otherwise normals are computed with a crease angle of 60 degrees.
 [[nodiscard]] Result<Mesh> read_obj(const FileSystem& files, const std::string& path);

@@ -14,26 +14,6 @@
 namespace gobo {
 namespace {
 
-/// Draws one permutation and writes its picture. The result are warnings.
-Result<Diagnostics> render_one(const Context& context, const std::vector<StageText>& stages,
-                               const Interface& interface, const std::vector<Object>& objects,
-                               std::vector<RenderValue> values, const std::vector<ShadowLight>& shadows,
-                               const PictureOptions& options, FileSystem& files, const std::string& path) {
-    GivenTextures textures = options.textures;
-    std::optional<ShadowMaps> maps;
-    if (!shadows.empty() && options.depth_pass != nullptr) {
-        GOBO_TRY(ShadowMaps drawn, draw_shadow_maps(context, *options.depth_pass, shadows, objects,
-                                                    options.view.camera.view()));
-        maps.emplace(std::move(drawn));
-        textures["shadowMaps"] = maps->texture();
-        values.insert(values.end(), maps->values().begin(), maps->values().end());
-    }
-    GOBO_TRY(Picture picture,
-             render_permutation(context, stages, interface, objects, values, options.view, textures));
-    GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
-    return std::move(picture.warnings);
-}
-
 constexpr double kGround = -0.75;
 
 /// Scales the mesh into the box and puts it on the ground.
@@ -59,6 +39,17 @@ ViewedObject viewed_from(const View& view) {
             {view.width, view.height}};
 }
 
+Result<Picture> take_picture(const Framebuffer& framebuffer, const std::array<float, 4>& background,
+                             Diagnostics warnings, const std::function<void()>& draw) {
+    framebuffer.bind();
+    framebuffer.clear(background);
+    draw();
+    Picture picture{framebuffer.read_color(), framebuffer.read_depth(), std::move(warnings)};
+    if (const GLenum error = framebuffer.context().gl().GetError(); error != GL_NO_ERROR)
+        return fail(Fault::internal, fmt::format("OpenGL reports the error 0x{:04X} after drawing", error));
+    return picture;
+}
+
 Result<Picture> render_permutation(const Context& context, const std::vector<StageText>& stages,
                                    const Interface& interface, const std::vector<Object>& objects,
                                    const std::vector<RenderValue>& values, const View& view,
@@ -68,32 +59,42 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     set_bindings(context, program, interface);
     GOBO_TRY(const DrawList list,
              make_draw_list(context, program, interface, objects, values, viewed_from(view), textures));
-    framebuffer.bind();
-    framebuffer.clear(view.background);
-    list.draw();
-    Picture picture{framebuffer.read_color(), framebuffer.read_depth(), list.warnings()};
-    if (const GLenum error = context.gl().GetError(); error != GL_NO_ERROR)
-        return fail(Fault::internal, fmt::format("OpenGL reports the error 0x{:04X} after drawing", error));
-    return picture;
+    return take_picture(framebuffer, view.background, list.warnings(), [&] { list.draw(); });
 }
 
 RenderedSelection render_selection(const Context& context, const Family& family,
                                    const Composition& composition, const std::vector<Interface>& interfaces,
                                    const std::vector<Object>& objects, const PictureOptions& options,
                                    FileSystem& files) {
+    // Draws one permutation and writes its picture. The result are warnings.
+    const auto render_one = [&](std::size_t i, const std::string& path) -> Result<Diagnostics> {
+        const Permutation& permutation = composition.permutations[i];
+        std::vector<RenderValue> values = family.render;
+        GivenTextures textures = options.textures;
+        std::optional<ShadowMaps> maps;
+        const std::vector<ShadowLight> shadows = shadow_lights(family, permutation.key);
+        if (!shadows.empty() && options.depth_pass != nullptr) {
+            GOBO_TRY(ShadowMaps drawn, draw_shadow_maps(context, *options.depth_pass, shadows, objects,
+                                                        options.view.camera.view()));
+            maps.emplace(std::move(drawn));
+            textures["shadowMaps"] = maps->texture();
+            values.insert(values.end(), maps->values().begin(), maps->values().end());
+        }
+        GOBO_TRY(Picture picture, render_permutation(context, stages_of(composition, permutation),
+                                                     interfaces[i], objects, values, options.view, textures));
+        GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
+        return std::move(picture.warnings);
+    };
     RenderedSelection rendered;
     DiagnosticGroups groups(family);
     for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Permutation& permutation = composition.permutations[i];
-        const std::string path =
-            fmt::format("{}/{}.{}", options.folder, picture_name(key_text(family, permutation.key)),
-                        name_of(options.format));
-        const auto warnings =
-            render_one(context, stages_of(composition, permutation), interfaces[i], objects, family.render,
-                       shadow_lights(family, permutation.key), options, files, path);
+        const Key& key = composition.permutations[i].key;
+        const std::string path = fmt::format("{}/{}.{}", options.folder, picture_name(key_text(family, key)),
+                                             name_of(options.format));
+        const auto warnings = render_one(i, path);
         if (warnings) rendered.files.push_back(path);
         for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
-            groups.add(diagnostic, permutation.key);
+            groups.add(diagnostic, key);
     }
     rendered.diagnostics = groups.result();
     return rendered;
@@ -117,6 +118,62 @@ std::vector<Object> demo_objects(Mesh mesh) {
 
 Camera demo_camera() {
     return {.position = {0, 1.5, 5}, .target = {0, -0.05, 0}, .field_of_view = 0.6, .far_plane = 50};
+}
+
+void Framebuffer::bind() const {
+    const Context& context = resources_.context();
+    context.make_current();
+    context.gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    context.gl().Viewport(0, 0, width_, height_);
+}
+
+void Framebuffer::clear(const std::array<float, 4>& background) const {
+    const GladGLContext& gl = resources_.context().gl();
+    gl.ClearColor(background[0], background[1], background[2], background[3]);
+    gl.ClearDepth(1);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+Image Framebuffer::read(int channels, GLenum format) const {
+    bind();
+    const GladGLContext& gl = resources_.context().gl();
+    Image upside_down(width_, height_, channels);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl.ReadPixels(0, 0, width_, height_, format, GL_FLOAT, upside_down.values.data());
+    Image image(width_, height_, channels);
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(width_) * channels;
+    for (std::ptrdiff_t y = 0; y < height_; ++y)
+        std::copy_n(upside_down.values.begin() + (height_ - 1 - y) * row, row,
+                    image.values.begin() + y * row);
+    return image;
+}
+
+Result<Framebuffer> make_framebuffer(const Context& context, int width, int height, DepthFormat depth) {
+    context.make_current();
+    const GladGLContext& gl = context.gl();
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (width < 1 || height < 1 || width > largest || height > largest)
+        return fail(Fault::usage, fmt::format("cannot draw a picture of {} x {} pixels", width, height),
+                    fmt::format("choose both from 1 to {}", largest));
+    Framebuffer framebuffer(context, width, height);
+    GlResources& resources = framebuffer.resources_;
+    framebuffer.framebuffer_ =
+        resources.make(&GladGLContext::GenFramebuffers, &GladGLContext::DeleteFramebuffers);
+    framebuffer.bind();
+    const auto attach = [&](GLenum attachment, GLenum format) {
+        const GLuint name =
+            resources.make(&GladGLContext::GenRenderbuffers, &GladGLContext::DeleteRenderbuffers);
+        gl.BindRenderbuffer(GL_RENDERBUFFER, name);
+        gl.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, name);
+    };
+    attach(GL_COLOR_ATTACHMENT0, GL_RGBA32F);
+    attach(GL_DEPTH_ATTACHMENT, depth == DepthFormat::bits24 ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32F);
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return fail(Fault::file,
+                    fmt::format("the driver gives no framebuffer of {} x {} float pixels", width, height));
+    return framebuffer;
 }
 
 }  // namespace gobo

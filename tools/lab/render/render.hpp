@@ -1,7 +1,8 @@
-// A permutation as a picture, and pictures of every permutation of a selection.
+// What is drawn to, a permutation as a picture, and pictures of every permutation of a selection.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,12 +10,44 @@
 #include "compose/composition.hpp"
 #include "core/file_system.hpp"
 #include "lab/render/camera.hpp"
+#include "lab/render/context.hpp"
 #include "lab/render/draw_list.hpp"
-#include "lab/render/framebuffer.hpp"
-#include "lab/render/image_file.hpp"
+#include "lab/render/image.hpp"
 #include "lab/render/shadow_maps.hpp"
 
 namespace gobo {
+
+enum class DepthFormat { bits24, float32 };
+
+/// A framebuffer object with one RGBA32F colour attachment and a depth attachment.
+class Framebuffer {
+  public:
+    /// Makes it what is drawn to, all of it.
+    void bind() const;
+    /// Fills what is bound with a colour and the farthest depth.
+    void clear(const std::array<float, 4>& background) const;
+    /// Four channels, linear.
+    [[nodiscard]] Image read_color() const { return read(4, GL_RGBA); }
+    /// One channel, window-space depth in [0, 1].
+    [[nodiscard]] Image read_depth() const { return read(1, GL_DEPTH_COMPONENT); }
+    [[nodiscard]] const Context& context() const { return resources_.context(); }
+
+  private:
+    friend Result<Framebuffer> make_framebuffer(const Context& context, int width, int height,
+                                                DepthFormat depth);
+    Framebuffer(const Context& context, int width, int height)
+        : resources_(context), width_(width), height_(height) {}
+    [[nodiscard]] Image read(int channels, GLenum format) const;
+
+    GlResources resources_;
+    int width_;
+    int height_;
+    GLuint framebuffer_ = 0;
+};
+
+/// Fault::usage where the size is not from 1 to the driver's largest.
+[[nodiscard]] Result<Framebuffer> make_framebuffer(const Context& context, int width, int height,
+                                                   DepthFormat depth = DepthFormat::float32);
 
 /// From where a picture is taken, and onto what.
 struct View {
@@ -34,6 +67,11 @@ struct Picture {
     Image depth;           ///< window space, 1 where nothing was drawn
     Diagnostics warnings;  ///< attributes, uniforms and samplers without a value
 };
+
+/// What `draw` draws to the framebuffer. An error where OpenGL reports one.
+[[nodiscard]] Result<Picture> take_picture(const Framebuffer& framebuffer,
+                                           const std::array<float, 4>& background, Diagnostics warnings,
+                                           const std::function<void()>& draw);
 
 /// Links the two stages, supplies their uniforms and attributes, draws the objects once and reads the result.
 /// `values` are those of the family's [render] table; samplers that `textures` names get those. Errors: of

@@ -17,41 +17,6 @@
 namespace gobo {
 namespace {
 
-/// What the family's [render] table gives for lights.
-class Lights {
-  public:
-    Lights(const Family& family, const Key& key) : family_(family), key_(key) {}
-
-    [[nodiscard]] int count(const char* feature) const {
-        const auto index = family_.index_of(feature);
-        return index ? key_[static_cast<std::size_t>(*index)] : 0;
-    }
-
-    /// The numbers given to a member of a light; nothing where there are none.
-    [[nodiscard]] std::vector<double> numbers(const std::string& name) const {
-        for (const RenderValue& value : family_.render)
-            if (value.name == name && !value.numbers.empty()) return value.numbers;
-        return {};
-    }
-
-    [[nodiscard]] glm::dvec3 vector(const std::string& name) const {
-        glm::dvec3 vector(0);
-        const std::vector<double> own = numbers(name);
-        std::copy_n(own.begin(), std::min<std::size_t>(own.size(), 3), &vector[0]);
-        return vector;
-    }
-
-    [[nodiscard]] glm::dvec3 direction(const std::string& name) const {
-        const glm::dvec3 given = vector(name);
-        const double length = glm::length(given);
-        return length > 0 ? given / length : glm::dvec3(0, 1, 0);
-    }
-
-  private:
-    const Family& family_;
-    const Key& key_;
-};
-
 /// What must be on the maps: the objects whose shadows are wanted, and whatever they may fall on.
 struct ShadowedScene {
     Bounds casters;
@@ -190,23 +155,43 @@ Result<void> draw_one(const Context& context, const Program& program, const Dept
 
 std::vector<ShadowLight> shadow_lights(const Family& family, const Key& key) {
     using Kind = ShadowLight::Kind;
-    const Lights given(family, key);
+    const auto count = [&](const char* feature) {
+        const auto index = family.index_of(feature);
+        return index ? key[static_cast<std::size_t>(*index)] : 0;
+    };
+    // What the [render] table gives for a member of a light; nothing where it gives no numbers.
+    const auto numbers = [&](const std::string& name) {
+        for (const RenderValue& value : family.render)
+            if (value.name == name && !value.numbers.empty()) return value.numbers;
+        return std::vector<double>();
+    };
+    const auto vector = [&](const std::string& name) {
+        glm::dvec3 first_three(0);
+        const std::vector<double> own = numbers(name);
+        std::copy_n(own.begin(), std::min<std::size_t>(own.size(), 3), &first_three[0]);
+        return first_three;
+    };
+    const auto direction = [&](const std::string& name) {
+        const glm::dvec3 given = vector(name);
+        const double length = glm::length(given);
+        return length > 0 ? given / length : glm::dvec3(0, 1, 0);
+    };
     std::vector<ShadowLight> lights;
-    for (int i = 0; i < given.count("directional_shadows"); ++i) {
+    for (int i = 0; i < count("directional_shadows"); ++i) {
         const std::string light = fmt::format("DirectionalLights.lights[{}]", i);
-        lights.push_back({Kind::directional, glm::dvec3(0), given.direction(light + ".direction"), 0});
+        lights.push_back({Kind::directional, glm::dvec3(0), direction(light + ".direction"), 0});
     }
-    for (int i = 0; i < given.count("spot_shadows"); ++i) {
+    for (int i = 0; i < count("spot_shadows"); ++i) {
         const std::string light = fmt::format("SpotLights.lights[{}]", i);
-        const std::vector<double> one_minus_cosine = given.numbers(light + ".outerOneMinusCosine");
+        const std::vector<double> one_minus_cosine = numbers(light + ".outerOneMinusCosine");
         const double cosine =
             1 - (one_minus_cosine.empty() ? 1 : std::clamp(one_minus_cosine.front(), 0.0, 2.0));
-        lights.push_back({Kind::spot, given.vector(light + ".position"), given.direction(light + ".axis"),
-                          std::acos(cosine)});
-    }
-    for (int i = 0; i < given.count("point_shadows"); ++i)
         lights.push_back(
-            {Kind::point, given.vector(fmt::format("PointLights.lights[{}].position", i)), glm::dvec3(0), 0});
+            {Kind::spot, vector(light + ".position"), direction(light + ".axis"), std::acos(cosine)});
+    }
+    for (int i = 0; i < count("point_shadows"); ++i)
+        lights.push_back(
+            {Kind::point, vector(fmt::format("PointLights.lights[{}].position", i)), glm::dvec3(0), 0});
     return lights;
 }
 

@@ -36,6 +36,8 @@ Texel grey(float value) {
     return {value, value, value, 1};
 }
 
+constexpr Texel kUndisturbed = {0.5F, 0.5F, 1, 1};
+
 struct Pattern {
     const char* name;
     Texel (*texel)(int x, int y);
@@ -45,10 +47,7 @@ constexpr std::array<Pattern, 5> kPatterns = {{
      [](int x, int y) { return grey((x * 8 / kSide + y * 8 / kSide) % 2 == 0 ? 0.25F : 1.0F); }},
     {"texture_white", [](int, int) { return grey(1); }},
     {"texture_ramp", [](int x, int) { return grey(middle(x)); }},
-    {"texture_normal",
-     [](int, int) {
-         return Texel{0.5F, 0.5F, 1, 1};
-     }},
+    {"texture_normal", [](int, int) { return kUndisturbed; }},
     {"texture_lattice",
      [](int x, int y) {
          const float from_centre = std::hypot(middle(x) - 0.5F, middle(y) - 0.5F);

@@ -1,9 +1,11 @@
 #include "lab/scene_picture/draw_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
@@ -39,6 +41,31 @@ bool reads(const Interface& interface, std::string_view sampler) {
                        [&](const Sampler& own) { return own.name == sampler; });
 }
 
+constexpr double usual_angle = 0.7;
+
+/// A perspective projection; the far plane may be infinitely far.
+glm::dmat4 perspective(double vertical_angle, double aspect, double near_plane, double far_plane) {
+    return std::isinf(far_plane) ? glm::infinitePerspective(vertical_angle, aspect, near_plane)
+                                 : glm::perspective(vertical_angle, aspect, near_plane, far_plane);
+}
+
+glm::dmat4 projection_of(const Camera& camera, double aspect) {
+    if (camera.is_perspective)
+        return perspective(camera.vertical_angle, aspect, camera.near_plane, camera.far_plane);
+    const double height = std::abs(camera.half_extent.y);
+    const double width = height * aspect;
+    return glm::ortho(-width, width, -height, height, camera.near_plane, camera.far_plane);
+}
+
+/// The node's place and directions, without its scale.
+glm::dmat4 view_of(const glm::dmat4& world) {
+    const glm::dvec3 position(world[3]);
+    const glm::dvec3 ahead = -glm::dvec3(world[2]);
+    const glm::dvec3 up(world[1]);
+    if (glm::length(glm::cross(ahead, up)) == 0) return glm::translate(glm::dmat4(1), -position);
+    return glm::lookAt(position, position + glm::normalize(ahead), glm::normalize(up));
+}
+
 }  // namespace
 
 Result<SceneShaders> shaders_of(const Family& family, const SearchPath& search, std::vector<Draw> draws,
@@ -54,10 +81,7 @@ Result<SceneShaders> shaders_of(const Family& family, const SearchPath& search, 
     SceneShaders shaders;
     shaders.draws = std::move(draws);
     GOBO_TRY(shaders.composition, compose(family, distinct, search, dialect));
-    ValidateOptions options;
-    options.jobs = jobs;
-    options.keep_spirv = true;
-    shaders.validated = validate(family, shaders.composition, options);
+    shaders.validated = validate(family, shaders.composition, {.jobs = jobs, .keep_spirv = true});
     if (exit_status(shaders.validated.diagnostics) != 0) return tl::unexpected(shaders.validated.diagnostics);
     for (const Permutation& permutation : shaders.composition.permutations)
         shaders.interfaces.push_back(interface_of(shaders.validated, permutation));
@@ -100,9 +124,7 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
     }
     const Composition& composition = shaders.composition;
     for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Permutation& permutation = composition.permutations[i];
-        GOBO_TRY(auto program, link_program(context, {stage_text(composition, permutation.vertex),
-                                                      stage_text(composition, permutation.fragment)}));
+        GOBO_TRY(auto program, link_program(context, stages_of(composition, composition.permutations[i])));
         set_bindings(context, program, shaders.interfaces[i]);
         drawing.programs_.push_back(std::make_unique<Program>(std::move(program)));
     }
@@ -120,7 +142,7 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
             drawing.alpha_maps_.adopt(given["opacityMap"]);
         }
         GOBO_TRY(auto list, make_draw_list(context, *drawing.programs_[*permutation], interface, {object},
-                                           values, viewed_by(view), given));
+                                           values, view, given));
         Diagnostics& warnings = drawing.warnings_;
         for (const Diagnostic& warning : list.warnings())
             if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
@@ -136,13 +158,55 @@ Result<Picture> draw_scene(const Context& context, const Scene& scene, const Sce
     GOBO_TRY(const auto drawing, SceneDrawing::make(context, shaders, objects_of(scene, shaders),
                                                     values_beside_scene(family_values), view,
                                                     images_of(scene, shaders.draws), textures));
-    framebuffer.bind();
-    framebuffer.clear(view.background);
-    drawing.draw();
-    Picture picture{framebuffer.read_color(), framebuffer.read_depth(), drawing.warnings()};
-    if (const GLenum error = context.gl().GetError(); error != GL_NO_ERROR)
-        return fail(Fault::internal, fmt::format("OpenGL reports the error 0x{:04X} after drawing", error));
-    return picture;
+    return take_picture(framebuffer, view.background, drawing.warnings(), [&] { drawing.draw(); });
+}
+
+std::optional<SceneView> view_of_camera(const Scene& scene, std::size_t camera, int width, int height) {
+    for (const std::size_t index : scene.order) {
+        const Node& node = scene.nodes[index];
+        if (node.camera != camera) continue;
+        const double aspect = static_cast<double>(width) / height;
+        return SceneView{{glm::dmat4(1), view_of(node.world), projection_of(scene.cameras[camera], aspect),
+                          glm::dvec2(width, height)},
+                         width,
+                         height,
+                         background_of(scene)};
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> first_camera(const Scene& scene) {
+    for (const std::size_t index : scene.order)
+        if (const auto& camera = scene.nodes[index].camera) return camera;
+    return std::nullopt;
+}
+
+SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& direction, int width, int height) {
+    Box bounds;
+    for (const Draw& draw : draws)
+        if (draw.bounds) bounds.add(*draw.bounds);
+    if (bounds.is_empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
+    const glm::dvec3 center = (bounds.low + bounds.high) / 2.0;
+    const double radius = std::max(glm::length(bounds.high - bounds.low) / 2, 1e-6);
+    const double aspect = static_cast<double>(width) / height;
+    const double half_angle = std::atan(std::tan(usual_angle / 2) * std::min(aspect, 1.0));
+    const double distance = radius / std::sin(half_angle);
+    const glm::dvec3 toward = glm::normalize(direction);
+    const glm::dvec3 up = std::abs(toward.y) > 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    return {{glm::dmat4(1), glm::lookAt(center + distance * toward, center, up),
+             perspective(usual_angle, aspect, std::max(distance - radius, 1e-3 * distance) * 0.99,
+                         (distance + radius) * 1.01),
+             glm::dvec2(width, height)},
+            width,
+            height};
+}
+
+std::array<float, 4> background_of(const Scene& scene) {
+    const auto& fog = scene.overrides.fog;
+    const bool is_clear = !fog || fog->kind == "none";
+    const glm::dvec3 usual = is_clear ? glm::dvec3(0.05, 0.06, 0.08) : fog->color;
+    const glm::vec3 color(scene.background.value_or(usual));
+    return {color.r, color.g, color.b, 1};
 }
 
 }  // namespace gobo::scene

@@ -1,8 +1,6 @@
 #include "lab/study/journal.hpp"
 
-#include <cmath>
 #include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,30 +11,44 @@
 #include "lab/study/timing.hpp"
 
 namespace gobo::study {
-namespace {
 
 using Json = nlohmann::json;
 
-template <class T, class Wanted>
-concept Is = std::is_same_v<std::remove_const_t<T>, Wanted>;
+// How measurements are written: nlohmann/json finds these.
 
-// What is written as an array, in this order,
-auto elements(Is<ErrorFigures> auto& figures) {
-    return std::tie(figures.max, figures.p999, figures.rms);
+static void to_json(Json& json, const ErrorFigures& figures) {
+    json = {figures.max, figures.p999, figures.rms};
 }
-auto elements(Is<Spread> auto& spread) {
-    return std::tie(spread.median, spread.low, spread.high);
-}
-auto elements(Is<Timing> auto& timing) {
-    return std::tie(timing.elapsed.fragment, timing.elapsed.vertex, timing.processor.fragment,
-                    timing.processor.vertex, timing.rounds, timing.renderer);
-}
-auto elements(Is<Control> auto& control) {
-    return std::tie(control.elapsed, control.processor);
+static void from_json(const Json& json, ErrorFigures& figures) {
+    figures = {json.at(0), json.at(1), json.at(2)};
 }
 
-// and what as an object, by these names.
-void members(Is<Measurement> auto& measurement, const auto& each) {
+static void to_json(Json& json, const Spread& spread) {
+    json = {spread.median, spread.low, spread.high};
+}
+static void from_json(const Json& json, Spread& spread) {
+    spread = {json.at(0), json.at(1), json.at(2)};
+}
+
+static void to_json(Json& json, const Control& control) {
+    json = {control.elapsed, control.processor};
+}
+static void from_json(const Json& json, Control& control) {
+    control = {json.at(0), json.at(1)};
+}
+
+static void to_json(Json& json, const Timing& timing) {
+    json = {timing.elapsed.fragment, timing.elapsed.vertex, timing.processor.fragment,
+            timing.processor.vertex, timing.rounds,         timing.renderer};
+}
+static void from_json(const Json& json, Timing& timing) {
+    timing = {{{json.at(0), json.at(1)}, {json.at(2), json.at(3)}}, json.at(4), json.at(5)};
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TimedGroup, timings, control)
+
+/// Calls `each` with each member and its name.
+static void members(auto& measurement, const auto& each) {
     each("total", measurement.total);
     each("rounding", measurement.rounding);
     each("approximation", measurement.approximation);
@@ -50,65 +62,19 @@ void members(Is<Measurement> auto& measurement, const auto& each) {
     each("mesh_vertices", measurement.mesh_vertices);
     each("from_oracle", measurement.from_oracle);
 }
-void members(Is<TimedGroup> auto& group, const auto& each) {
-    each("timings", group.timings);
-    each("control", group.control);
+static void to_json(Json& json, const Measurement& measurement) {
+    members(measurement, [&](const char* name, const auto& member) { json[name] = member; });
+}
+static void from_json(const Json& json, Measurement& measurement) {
+    members(measurement, [&](const char* name, auto& member) { json.at(name).get_to(member); });
 }
 
-const auto kNothing = [](const char*, auto&) {};
-template <class T>
-concept HasElements = requires(T& value) {
-    elements(value);
-};
-template <class T>
-concept HasMembers = requires(T& value) {
-    members(value, kNothing);
-};
-template <class T>
-concept IsList = requires(T& value) {
-    value.begin();
+/// JSON knows no infinity: it is written as null.
+static void restore_infinities(Json& json) {
+    if (json.is_null()) json = std::numeric_limits<double>::infinity();
+    if (!json.is_structured()) return;
+    for (Json& each : json) restore_infinities(each);
 }
-&&!Is<T, Json> && !Is<T, std::string>;
-
-template <class T>
-Json to_json(const T& value) {
-    if constexpr (Is<T, double>) {
-        return std::isfinite(value) ? Json(value) : Json(nullptr);  // JSON knows no infinity
-    } else if constexpr (HasMembers<const T>) {
-        Json object;
-        members(value, [&](const char* name, const auto& member) { object[name] = to_json(member); });
-        return object;
-    } else if constexpr (HasElements<const T>) {
-        return std::apply([](const auto&... each) { return Json::array({to_json(each)...}); },
-                          elements(value));
-    } else if constexpr (IsList<const T>) {
-        Json array = Json::array();
-        for (const auto& each : value) array.push_back(to_json(each));
-        return array;
-    } else {
-        return value;
-    }
-}
-
-/// Throws what the library throws where the JSON is another thing.
-template <class T>
-void read(const Json& json, T& value) {
-    if constexpr (Is<T, double>) {
-        value = json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
-    } else if constexpr (HasMembers<T>) {
-        members(value, [&](const char* name, auto& member) { read(json.at(name), member); });
-    } else if constexpr (HasElements<T>) {
-        std::size_t at = 0;
-        std::apply([&](auto&... each) { (read(json.at(at++), each), ...); }, elements(value));
-    } else if constexpr (IsList<T>) {
-        if constexpr (requires { value.resize(1); }) value.resize(json.size());
-        for (std::size_t i = 0; i < value.size(); ++i) read(json.at(i), value[i]);
-    } else {
-        value = json.get<T>();
-    }
-}
-
-}  // namespace
 
 Journal::Journal(const FileSystem& files, std::string path, Append append)
     : path_(std::move(path)), append_(std::move(append)) {
@@ -129,16 +95,16 @@ std::optional<Measured> Journal::find(const std::string& identity) const try {
     const std::lock_guard lock(mutex_);
     const auto found = known_.find(identity);
     if (found == known_.end()) return std::nullopt;
-    Measured measured;
-    read(Json::parse(found->second), measured);
-    return measured;
+    Json json = Json::parse(found->second);
+    if constexpr (!std::is_same_v<Measured, Json>) restore_infinities(json);
+    return json.get<Measured>();
 } catch (const Json::exception&) {
     return std::nullopt;  // written by another gobo: it is measured again
 }
 
 template <class Measured>
 Result<void> Journal::add(const std::string& identity, const Measured& measured) {
-    const Json json = to_json(measured);
+    const Json json = measured;
     const std::lock_guard lock(mutex_);
     known_[identity] = json.dump();
     if (!append_) return {};

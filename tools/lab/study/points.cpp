@@ -1,15 +1,12 @@
 #include "lab/study/points.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <optional>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "core/parallel.hpp"
-#include "family/key.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/verify/expectation.hpp"
@@ -31,25 +28,14 @@ Result<Variant> decode(const Validated& validated, const Permutation& permutatio
     return Variant{permutation.key, std::move(program), interface_of(validated, permutation), hash};
 }
 
-double number_at(const std::vector<std::byte>& bytes, std::uint32_t offset, evaluate::Scalar scalar) {
-    if (offset + 4 > bytes.size()) return 0;
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, bytes.data() + offset, sizeof bits);
-    if (scalar == evaluate::Scalar::float32) return std::bit_cast<float>(bits);
-    if (scalar == evaluate::Scalar::uint32) return bits;
-    return static_cast<std::int32_t>(bits);
-}
-
 /// Uniform blocks as values by name, as samples take them.
 void spell_out_blocks(const evaluate::Program& program, evaluate::Invocations& invocations) {
     for (const evaluate::Port& port : program.uniforms) {
         if (port.block < 0 || invocations.values.contains(port.name)) continue;
         const std::string& block = program.uniform_blocks[static_cast<std::size_t>(port.block)].name;
         const auto bytes = invocations.blocks.find(block);
-        if (bytes == invocations.blocks.end()) continue;
-        std::vector<double>& values = invocations.values[port.name];
-        for (const std::uint32_t offset : port.offsets)
-            values.push_back(number_at(bytes->second, offset, port.scalar));
+        if (bytes != invocations.blocks.end())
+            invocations.values[port.name] = evaluate::numbers_in_block(port, bytes->second);
     }
 }
 
@@ -130,52 +116,30 @@ Result<std::vector<std::vector<std::size_t>>> visible_fragments(
     return visible;
 }
 
-/// Takes over the triangles of some fragments, and their vertices, each once.
-class PartOfObject {
-  public:
-    PartOfObject(const Object& object, const std::vector<glm::dvec4>& positions)
-        : whole_(object), positions_(positions) {
-        part.object.model = object.model;
-        part.object.values = object.values;
-    }
-
-    void add(raster::Fragment fragment, const Color& reference, bool at_edge) {
-        fragment.triangle = triangle(fragment.triangle);
-        part.fragments.push_back(fragment);
-        part.reference.push_back(reference);
-        part.at_edge.push_back(at_edge);
-    }
-
+/// The points at some of the fragments, with the triangles that these lie in and their vertices, each once.
+ObjectPoints part_of(const ObjectPoints& all, const std::vector<std::size_t>& fragments) {
     ObjectPoints part;
-
-  private:
-    std::uint32_t triangle(std::uint32_t number) {
-        std::vector<std::uint32_t>& indices = part.object.mesh.indices;
-        const auto [found, is_new] =
-            triangles_.try_emplace(number, static_cast<std::uint32_t>(indices.size() / 3));
-        if (is_new)
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                indices.push_back(vertex(whole_.mesh.indices[3 * std::size_t{number} + corner]));
-        return found->second;
+    raster::RasterObject seen;
+    seen.indices = all.object.mesh.indices;
+    seen.positions = all.positions;
+    for (const std::size_t i : fragments) {
+        seen.fragments.push_back(all.fragments[i]);
+        part.reference.push_back(all.reference[i]);
+        part.at_edge.push_back(all.at_edge[i]);
     }
-
-    std::uint32_t vertex(std::uint32_t number) {
-        Mesh& mesh = part.object.mesh;
-        const auto [found, is_new] =
-            vertices_.try_emplace(number, static_cast<std::uint32_t>(mesh.positions.size()));
-        if (!is_new) return found->second;
-        mesh.positions.push_back(whole_.mesh.positions[number]);
-        mesh.normals.push_back(whole_.mesh.normals[number]);
-        mesh.texcoords.push_back(whole_.mesh.texcoords[number]);
-        part.positions.push_back(positions_[number]);
-        return found->second;
+    part.object.model = all.object.model;
+    part.object.values = all.object.values;
+    Mesh& mesh = part.object.mesh;
+    for (const std::uint32_t vertex : raster::drop_unseen_triangles(seen)) {
+        mesh.positions.push_back(all.object.mesh.positions[vertex]);
+        mesh.normals.push_back(all.object.mesh.normals[vertex]);
+        mesh.texcoords.push_back(all.object.mesh.texcoords[vertex]);
     }
-
-    const Object& whole_;
-    const std::vector<glm::dvec4>& positions_;
-    std::map<std::uint32_t, std::uint32_t> triangles_;
-    std::map<std::uint32_t, std::uint32_t> vertices_;
-};
+    mesh.indices = std::move(seen.indices);
+    part.positions = std::move(seen.positions);
+    part.fragments = std::move(seen.fragments);
+    return part;
+}
 
 /// The sampler of lit's shadow maps answers from the scene's.
 void give_shadow_maps(evaluate::Invocations& invocations, const evaluate::Image& maps) {
@@ -224,10 +188,8 @@ Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys) {
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     Variants variants;
     GOBO_TRY(variants.composition, compose(subject.family, keys, subject.search, Dialect::own));
-    ValidateOptions options;
-    options.jobs = subject.jobs;
-    options.keep_spirv = true;
-    const Validated validated = validate(subject.family, variants.composition, options);
+    const Validated validated =
+        validate(subject.family, variants.composition, {.jobs = subject.jobs, .keep_spirv = true});
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);
     GOBO_TRY(variants.all, parallel_results(subject.jobs, keys.size(), [&](std::size_t i) {
                  return decode(validated, variants.composition.permutations[i]);
@@ -245,9 +207,10 @@ Result<ScenePoints> find_points(const Family& family, const Variant& accurate, D
     GOBO_TRY(const auto visible, visible_fragments(accurate.program, objects));
     ScenePoints points;
     for (std::size_t o = 0; o < objects.size(); ++o) {
-        PartOfObject shown(scene.objects[o], objects[o].positions);
-        for (const std::size_t i : visible[o]) shown.add(objects[o].fragments[i], {}, false);
-        points.objects.push_back(std::move(shown.part));
+        const std::size_t count = objects[o].fragments.size();
+        points.objects.push_back(part_of({scene.objects[o], objects[o].positions, objects[o].fragments,
+                                          std::vector<Color>(count), std::vector<bool>(count)},
+                                         visible[o]));
         points.mesh_vertices += scene.objects[o].mesh.positions.size();
     }
     points.scene = std::move(scene);
@@ -262,11 +225,10 @@ ScenePoints thinned(const ScenePoints& points, std::size_t count_wanted) {
     const std::size_t step = std::max<std::size_t>(1, points.pixels / count_wanted);
     std::size_t next = 0;
     for (std::size_t o = 0; o < points.objects.size(); ++o) {
-        const ObjectPoints& all = points.objects[o];
-        PartOfObject kept(all.object, all.positions);
-        for (std::size_t i = 0; i < all.fragments.size(); ++i)
-            if (next++ % step == 0) kept.add(all.fragments[i], all.reference[i], all.at_edge[i]);
-        thin.objects[o] = std::move(kept.part);
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < points.objects[o].fragments.size(); ++i)
+            if (next++ % step == 0) kept.push_back(i);
+        thin.objects[o] = part_of(points.objects[o], kept);
     }
     count(thin);
     return thin;

@@ -9,7 +9,7 @@
 
 #include "compose/compose.hpp"
 #include "lab/raster/shade.hpp"
-#include "lab/study/scenes.hpp"
+#include "lab/study/plan.hpp"
 
 namespace gobo::study {
 
@@ -55,15 +55,19 @@ struct ObjectPoints {
     std::vector<bool> at_edge;     ///< a question decided within a rounding: either answer is right
 };
 
-/// What a picture of a scene shows, drawn by the most accurate permutation of some effects.
-struct ScenePoints {
-    DrawnScene scene;
-    std::vector<ObjectPoints> objects;
+/// How much of a scene is measured.
+struct PointCounts {
     bool from_oracle = false;  ///< otherwise the reference is the most accurate permutation in fp64
     std::size_t pixels = 0;    ///< that show a surface
     std::size_t edges = 0;     ///< of them, at a discontinuity
     std::size_t mesh_vertices = 0;
     std::size_t shown_vertices = 0;  ///< of the triangles that are seen
+};
+
+/// What a picture of a scene shows, drawn by the most accurate permutation of some effects.
+struct ScenePoints : PointCounts {
+    DrawnScene scene;
+    std::vector<ObjectPoints> objects;
 };
 
 /// `accurate` is the most accurate permutation of the effects.

@@ -9,10 +9,9 @@
 #include "budget/qualities.hpp"
 #include "core/html.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
-#include "lab/render/image_file.hpp"
-#include "lab/study/choices.hpp"
 #include "lab/study/front.hpp"
 
 namespace gobo::study {
@@ -311,12 +310,9 @@ std::string correlation_text(const ReportInput& input, bool of_vertices, bool by
         why_not =
             of_vertices
                 ? ", below 0.9: where light is computed per fragment, vertex stages are all but the same, "
-                  "and "
-                  "what a vertex costs besides its operations (fetching, clipping, setting up) outweighs "
-                  "them; "
-                  "ranks among such equals are chance. Shading rates, whose vertex stages do differ, are "
-                  "told "
-                  "apart"
+                  "and what a vertex costs besides its operations (fetching, clipping, setting up) "
+                  "outweighs them; ranks among such equals are chance. Shading rates, whose vertex stages "
+                  "do differ, are told apart"
                 : ", below 0.9: the kinds that are counted do not tell apart what the renderer's compiler "
                   "merges or leaves out, or the machine was too busy";
     return chart.svg() +
@@ -334,8 +330,7 @@ std::string time_section(const ReportInput& input) {
                "<p>Measured on {}{}. A permutation's time is the slope between two sizes (fragments) or two "
                "tessellations (vertices): median and middle half of {} interleaved rounds, each in another "
                "order. A second copy of the most accurate program is the A/A control. Ranges that overlap "
-               "are "
-               "no measurable difference.</p>\n",
+               "are no measurable difference.</p>\n",
                html_escaped(timing->renderer),
                input.computer.empty() ? "" : ", " + html_escaped(input.computer), timing->rounds) +
            control_table(input, timing->renderer) + correlation_text(input, false, by_processor) +

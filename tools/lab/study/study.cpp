@@ -25,10 +25,8 @@ Result<Priced> price(const std::vector<ScenePoints>& scenes, const Variant& vari
     Priced priced;
     for (const ScenePoints& points : scenes) {
         Measurement rough;
+        static_cast<PointCounts&>(rough) = points;
         GOBO_TRY(const Colors colors, shade_points<float>(points, variant, &rough.work));
-        rough.pixels = points.pixels;
-        rough.shown_vertices = points.shown_vertices;
-        rough.mesh_vertices = points.mesh_vertices;
         priced.error = std::max(priced.error, error_between(points, colors, reference_colors(points)).max);
         const Costs costs = costs_of(rough, weights);
         priced.cost += costs.fragment;

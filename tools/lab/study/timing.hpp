@@ -2,13 +2,12 @@
 // one operation costs there, and how many instructions a fragment takes.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/render/context.hpp"
+#include "lab/study/measure.hpp"
 #include "lab/study/statistics.hpp"
-#include "lab/study/weights.hpp"
 
 namespace gobo::study {
 
@@ -18,28 +17,34 @@ struct Slopes {
     Spread vertex;
 };
 
-/// One permutation's times. `elapsed` is a monotonic clock's around glFinish(); `processor` the calling
+/// Whether the renderer draws in the calling thread once make_timings_repeatable() was called.
+[[nodiscard]] bool draws_in_calling_thread(const std::string& renderer);
+
+/// Something by two clocks. `elapsed` is a monotonic clock's around glFinish(); `processor` the calling
 /// thread's processor time, which other programs do not add to. It says nothing where the
 /// renderer works elsewhere than in that thread.
-struct Timing {
-    Slopes elapsed;
-    Slopes processor;
+template <class T>
+struct ByClock {
+    T elapsed{};
+    T processor{};
+
+    /// What to rank by: the processor's time where the renderer draws in the calling thread, else the elapsed
+    /// time.
+    [[nodiscard]] const T& ranked(const std::string& renderer) const {
+        return draws_in_calling_thread(renderer) ? processor : elapsed;
+    }
+};
+
+/// One permutation's times.
+struct Timing : ByClock<Slopes> {
     int rounds = 0;
     std::string renderer;
 
-    /// The slopes to rank by: the processor's time where the renderer draws in the calling thread, else the
-    /// elapsed time.
-    [[nodiscard]] const Slopes& ranked() const;
+    [[nodiscard]] const Slopes& ranked() const { return ByClock::ranked(renderer); }
 };
 
 /// How far two copies of one program came out from one another: |ratio of the medians - 1|.
-struct Control {
-    double elapsed = 0;
-    double processor = 0;
-
-    /// Of the clock to rank by, as Timing::ranked().
-    [[nodiscard]] double ranked(const std::string& renderer) const;
-};
+using Control = ByClock<double>;
 
 /// Nothing is ranked by a clock whose control is off by more.
 inline constexpr double kLargestControl = 0.02;
@@ -54,9 +59,6 @@ struct TimedGroup {
 /// Makes Mesa's software renderer work in the calling thread and compile what it is given. Before the first
 /// context is opened.
 void make_timings_repeatable();
-
-/// Whether the renderer draws in the calling thread once make_timings_repeatable() was called.
-[[nodiscard]] bool draws_in_calling_thread(const std::string& renderer);
 
 /// A variant's program, ready to be drawn with, and a scene as it draws it.
 [[nodiscard]] Result<Program> linked_program(const Context& context, const Variants& variants,

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "lab/oracle/response.hpp"
+#include "lab/oracle/oracle.hpp"
 
 namespace gobo::verify {
 namespace {
