@@ -86,7 +86,7 @@ const BadRow bad_rows[] = {
      "count = \"fog\"\n"
      "type = \"vec3\"\n"
      "value = \"v\"\n",
-     "tiny.toml:7:9: error: varying 'rays' is counted by 'fog', which is no count\n"
+     "tiny.toml:7:9: error: varying 'rays' is counted by 'fog', which is not a count\n"
      "    count = \"fog\"\n"
      "            ^\n"
      "  help: there are none\n"},
@@ -119,7 +119,7 @@ const BadRow bad_rows[] = {
     {"domain_last_is_no_range",
      "[domain]\n"
      "\"rays[]\" = { length = [0, 1], last = [2] }\n",
-     "tiny.toml:5:38: error: the domain of 'rays[]' is no range\n"
+     "tiny.toml:5:38: error: the domain of 'rays[]' is not a range\n"
      "    \"rays[]\" = { length = [0, 1], last = [2] }\n"
      "                                         ^\n"
      "  help: write last = [low, high]\n"},
@@ -408,7 +408,7 @@ const BadRow bad_rows[] = {
     {"domain_of_three",
      "[domain]\n"
      "\"a\" = [1, 2, 3]\n",
-     "tiny.toml:5:7: error: the domain of 'a' is no range\n"
+     "tiny.toml:5:7: error: the domain of 'a' is not a range\n"
      "    \"a\" = [1, 2, 3]\n"
      "          ^\n"
      "  help: write [low, high]\n"},

@@ -110,9 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"short_translation", put("/nodes/0/translation", "[1, 2]"),
                "nodes[0].translation must hold 3 numbers, not 2"},
         Broken{"zero_rotation", put("/nodes/0/rotation", "[0, 0, 0, 0]"),
-               "nodes[0].rotation is no rotation: its length must be 1"},
+               "nodes[0].rotation is not a rotation: its length must be 1"},
         Broken{"projective_matrix", put("/nodes/0/matrix", "[1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
-               "nodes[0].matrix is no affine transform: its last row must be 0 0 0 1"},
+               "nodes[0].matrix is not an affine transform: its last row must be 0 0 0 1"},
         Broken{"matrix_and_scale",
                R"([{"op": "add", "path": "/nodes/0/matrix", "value": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
                    {"op": "add", "path": "/nodes/0/scale", "value": [1, 1, 1]}])",
@@ -329,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(
             "cut.glb:2:12: error: this is no JSON: syntax error while parsing value - unexpected end of "
             "input; "
             "expected '[', '{', or a literal\n      \"asset\": \n               ^"},
-        Cut{"no_object", "[]", "cut.glb: error: this is no glTF: its root is an array, not an object"},
+        Cut{"no_object", "[]", "cut.glb: error: this is not glTF: its root is an array, not an object"},
         Cut{"magic_only", "glTF", "cut.glb: error: this container is cut short: it has no whole header"},
         Cut{"header_only", whole().substr(0, 12),
             "cut.glb: error: this container is cut short: its header says 1180 bytes, but there are 12"},

@@ -140,7 +140,7 @@ TEST_P(RefusedBuckets, AreWrongUsage) {
     ASSERT_FALSE(buckets);
     EXPECT_EQ(to_text(buckets.error().front()),
               "gobo: error: --bucket-lights: '" + GetParam().text +
-                  "' is no rising list of light counts\n  help: write it like "
+                  "' is not a rising list of light counts\n  help: write it like "
                   "0,1,2,4,8\n");
     EXPECT_EQ(exit_status(buckets.error()), 2);
 }

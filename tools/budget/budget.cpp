@@ -50,7 +50,7 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
     constexpr std::array names = {"effects", "key", "scene", "error_max", "cost", "front"};
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const auto column = table.column(names[i]);
-        if (!column) return problem(0, "is no study.csv");
+        if (!column) return problem(0, "is not a study.csv");
         columns[i] = *column;
     }
     const auto [effects_at, key_at, scene_at, error_at, cost_at, front_at] = columns;

@@ -161,7 +161,7 @@ Result<Family> family_of_files(const std::vector<std::string>& paths, const File
     for (const std::string& path : paths) {
         const auto stage = stage_of_file(path);
         if (!stage)
-            return fail(Fault::usage, fmt::format("'{}' does not tell its stage", path),
+            return fail(Fault::usage, fmt::format("the stage of '{}' is unknown", path),
                         "name vertex stages *.vert or *.vert.glsl, fragment stages *.frag or *.frag.glsl");
         if (!files.is_file(path)) return tl::unexpected(files.read(path).error());
         std::string& slot = *stage == StageKind::vertex ? family.vertex : family.fragment;

@@ -130,9 +130,10 @@ class Parser {
             const Feature& feature = features_[index];
             if (feature.kind == FeatureKind::count) continue;
             if (summands.size() > 1) {
-                error(fmt::format("'{}' is no count and cannot be added", feature.name), "add counts only");
+                error(fmt::format("'{}' is not a count and cannot be added", feature.name),
+                      "add counts only");
             } else if (!equality) {
-                error(fmt::format("'{}' is no count and has no order", feature.name),
+                error(fmt::format("'{}' is not a count and has no order", feature.name),
                       "compare it by == or !=");
             }
         }
@@ -150,7 +151,7 @@ class Parser {
         int number = 0;
         const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (failure == std::errc{} && end == text.data() + text.size()) return number;
-        error(fmt::format("'{}' is no whole number", text), "counts compare with whole numbers",
+        error(fmt::format("'{}' is not a whole number", text), "counts compare with whole numbers",
               at_ - text.size());
         return 0;
     }

@@ -40,7 +40,7 @@ void read_location(TomlReader& reader, const toml::table& row, const std::string
             if (feature.kind == FeatureKind::count) known.push_back(feature.name);
         for (const std::string& name : split(reader.string(row, "count").value_or(""), '+')) {
             if (std::find(known.begin(), known.end(), name) == known.end())
-                reader.error(*count, fmt::format("{} is counted by '{}', which is no count", what, name),
+                reader.error(*count, fmt::format("{} is counted by '{}', which is not a count", what, name),
                              suggestion(name, known));
             else
                 varying.counts.push_back(*index_of(features, name));
@@ -110,12 +110,12 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
         domain.also = reader.numbers(*table, "also");
         domain.last = reader.numbers(*table, "last");
         if (!domain.last.empty() && (domain.last.size() != 2 || domain.last[0] > domain.last[1]))
-            reader.error(*table->get("last"), what + " is no range", "write last = [low, high]");
+            reader.error(*table->get("last"), what + " is not a range", "write last = [low, high]");
     } else {
         range = reader.numbers_of(node, domain.name);
     }
     if (range.size() != 2 || range[0] > range[1]) {
-        reader.error(node, what + " is no range", "write [low, high]");
+        reader.error(node, what + " is not a range", "write [low, high]");
         return domain;
     }
     domain.low = range[0];

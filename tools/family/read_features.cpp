@@ -246,7 +246,8 @@ Relation read_relation(TomlReader& reader, const toml::table& row, const std::ve
             relation.names = {name};
             const auto brackets = name.find("[]");
             if (form->kind == Relation::Kind::adds && (brackets == 0 || brackets == std::string::npos))
-                reader.error(*row.get("adds"), fmt::format("'{}' is no member of an array's elements", name),
+                reader.error(*row.get("adds"),
+                             fmt::format("'{}' is not a member of an array's elements", name),
                              "write adds = \"ARRAY[].MEMBER\"");
         } else if (!reader.failed()) {
             relation.feature =

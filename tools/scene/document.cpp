@@ -41,7 +41,7 @@ json parse_document(std::string_view text) {
     try {
         json root = json::parse(text);
         if (root.is_object()) return root;
-        diagnostic.message = fmt::format("this is no glTF: its root is {}, not an object", kind_of(root));
+        diagnostic.message = fmt::format("this is not glTF: its root is {}, not an object", kind_of(root));
     } catch (const json::exception& error) {
         if (const auto* parse =
                 dynamic_cast<const json::parse_error*>(&error)) {  // else a number beyond double's range

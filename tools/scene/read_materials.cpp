@@ -182,7 +182,7 @@ Probe read_probe(const Value& value) {
     probe.kind = kProbeKinds[value["kind"].choice(kProbeKinds)];
     value["up"].read(probe.up);
     const double length = glm::length(probe.up);
-    if (!(length > 1e-6 && length < 1e6)) value["up"].fail("is no direction");
+    if (!(length > 1e-6 && length < 1e6)) value["up"].fail("is not a direction");
     probe.up /= length;
     value["sky"].read_color(probe.sky);
     value["ground"].read_color(probe.ground);

@@ -24,7 +24,7 @@ void read_transform(const Value& value, Node& node) {
     if (const Value matrix = value["matrix"]) {
         node.has_matrix = matrix.read_numbers(&node.local[0].x, 16);
         if (glm::row(node.local, 3) != glm::dvec4(0, 0, 0, 1))
-            matrix.fail("is no affine transform: its last row must be 0 0 0 1");
+            matrix.fail("is not an affine transform: its last row must be 0 0 0 1");
         for (const char* name : {"translation", "rotation", "scale"})
             if (value[name]) value.fail("has both matrix and {}", name);
         return;
@@ -34,7 +34,8 @@ void read_transform(const Value& value, Node& node) {
     if (glm::dvec4 r(0); value["rotation"].read_numbers(&r.x, 4)) {
         const glm::dquat rotation(r.w, r.x, r.y, r.z);
         const double length = glm::length(rotation);
-        if (!(length > 1e-6 && length < 1e6)) value["rotation"].fail("is no rotation: its length must be 1");
+        if (!(length > 1e-6 && length < 1e6))
+            value["rotation"].fail("is not a rotation: its length must be 1");
         node.rotation = rotation / length;
     }
     node.local = glm::translate(glm::dmat4(1), node.translation) * glm::mat4_cast(node.rotation) *
@@ -54,7 +55,7 @@ std::vector<glm::dmat4> read_instances(const Value& attributes, Accessors& acces
         if (rotation.count > 0) {
             const glm::dquat turn(rotation.at(i, 3), rotation.triple(i));
             const double length = glm::length(turn);
-            if (!(length > 1e-6)) attributes["ROTATION"].fail("is no rotation in element {}", i);
+            if (!(length > 1e-6)) attributes["ROTATION"].fail("is not a rotation in element {}", i);
             instance *= glm::mat4_cast(turn / length);
         }
         if (scale.count > 0) instance = glm::scale(instance, scale.triple(i));

@@ -77,7 +77,7 @@ Result<Buckets> parse_buckets(std::string_view text) {
         const bool rises = buckets.empty() || count > buckets.back();
         if (read.ec != std::errc() || read.ptr != end || count < 0 || count > kLargestBucket || !rises)
             return fail(Fault::usage,
-                        fmt::format("--bucket-lights: '{}' is no rising list of light counts", text),
+                        fmt::format("--bucket-lights: '{}' is not a rising list of light counts", text),
                         "write it like 0,1,2,4,8");
         buckets.push_back(count);
     }

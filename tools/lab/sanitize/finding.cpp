@@ -32,7 +32,7 @@ bool must_be_written(const evaluate::Program& program, const evaluate::Port& por
 
 /// Which way an output left its bounds; nothing where it did not.
 std::string_view fault_of(double value, const Interval& bounds) {
-    if (std::isnan(value)) return "is no number";
+    if (std::isnan(value)) return "is not a number";
     if (value < bounds.low) return bounds.low == 0 ? "is negative" : "is below what its inputs allow";
     if (value > bounds.high) return std::isinf(value) ? "is infinite" : "is above what its inputs allow";
     return {};
