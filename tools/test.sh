@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tier=(-LE full)
-[ "${1:-}" != --full ] || { tier=(); shift; export GOBO_FULL_TESTS=1; }
+[ "${1:-}" != --full ] || { tier=(); shift; }
 tools/setup.sh
 cmake --preset release
 cmake --build --preset release
