@@ -165,7 +165,8 @@ Result<Context> open_context(Backend backend, int version) {
     };
     GladGLContext& gl = state->functions;
     const int loaded = gladLoadGLContextUserPtr(&gl, function, state->platform.get());
-    if (10 * GLAD_VERSION_MAJOR(loaded) + GLAD_VERSION_MINOR(loaded) < version)
+    state->version = 10 * GLAD_VERSION_MAJOR(loaded) + GLAD_VERSION_MINOR(loaded);
+    if (state->version < version)
         return fail(Fault::file, fmt::format("the {} context offers no OpenGL {}.{} core profile",
                                              name_of(backend), major, minor));
     state->renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));

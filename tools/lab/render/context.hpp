@@ -32,9 +32,11 @@ class Context {
     /// Makes it the calling thread's current context. Every function of this folder that takes a Context does
     /// so.
     void make_current() const;
-    /// OpenGL's functions. Null pointers: those of a version that the driver does not offer.
+    /// OpenGL's functions. Null pointers: those of a version above version().
     [[nodiscard]] const GladGLContext& gl() const { return state_->functions; }
     [[nodiscard]] Backend backend() const { return state_->backend; }
+    /// 10 * major + minor, of what the driver gave: at least what was asked for.
+    [[nodiscard]] int version() const { return state_->version; }
     /// GL_RENDERER: every figure measured here is to be labelled with it.
     [[nodiscard]] const std::string& renderer() const { return state_->renderer; }
 
@@ -43,6 +45,7 @@ class Context {
         Backend backend = Backend::osmesa;
         std::shared_ptr<Platform> platform;
         GladGLContext functions = {};
+        int version = 0;
         std::string renderer;
     };
     friend Result<Context> open_context(Backend backend, int version);
