@@ -1,5 +1,6 @@
-// Depth promises (H-D1, H-D2) in real depth targets: what a permutation writes, as 24-bit and 32-bit float
-// targets hold it, against gl_FragCoord.z in the same target and against the evaluator.
+// Hard cases (depth out of range, broken depth promise) in real depth targets: what a permutation writes, as
+// 24-bit and 32-bit float targets hold it, against gl_FragCoord.z in the same target and against the
+// evaluator.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -43,7 +44,7 @@ TEST_P(DepthTarget, HoldsWhatWasPromised) {
     // EGL is optional: OSMesa alone must draw, so only its absence is a failure.
     if (!context && GetParam().backend == Backend::egl) GTEST_SKIP() << to_text(context.error().front());
     ASSERT_TRUE(context);
-    const Case* tested = case_named("H_D1_H_D2_depth_offsets");
+    const Case* tested = case_named("depth_offsets");
     ASSERT_NE(tested, nullptr);
     const LitUnderTest lit(tested->where, tested->features, {});
     const LitUnderTest plain("depth == default", {"depth"}, {});  // leaves the depth to the driver

@@ -1,4 +1,5 @@
-// H-X2 as OpenGL draws it: 4096 equal terms through each piece that sums lights, in one fragment.
+// A sum of many lights as OpenGL draws it: 4096 equal terms through each piece that sums lights, in one
+// fragment.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,4 +1,5 @@
-// H-X2: 4096 terms through each piece that sums lights, by itself, on every machine that GLSL allows.
+// A sum of many lights: 4096 terms through each piece that sums lights, by itself, on every machine that GLSL
+// allows.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

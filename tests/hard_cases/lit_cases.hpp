@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "hard_case_index.hpp"
 #include "lit_checks.hpp"
 
 namespace gobo {
 
 struct Case {
-    std::string name;   ///< the case's id, and what is tried of it
+    std::string name;  ///< what is tried: "zero_normal"
+    /// The names of its hard cases (hard_case_index.hpp), or the title of a model (docs/models.toml).
+    std::vector<std::string> about;
     std::string where;  ///< the keys it concerns
     std::vector<Inputs> points;
     Check check;
@@ -24,6 +27,7 @@ inline void PrintTo(const Case& tested, std::ostream* out) {
 }
 
 [[nodiscard]] const std::vector<Case>& lit_cases();
+[[nodiscard]] bool is_about(const Case& tested, const HardCase& hard);
 
 /// The part of them that is about models: flattened ones, and ones that are much longer than wide.
 [[nodiscard]] std::vector<Case> model_cases();

@@ -43,6 +43,7 @@ Case scaled(const std::string& name, const glm::dvec3& scale) {
     glm::dmat4 model(left * glm::dmat3(glm::scale(glm::dmat4(1), scale)) * right);
     model[3] = glm::dvec4(0, 0, -5, 1);
     return {name,
+            {"extreme scale"},
             "directional + point + spot > 0",
             {{{"position", {0, 0, 0}},
               {"normal", numbers_of(normal)},
@@ -59,20 +60,22 @@ Case scaled(const std::string& name, const glm::dvec3& scale) {
 
 std::vector<Case> model_cases() {
     return {
-        {"H_G1_nothing_left",
+        {"nothing_left",
+         {"singular model matrix"},
          "",
          {{{"Transform.modelView", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
            {"Transform.normalMatrix", {0, 0, 0, 0, 0, 0, 0, 0, 0}}}},
          same_as(with(kNoLight, {{"position", {0, 0, 0}}}))},
-        {"H_G1_flattened",
+        {"flattened",
+         {"singular model matrix"},
          "",
          {{{"position", {1, 2, 3}},
            {"Transform.modelView", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, -5, 1}},
            {"Transform.normalMatrix", {0, 0, 0, 0, 0, 0, 0, 0, 1}}}},
          near_double(kByDirection)},
-        scaled("H_G3_ten_thousand_times_as_long", {1, 1, 1e4}),
-        scaled("H_G3_ten_thousand_times_as_wide", {1e4, 1, 1e4}),
-        scaled("H_G3_of_three_sizes", {1, 100, 1e4}),
+        scaled("ten_thousand_times_as_long", {1, 1, 1e4}),
+        scaled("ten_thousand_times_as_wide", {1e4, 1, 1e4}),
+        scaled("of_three_sizes", {1, 100, 1e4}),
     };
 }
 

@@ -1,4 +1,5 @@
-// H-G3 measured: how far normals are off under a scale of 1 : 1e4, by how near they are to the long axis.
+// Extreme scale, measured: how far normals are off under a scale of 1 : 1e4, by how near they are to the long
+// axis.
 #pragma once
 
 #include <vector>

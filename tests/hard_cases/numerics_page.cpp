@@ -71,6 +71,11 @@ std::string time_text(const GuardTimes& times, const std::string& name) {
                        time.guarded.high, time.plain.low, time.plain.high);
 }
 
+/// "| tiny vector, huge vector | ordinary lengths".
+std::string case_cells(const Case& tested) {
+    return fmt::format("| {} | {}", fmt::join(tested.about, ", "), join(split(tested.name, '_'), " "));
+}
+
 std::string guard_row(const Guard& guard, const GuardTimes& times) {
     const Case* tested = case_named(guard.needed_by);
     EXPECT_NE(tested, nullptr) << guard.needed_by;
@@ -85,12 +90,11 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     const LitUnderTest guarded(tested->where, tested->features, {});
     const Shaded without = plain.shade(fault.permutation, point, fault.machine);
     const Shaded with = guarded.shade(fault.permutation, point, fault.machine);
-    const bool is_of_depth = tested->name.starts_with("H_D");
+    const bool is_of_depth = tested->about.front().starts_with("depth");
     const std::string trap = without.traps.empty() ? "" : ": " + trap_text(without.traps.front());
-    const CaseName name = case_name(tested->name);
     const Outcomes seen = outcomes(without, with, is_of_depth);
-    return fmt::format("| {} | {} | {} | {}{} | {} | {} | {} | {} |\n", name.id, name.what,
-                       code(guard.guarded), seen.plain, trap, seen.ours, cell(tested->check.tolerance),
+    return fmt::format("{} | {} | {}{} | {} | {} | {} | {} |\n", case_cells(*tested), code(guard.guarded),
+                       seen.plain, trap, seen.ours, cell(tested->check.tolerance),
                        added_text(operations_of(guard)), time_text(times, guard.name));
 }
 
@@ -120,10 +124,9 @@ double largest_error(const Case& tested, const LitUnderTest& lit) {
 }
 
 std::string case_row(const Case& tested) {
-    const CaseName name = case_name(tested.name);
     const std::size_t permutations = LitUnderTest(tested.where, tested.features, {}).size();
     const LitUnderTest cover(tested.where, tested.features, {}, 2);
-    return fmt::format("| {} | {} | {} | {} | {} | {:.0e} |\n", name.id, name.what, permutations,
+    return fmt::format("{} | {} | {} | {} | {:.0e} |\n", case_cells(tested), permutations,
                        tested.points.size(), cell(tested.check.tolerance), largest_error(tested, cover));
 }
 
@@ -172,18 +175,15 @@ std::string wrong_rows() {
 std::string plain_files_of(const HardCase& hard) {
     std::vector<std::string> names;
     for (const std::string& path : shaders_in("plain")) {
-        const std::string subject = subject_of(source_text(path));
-        if (subject.substr(0, subject.find(':')).find(hard.id) != std::string::npos)
-            names.push_back(fmt::format("`{}`", file_name(path)));
+        if (shows(source_text(path), hard)) names.push_back(fmt::format("`{}`", file_name(path)));
     }
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string tests_of(const HardCase& hard) {
     std::vector<std::string> tests;
-    const auto rows = std::count_if(lit_cases().begin(), lit_cases().end(), [&](const Case& tested) {
-        return case_name(tested.name).id.find(hard.id) != std::string::npos;
-    });
+    const auto rows = std::count_if(lit_cases().begin(), lit_cases().end(),
+                                    [&](const Case& tested) { return is_about(tested, hard); });
     if (rows > 0) tests.push_back(fmt::format("{} below", rows));
     for (const std::string& path : hard.elsewhere) tests.push_back(fmt::format("`{}`", path));
     return fmt::format("{}", fmt::join(tests, ", "));
@@ -192,7 +192,7 @@ std::string tests_of(const HardCase& hard) {
 std::string index_rows() {
     std::string rows;
     for (const HardCase& hard : hard_cases())
-        rows += fmt::format("| {} | {} | {} | {} | {} |\n", hard.id, hard.input, hard.plain,
+        rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", hard.name, hard.code, hard.input, hard.plain,
                             plain_files_of(hard), tests_of(hard));
     return rows;
 }

@@ -33,42 +33,43 @@ TEST(NumericsPage, HasATimeForEachGuard) {
     for (const Guard& guard : lit_guards()) EXPECT_TRUE(times.contains(guard.name)) << guard.name << kHelp;
 }
 
-bool has_case(const std::string& id) {
-    return std::any_of(lit_cases().begin(), lit_cases().end(), [&](const Case& tested) {
-        return case_name(tested.name).id.find(id) != std::string::npos;
-    });
+bool has_case(const HardCase& hard) {
+    return std::any_of(lit_cases().begin(), lit_cases().end(),
+                       [&](const Case& tested) { return is_about(tested, hard); });
 }
 
-bool has_plain_shader(const std::string& id) {
+bool has_plain_shader(const HardCase& hard) {
     const std::vector<std::string> paths = shaders_in("plain");
-    return std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
-        return subject_of(*DiskFileSystem().read(path)).find(id) != std::string::npos;
-    });
+    return std::any_of(paths.begin(), paths.end(),
+                       [&](const std::string& path) { return shows(*DiskFileSystem().read(path), hard); });
 }
 
 TEST(HardCases, AreEachTriedAndHaveAPlainShader) {
     for (const HardCase& hard : hard_cases()) {
-        EXPECT_TRUE(has_plain_shader(hard.id)) << "no file of tests/hard_cases/plain/ is about " << hard.id;
-        EXPECT_TRUE(has_case(hard.id) || !hard.elsewhere.empty()) << "nothing tries " << hard.id;
+        EXPECT_TRUE(has_plain_shader(hard)) << "no file of tests/hard_cases/plain/ shows: " << hard.name;
+        EXPECT_TRUE(has_case(hard) || !hard.elsewhere.empty()) << "nothing tries: " << hard.name;
         for (const std::string& path : hard.elsewhere) {
             const Result<std::string> text = DiskFileSystem().read(GOBO_SOURCE_DIR "/tests/" + path);
             ASSERT_TRUE(text) << path;
-            EXPECT_NE(text->find(hard.id), std::string::npos) << path << " does not name " << hard.id;
+            EXPECT_NE(text->find(hard.name), std::string::npos) << path << " does not name: " << hard.name;
         }
     }
 }
 
-TEST(HardCases, AreAllInTheCatalogue) {
+TEST(HardCases, AreAllInTheCatalogueOrAModelsOwn) {
+    const Result<std::string> models = DiskFileSystem().read(GOBO_SOURCE_DIR "/docs/models.toml");
+    ASSERT_TRUE(models);
     for (const Case& tested : lit_cases()) {
-        const std::string id = case_name(tested.name).id;
-        if (!id.starts_with("H-")) continue;  // a model's own case
-        EXPECT_TRUE(std::any_of(hard_cases().begin(), hard_cases().end(), [&](const HardCase& hard) {
-            return id.find(hard.id) != std::string::npos;
-        })) << id;
+        EXPECT_FALSE(tested.about.empty()) << tested.name;
+        for (const std::string& about : tested.about)
+            EXPECT_TRUE(models->find('"' + about + '"') != std::string::npos ||
+                        std::any_of(hard_cases().begin(), hard_cases().end(),
+                                    [&](const HardCase& hard) { return hard.name == about; }))
+                << tested.name << ": " << about;
     }
 }
 
-/// H-G3: what the page says of them in words.
+/// What the page says of the extreme scale in words.
 TEST(NormalErrors, AreThreeHundredthsOfARadianNearTheLongAxis) {
     for (const NormalErrors& errors : normal_errors()) {
         EXPECT_TRUE(errors.away < 0.1 || errors.plain <= 2e-3) << errors.away << ": " << errors.plain;

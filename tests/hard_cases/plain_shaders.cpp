@@ -165,4 +165,10 @@ std::string subject_of(const std::string& source) {
     return std::string(line.substr(line.find("// ") + 3));
 }
 
+bool shows(const std::string& source, const HardCase& hard) {
+    const std::string subject = subject_of(source);
+    const std::vector<std::string> names = split_at(subject.substr(0, subject.find(": ")), ", ");
+    return std::find(names.begin(), names.end(), hard.name) != names.end();
+}
+
 }  // namespace gobo

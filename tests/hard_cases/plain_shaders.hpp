@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hard_case_index.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lit_under_test.hpp"
 
@@ -45,7 +46,10 @@ struct WrongMark {
 /// The lines that a report names.
 [[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
 
-/// The comment on a plain shader's second line: "H-L1: a light at the surface point."
+/// The comment on a plain shader's second line: "tiny cone: a cone of 1e-4 radians ...", the hard cases that
+/// it shows first.
 [[nodiscard]] std::string subject_of(const std::string& source);
+/// Whether the subject names the hard case.
+[[nodiscard]] bool shows(const std::string& source, const HardCase& hard);
 
 }  // namespace gobo

@@ -1,5 +1,6 @@
-// H-S3: highlights at a shininess of 1e4 to 1e6, of surfaces, lights and viewers in any direction, against
-// the equations in extended precision: no further off than what a float's rounding of the directions costs.
+// Each sharp highlight, at a shininess of 1e4 to 1e6, of surfaces, lights and viewers in any direction,
+// against the equations in extended precision: no further off than what a float's rounding of the directions
+// costs.
 #include <algorithm>
 #include <cmath>
 #include <random>

@@ -34,7 +34,7 @@ LightProbe small_light() {
     return probe;
 }
 
-/// H-B1.
+/// The hard case of ringing harmonics.
 TEST(LightProbes, TellTheEnergyThatClampingAdds) {
     // E = 1/4 + c/2 + 5 (3 c^2 - 1) / 32 is negative for c between its roots -0.823929 and -0.242738. The
     // integral there is -0.0153368, half of it the mean over the sphere, whose mean of E is 1/4: 3.07 %.

@@ -1,5 +1,5 @@
 // Normal matrices against ones known in closed form: a rotation, a scale and a rotation have the inverse
-// transpose of rotation, inverse scale, rotation (H-G1, H-G2, H-G3).
+// transpose of rotation, inverse scale, rotation (singular model matrix, mirrored model, extreme scale).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

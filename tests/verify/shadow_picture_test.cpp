@@ -1,5 +1,5 @@
 // Shadows as they are drawn, both passes: what is dark, and the two faults of shadow maps at grazing angles
-// (H-W2).
+// (hard case: grazing shadow).
 #include <cmath>
 #include <map>
 #include <numbers>

@@ -1,5 +1,5 @@
 #version 450
-// H-L1: a light at the surface point.
+// light at the surface: attenuation by the square of its distance.
 layout(location = 0) in vec3 position;
 uniform vec3 lightPosition;
 layout(location = 0) out vec4 color;

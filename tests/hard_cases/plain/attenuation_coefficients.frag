@@ -1,5 +1,5 @@
 #version 450
-// H-L2: all attenuation coefficients 0.
+// no attenuation: all attenuation coefficients 0.
 layout(location = 0) in float range;
 uniform vec3 coefficients;
 layout(location = 0) out vec4 color;

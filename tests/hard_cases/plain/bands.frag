@@ -1,5 +1,5 @@
 #version 450
-// H-T1: tones by floor, the light straight above.
+// tone above the top one: tones by floor, the light straight above.
 layout(location = 0) in float cosine;
 uniform float levels;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-T2: tones by floor, the cosine beside an edge of two: a rounding decides, as it does in ours.
+// edge between two tones: tones by floor, the cosine beside an edge of two: a rounding decides, as it does in ours.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 toLight;
 uniform float levels;

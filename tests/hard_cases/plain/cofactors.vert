@@ -1,5 +1,5 @@
 #version 450
-// H-G1: normals of a singular model matrix.
+// singular model matrix: normals by its inverse.
 layout(location = 0) in vec3 normal;
 uniform mat3 model;
 

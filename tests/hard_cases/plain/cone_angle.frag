@@ -1,5 +1,5 @@
 #version 450
-// H-P3: the angle of a cosine that rounding has taken beyond 1.
+// behind a wide cone: the angle of a cosine that rounding has taken beyond 1.
 layout(location = 0) in vec3 a;
 layout(location = 1) in vec3 b;
 layout(location = 0) out vec4 color;

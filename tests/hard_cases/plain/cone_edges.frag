@@ -1,5 +1,5 @@
 #version 450
-// H-P1: a spot light whose inner cone is its outer cone.
+// hard-edged cone: a spot light whose inner cone is its outer cone.
 layout(location = 0) in float cosine;
 uniform float inner;
 uniform float outer;

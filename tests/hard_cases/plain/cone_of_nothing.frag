@@ -1,5 +1,5 @@
 #version 450
-// H-P2: a spot light that is shut: its axis is still lit.
+// limiting cone angle: a spot light that is shut: its axis is still lit.
 layout(location = 0) in vec3 axis;
 layout(location = 1) in vec3 ray;
 uniform float cutoff;

@@ -1,5 +1,5 @@
 #version 450
-// H-P3: behind a spot light, inside a cone wider than 180 degrees.
+// behind a wide cone: behind a spot light, inside a cone wider than 180 degrees.
 layout(location = 0) in vec3 axis;
 layout(location = 1) in vec3 ray;
 uniform float exponent;

@@ -1,5 +1,5 @@
 #version 450
-// H-P4: a cone of 1e-4 radians by its angle: the cosine has no number there but 1.
+// tiny cone: a cone of 1e-4 radians by its angle: the cosine has no number there but 1.
 layout(location = 0) in vec3 axis;
 layout(location = 1) in vec3 ray;
 uniform float cutoff;

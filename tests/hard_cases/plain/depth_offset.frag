@@ -1,5 +1,5 @@
 #version 450
-// H-D1: a depth moved out of its range.
+// depth out of range: a depth moved by an offset.
 layout(location = 0) in float offset;
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450
-// H-D2: a depth that is promised to be greater, and is not.
+// broken depth promise: a depth that is promised to be greater, and is not.
 layout(location = 0) in float offset;
 layout(location = 0) out vec4 color;
 layout(depth_greater) out float gl_FragDepth;

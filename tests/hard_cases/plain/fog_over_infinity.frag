@@ -1,5 +1,5 @@
 #version 450
-// H-F3: fog that hides everything, and behind it a colour that is infinite.
+// infinite radiance in fog: fog that hides everything, and behind it a colour that is infinite.
 layout(location = 0) in vec3 radiance;
 uniform float hidden;
 layout(location = 0) out vec4 color;

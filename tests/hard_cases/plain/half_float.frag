@@ -1,5 +1,5 @@
 #version 450
-// H-X1: a bright colour on its way to a target of 16-bit floats.
+// too bright for the target: a bright colour on its way to a target of 16-bit floats.
 layout(location = 0) in float brightness;
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450
-// H-N4: Blinn's half vector, with a light exactly behind the viewer's ray.
+// light behind the viewer's ray: Blinn's half vector.
 layout(location = 0) in vec3 toLight;
 layout(location = 1) in vec3 toViewer;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-F3: an infinite colour behind fog that hides everything.
+// infinite radiance in fog: an infinite colour behind fog that hides everything.
 layout(location = 0) in float brightness;
 layout(location = 0) out vec4 color;
 

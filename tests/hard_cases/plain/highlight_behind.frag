@@ -1,5 +1,5 @@
 #version 450
-// H-S4: a light behind the surface, whose highlight is seen all the same.
+// light behind the surface: its highlight is seen all the same.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 toLight;
 layout(location = 2) in vec3 toViewer;

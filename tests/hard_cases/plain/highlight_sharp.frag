@@ -1,5 +1,5 @@
 #version 450
-// H-S3: a highlight of shininess 1e6, as the power of a cosine.
+// sharp highlight: a highlight of shininess 1e6, as the power of a cosine.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 toLight;
 layout(location = 2) in vec3 toViewer;

@@ -1,5 +1,5 @@
 #version 450
-// H-L1, L6: a light that is local by its w, and is not.
+// light at the surface, lights by the w convention: a light that is local by its w, and is not.
 layout(location = 0) in vec3 position;
 uniform vec4 light;
 layout(location = 0) out vec4 color;

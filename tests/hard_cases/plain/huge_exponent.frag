@@ -1,5 +1,5 @@
 #version 450
-// H-L3: numbers beyond all bounds.
+// huge numbers: numbers beyond all bounds.
 layout(location = 0) in float intensity;
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450
-// H-I1: a sine of an interpolated cosine, which left its range by a rounding.
+// interpolated out of range: a sine of an interpolated cosine, which left its range by a rounding.
 layout(location = 0) in float cosine;
 layout(location = 0) out vec4 color;
 

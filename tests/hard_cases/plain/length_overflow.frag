@@ -1,5 +1,5 @@
 #version 450
-// H-F2, H-N3: radial fog of something very far away.
+// fog very far away, huge vector: radial fog of something very far away.
 layout(location = 0) in vec3 position;
 layout(location = 0) out vec4 color;
 

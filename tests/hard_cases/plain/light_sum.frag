@@ -1,5 +1,5 @@
 #version 450
-// H-X2: the light of 4096 lamps, added up one after the other.
+// sum of many lights: 4096 of them, added up one after the other.
 layout(location = 0) in float brightness;
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450
-// H-F1: fog whose near is its far.
+// fog that is a step: linear fog whose near is its far.
 layout(location = 0) in vec3 position;
 uniform float near;
 uniform float far;

@@ -1,5 +1,5 @@
 #version 450
-// H-N2: a direction between points that are very near each other.
+// tiny vector: a direction between points that are very near each other.
 layout(location = 0) in vec3 position;
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450
-// H-N1: the normal as it was interpolated.
+// zero vector: the normal as it was interpolated.
 layout(location = 0) in vec3 normal;
 layout(location = 0) out vec4 color;
 

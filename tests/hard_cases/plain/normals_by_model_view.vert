@@ -1,5 +1,5 @@
 #version 450
-// H-G3: normals taken where positions are, under a scale of 1 : 1e4.
+// extreme scale: normals taken where positions are, under a scale of 1 : 1e4.
 layout(location = 0) in vec3 normal;
 uniform mat3 modelView;
 uniform vec3 toLight;

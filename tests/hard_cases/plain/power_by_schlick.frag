@@ -1,5 +1,5 @@
 #version 450
-// H-S1: Schlick's power t / (m - m t + t), shininess and cosine 0.
+// zero to the power of zero: Schlick's power t / (m - m t + t), shininess and cosine 0.
 layout(location = 0) in float cosine;
 uniform float shininess;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-S2: a power by squaring (1 - m v / n)^n: below its last root the highlight comes back.
+// power of a negative base: a power by squaring (1 - m v / n)^n: below its last root the highlight comes back.
 layout(location = 0) in float oneMinusCosine;
 uniform float shininess;
 layout(location = 0) out vec4 color;

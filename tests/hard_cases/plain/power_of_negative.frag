@@ -1,5 +1,5 @@
 #version 450
-// H-S2: the rim of a surface, 1 - |n.v| slightly below 0.
+// power of a negative base: the rim of a surface, 1 - |n.v| slightly below 0.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 toViewer;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-S1: a highlight at the edge of the light, with shininess 0.
+// zero to the power of zero: a highlight at the edge of the light, with shininess 0.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 halfway;
 uniform float shininess;

@@ -1,5 +1,5 @@
 #version 450
-// H-B1: irradiance by second order, of one small light straight ahead, seen from 122 degrees.
+// ringing harmonics: irradiance by second order, of one small light straight ahead, seen from 122 degrees.
 layout(location = 0) in vec3 normal;
 uniform vec3 coefficients;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-W2: a slope seen from the light, as texels of its map hold it: it shades itself.
+// grazing shadow: a slope seen from the light, as texels of its map hold it: it shades itself.
 layout(location = 0) in float along;
 uniform float slope;
 uniform float texels;

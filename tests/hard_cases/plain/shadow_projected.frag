@@ -1,5 +1,5 @@
 #version 450
-// H-W1: a shadow looked up behind the light, and beside it.
+// outside the shadow map: a shadow looked up behind the light, and beside it.
 layout(location = 0) in vec4 onMap;
 uniform sampler2D shadowMap;
 layout(location = 0) out vec4 color;

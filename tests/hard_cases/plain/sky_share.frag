@@ -1,5 +1,5 @@
 #version 450
-// H-I1: the share of a sky by a normal that interpolation left longer than 1.
+// interpolated out of range: the share of a sky by a normal that interpolation left longer than 1.
 layout(location = 0) in vec3 normal;
 uniform vec3 up;
 layout(location = 0) out vec4 color;

@@ -1,5 +1,5 @@
 #version 450
-// H-G2: the front of a mirrored model, whose triangles run the other way round.
+// mirrored model: its front, whose triangles run the other way round.
 layout(location = 0) in vec3 normal;
 uniform vec3 toLight;
 layout(location = 0) out vec4 color;
