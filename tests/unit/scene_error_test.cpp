@@ -321,12 +321,9 @@ std::string whole() {
 INSTANTIATE_TEST_SUITE_P(
     SceneErrors, CutFiles,
     testing::Values(
-        Cut{"empty", "",
-            "cut.glb:1:1: error: this is no JSON: syntax error while parsing value - unexpected end of "
-            "input; "
-            "expected '[', '{', or a literal"},
+        Cut{"empty", "", "cut.glb:1:1: error: this is not JSON: it is empty"},
         Cut{"open_brace", "{\n  \"asset\": ",
-            "cut.glb:2:12: error: this is no JSON: syntax error while parsing value - unexpected end of "
+            "cut.glb:2:12: error: this is not JSON: syntax error while parsing value - unexpected end of "
             "input; "
             "expected '[', '{', or a literal\n      \"asset\": \n               ^"},
         Cut{"no_object", "[]", "cut.glb: error: this is not glTF: its root is an array, not an object"},

@@ -49,7 +49,9 @@ json parse_document(std::string_view text) {
             const std::string_view line = line_of(text, diagnostic.place.line);
             if (line.size() <= 200) diagnostic.quoted_line = line;
         }
-        diagnostic.message = fmt::format("this is no JSON: {}", reason_of(error.what()));
+        // Of no text at all its versions speak in different words.
+        const std::string reason = trim(text).empty() ? "it is empty" : reason_of(error.what());
+        diagnostic.message = "this is not JSON: " + reason;
     }
     throw Diagnostics{diagnostic};
 }
