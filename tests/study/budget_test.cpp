@@ -1,9 +1,9 @@
 // What a budget buys, of studies written down here.
 #include <gtest/gtest.h>
 
-#include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "lab/study/qualities.hpp"
 #include "lab/study/study.hpp"
 
 namespace gobo::study {

@@ -5,6 +5,7 @@
 
 #include "core/text.hpp"
 #include "lab/study/front.hpp"
+#include "lab/study/html.hpp"
 
 namespace gobo::study {
 namespace {
@@ -31,6 +32,10 @@ INSTANTIATE_TEST_SUITE_P(
                     AxisRow{"zeros_stand_at_the_least", {0, 0.5}, 1e-3, 1e-3, 1},
                     AxisRow{"infinite_errors_stretch_nothing", {1, HUGE_VAL, 20}, 1, 1, 50}),
     [](const auto& row) { return row.param.name; });
+
+TEST(Html, IsEscaped) {
+    EXPECT_EQ(html_escaped("a < b && \"c\" > d"), "a &lt; b &amp;&amp; &quot;c&quot; &gt; d");
+}
 
 TEST(Chart, NamesItsMarksAndEscapesThem) {
     Chart chart("a < b", {"cost, additions", 1, 10}, {"error", 1e-3, 1});

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "budget/qualities.hpp"
 #include "family/key.hpp"
 #include "held_out_scenes.hpp"
+#include "lab/study/qualities.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "budget/qualities.hpp"
 #include "family/key.hpp"
+#include "lab/study/qualities.hpp"
 #include "lab/study/rows.hpp"
 #include "study_support.hpp"
 

@@ -41,7 +41,7 @@ bool report(const Family& family, const verify::PermutationReport& found) {
     for (const verify::RelationReport& relation : found.relations) {
         if (relation.failed == 0) continue;
         fmt::print("{}: the relation {} does not hold: {}\n", key_text(family, found.key),
-                   to_text(family.relations[relation.relation], family.features), relation.found);
+                   family.relations[relation.relation].text, relation.found);
         is_right = false;
     }
     return is_right;

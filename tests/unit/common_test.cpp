@@ -6,9 +6,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/file_system.hpp"
-#include "core/html.hpp"
 #include "core/parallel.hpp"
-#include "core/random.hpp"
 #include "core/text.hpp"
 #include "core/text_template.hpp"
 
@@ -40,10 +38,6 @@ TEST(Diagnostic, ExitStatusIsThatOfTheGravestFault) {
     EXPECT_EQ(exit_status(several), 2);
 }
 
-TEST(Text, EscapesForHtml) {
-    EXPECT_EQ(html_escaped("a < b && \"c\" > d"), "a &lt; b &amp;&amp; &quot;c&quot; &gt; d");
-}
-
 TEST(Text, FolderOfAPath) {
     EXPECT_EQ(folder_of("some/folder/tiny.toml"), "some/folder");
     EXPECT_EQ(folder_of("tiny.toml"), "");
@@ -56,18 +50,6 @@ TEST(ParallelFor, CallsEachIndexOnce) {
         parallel_for(jobs, calls.size(), [&](std::size_t i) { ++calls[i]; });
         EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](int count) { return count == 1; })) << jobs;
         parallel_for(jobs, 0, [&](std::size_t) { FAIL(); });
-    }
-}
-
-TEST(Random, IsThePublishedSequence) {
-    EXPECT_EQ(RandomNumbers<SplitMix64>(1).bits(), 0x910A2DEC89025CC1U) << "SplitMix64 from seed 1";
-    RandomNumbers<SplitMix64> random(5);
-    for (int i = 0; i < 1000; ++i) {
-        EXPECT_LT(random.index(3), 3u);
-        const int whole = random.whole(-2, 2);
-        EXPECT_TRUE(whole >= -2 && whole <= 2) << whole;
-        const double across = random.across(1, 100);
-        EXPECT_TRUE(across >= 1 && across < 100) << across;
     }
 }
 

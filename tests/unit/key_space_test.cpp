@@ -250,9 +250,33 @@ TEST(KeySpace, NamesTheRuleThatTakesTooMuch) {
     EXPECT_EQ(space_of(family, "450", limits).count(), 4097u);
 }
 
-TEST(KeySpace, CountsBeyond64BitsAsTheLargestNumber) {
-    EXPECT_EQ(space_of(family_of(counts(26, 15))).count(), std::numeric_limits<std::uint64_t>::max())
-        << "16^26 keys";
+TEST(KeySpace, CountsBeyond64BitsExactly) {
+    const WholeNumber defines_80 = space_of(family_of(defines(80))).count();
+    EXPECT_EQ(defines_80.text(), "1208925819614629174706176") << "2^80";
+    EXPECT_EQ(defines_80.saturated(), std::numeric_limits<std::uint64_t>::max());
+    EXPECT_EQ(space_of(family_of(counts(26, 15))).count().text(), "20282409603651670423947251286016")
+        << "16^26";
+    const std::string large = space_of(family_of(counts(100, 999))).count().text();
+    EXPECT_EQ(large, "1" + std::string(300, '0')) << "1000^100";
+    // All keys but one.
+    const std::string forbidden = forbid("c00 + c01 + c02 + c03 + c04 + c05 + c06 > 6992");
+    EXPECT_EQ(space_of(family_of(counts(7, 999) + forbidden)).count().text(), "999999999999999999999");
+}
+
+TEST(WholeNumber, SaturatesAboveThe64BitsOnly) {
+    WholeNumber number = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(number.text(), "18446744073709551615");
+    EXPECT_EQ(number.saturated(), std::numeric_limits<std::uint64_t>::max());
+    number += 1;
+    EXPECT_EQ(number.text(), "18446744073709551616");
+    EXPECT_EQ(number.saturated(), std::numeric_limits<std::uint64_t>::max());
+    number += number;
+    EXPECT_EQ(number.text(), "36893488147419103232");
+    WholeNumber below = 999'999'999'999'999'999;
+    below += 1;
+    EXPECT_EQ(below, 1'000'000'000'000'000'000U);
+    EXPECT_EQ(below.text(), "1000000000000000000");
+    EXPECT_EQ(WholeNumber().text(), "0");
 }
 
 }  // namespace

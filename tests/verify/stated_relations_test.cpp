@@ -196,8 +196,8 @@ TEST(StatedRelations, ThoseOfLitHold) {
         for (const verify::RelationReport& relation : permutation.relations) {
             tried.insert(relation.relation);
             EXPECT_EQ(relation.failed, 0U)
-                << key_text(family, permutation.key) << ": "
-                << to_text(family.relations[relation.relation], family.features) << ": " << relation.found;
+                << key_text(family, permutation.key) << ": " << family.relations[relation.relation].text
+                << ": " << relation.found;
         }
     EXPECT_EQ(tried.size(), family.relations.size()) << "each finds a key of which it speaks";
 }

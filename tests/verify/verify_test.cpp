@@ -178,6 +178,17 @@ TEST(Verify, DrawsTheSameNumbersOnEveryMachine) {
     EXPECT_EQ(random.bits(), 0xBEEB8DA1658EEC67U);
 }
 
+TEST(Verify, DrawsNumbersWithinTheirRanges) {
+    RandomNumbers<SplitMix64> random(5);
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_LT(random.index(3), 3u);
+        const int whole = random.whole(-2, 2);
+        EXPECT_TRUE(whole >= -2 && whole <= 2) << whole;
+        const double across = random.across(1, 100);
+        EXPECT_TRUE(across >= 1 && across < 100) << across;
+    }
+}
+
 TEST(Verify, RoundsEveryNumberOfASampleToAFloat) {
     oracle::Model model;
     model.directional = model.point = model.spot = 2;

@@ -19,26 +19,31 @@ double number_in(const std::string& cell) {
 }
 
 bool is_within(const StudiedKey& key, const Budget& budget) {
-    return (!budget.max_error || kSafety * key.error <= *budget.max_error) &&
-           (!budget.max_cost || key.cost <= *budget.max_cost);
+    return (budget.max_error <= 0 || kSafety * key.error <= budget.max_error) &&
+           (budget.max_cost <= 0 || key.cost <= budget.max_cost);
 }
 
 /// The better buy of two within the budget comes first.
 auto price(const StudiedKey& key, const Budget& budget) {
-    const auto [first, second] =
-        budget.max_error ? std::pair(key.cost, key.error) : std::pair(key.error, key.cost);
-    return std::tuple(first, second, key.key);
+    const bool by_cost = budget.max_error > 0;
+    return std::tuple(by_cost ? key.cost : key.error, by_cost ? key.error : key.cost, key.key);
 }
 
 std::string nearest_text(const std::vector<StudiedKey>& keys, const Budget& budget) {
     const auto least = [&](double StudiedKey::*what) { return std::ranges::min(keys, {}, what).*what; };
-    return budget.max_error
+    return budget.max_error > 0
                ? fmt::format("the most accurate one promises {}",
                              short_number(kSafety * least(&StudiedKey::error)))
                : fmt::format("the cheapest one costs {}", short_number(least(&StudiedKey::cost)));
 }
 
 }  // namespace
+
+Key effects_of(const Family& family, Key key) {
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (family.features[i].role == Role::quality) key[i] = 0;
+    return canonical(family, std::move(key), kStudiedDialect);
+}
 
 Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path, const Family& family) {
     const auto problem = [&](std::size_t row, std::string message) {
@@ -74,14 +79,12 @@ Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& bud
         if (is_within(key, budget) && (best == nullptr || price(key, budget) < price(*best, budget)))
             best = &key;
     if (best != nullptr) return *best;
-    Diagnostic diagnostic;
-    diagnostic.subject = subject;
-    diagnostic.message = fmt::format("no quality is within {}{}{}",
-                                     budget.max_error ? fmt::format("an error of {}", *budget.max_error) : "",
-                                     budget.max_error && budget.max_cost ? " and " : "",
-                                     budget.max_cost ? fmt::format("a cost of {}", *budget.max_cost) : "");
-    if (!keys.empty()) diagnostic.help = "raise the budget: " + nearest_text(keys, budget);
-    return fail(std::move(diagnostic));
+    std::vector<std::string> limits;
+    if (budget.max_error > 0) limits.push_back(fmt::format("an error of {}", budget.max_error));
+    if (budget.max_cost > 0) limits.push_back(fmt::format("a cost of {}", budget.max_cost));
+    return fail({.message = "no quality is within " + join(limits, " and "),
+                 .help = keys.empty() ? "" : "raise the budget: " + nearest_text(keys, budget),
+                 .subject = subject});
 }
 
 }  // namespace gobo

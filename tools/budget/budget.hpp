@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,15 +16,21 @@ inline constexpr const char* kAllScenes = "*";
 /// What a permutation may err by and cost. Both may be given: then the error decides among what the cost
 /// allows.
 struct Budget {
-    std::optional<double> max_error;  ///< linear radiance
-    std::optional<double> max_cost;   ///< additions a fragment, as the study's column `cost`
+    double max_error = 0;  ///< linear radiance; 0: no limit
+    double max_cost = 0;   ///< additions a fragment, as the study's column `cost`; 0: no limit
 
-    [[nodiscard]] bool is_set() const { return max_error || max_cost; }
+    [[nodiscard]] bool is_set() const { return max_error > 0 || max_cost > 0; }
 };
 
 /// The error that a budget promises is this many times the worst one of the study: other scenes have other
 /// meshes and lights. docs/study.md says what that was tried on.
 inline constexpr double kSafety = 2;
+
+/// The dialect that studies evaluate.
+inline constexpr std::string_view kStudiedDialect = "450";
+
+/// The key with every quality feature at its default, canonical: the effects that a scene calls for.
+[[nodiscard]] Key effects_of(const Family& family, Key key);
 
 /// One key of a combination of effects, over all scenes of a study.
 struct StudiedKey {

@@ -3,24 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include <fmt/format.h>
-
 namespace gobo {
 namespace {
-
-std::string quoted(const std::string& cell) {
-    if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-    std::string text = "\"";
-    for (const char character : cell)
-        text += character == '"' ? std::string("\"\"") : std::string(1, character);
-    return text + '"';
-}
-
-std::string line_of_cells(const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + quoted(cells[i]);
-    return line + '\n';
-}
 
 /// Takes one line off the text.
 std::vector<std::string> take_cells(std::string_view& text) {
@@ -63,16 +47,6 @@ CsvTable read_csv(std::string_view text) {
         table.rows.push_back(std::move(cells));
     }
     return table;
-}
-
-std::string csv_text(const CsvTable& table) {
-    std::string text = line_of_cells(table.columns);
-    for (const std::vector<std::string>& row : table.rows) text += line_of_cells(row);
-    return text;
-}
-
-std::string csv_number(double number) {
-    return fmt::format("{:.6g}", number);
 }
 
 std::optional<double> number_in_cell(std::string_view cell) {

@@ -20,10 +20,6 @@ struct CsvTable {
 
 /// Rows with fewer cells are filled up with empty ones, further cells left out.
 [[nodiscard]] CsvTable read_csv(std::string_view text);
-[[nodiscard]] std::string csv_text(const CsvTable& table);
-
-/// Six significant digits: more than any measurement here has; empty for none.
-[[nodiscard]] std::string csv_number(double number);
 
 /// The number that a cell is as a whole.
 [[nodiscard]] std::optional<double> number_in_cell(std::string_view cell);

@@ -17,10 +17,9 @@ constexpr std::array kStatuses = {1, 2, 3, 3, 4};
 
 std::string place_text(const Place& place) {
     if (place.file.empty()) return "gobo";
-    std::string text = place.file;
-    if (place.line > 0) text += fmt::format(":{}", place.line);
-    if (place.line > 0 && place.column > 0) text += fmt::format(":{}", place.column);
-    return text;
+    if (place.line <= 0) return place.file;
+    const std::string text = fmt::format("{}:{}", place.file, place.line);
+    return place.column > 0 ? fmt::format("{}:{}", text, place.column) : text;
 }
 
 /// The quoted line and, where the column is known, a caret below it; tabs are kept so that the caret stands
@@ -37,11 +36,7 @@ std::string quotation(const Diagnostic& diagnostic) {
 }  // namespace
 
 tl::unexpected<Diagnostics> fail(Fault fault, std::string message, std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.fault = fault;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return fail(std::move(diagnostic));
+    return fail({.fault = fault, .message = std::move(message), .help = std::move(help)});
 }
 
 tl::unexpected<Diagnostics> fail(Diagnostic diagnostic) {
@@ -50,12 +45,10 @@ tl::unexpected<Diagnostics> fail(Diagnostic diagnostic) {
 
 tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_line, std::string message,
                                  std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.place = place;
-    diagnostic.quoted_line = quoted_line;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return fail(std::move(diagnostic));
+    return fail({.place = place,
+                 .message = std::move(message),
+                 .quoted_line = std::string(quoted_line),
+                 .help = std::move(help)});
 }
 
 std::string to_text(const Diagnostic& diagnostic, bool color) {

@@ -11,7 +11,7 @@ namespace gobo {
 
 /// A place in a text. Lines and columns count from 1; 0 means unknown. Columns count bytes.
 struct Place {
-    std::string file;
+    std::string file = {};
     int line = 0;
     int column = 0;
 
@@ -33,11 +33,11 @@ enum class Fault {
 struct Diagnostic {
     Severity severity = Severity::error;
     Fault fault = Fault::input;
-    Place place;
-    std::string message;
-    std::string quoted_line;  ///< the line of text at `place`, or empty
-    std::string help;         ///< how to fix it, or empty
-    std::string subject;      ///< the permutation it concerns, as key text, or empty
+    Place place = {};
+    std::string message = {};
+    std::string quoted_line = {};  ///< the line of text at `place`, or empty
+    std::string help = {};         ///< how to fix it, or empty
+    std::string subject = {};      ///< the permutation it concerns, as key text, or empty
 
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };

@@ -1,12 +1,13 @@
 #include "core/file_system.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -20,54 +21,30 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 
 tl::unexpected<Diagnostics> file_error(const std::string& path, std::string_view action, int error) {
-    Diagnostic diagnostic;
-    diagnostic.fault = Fault::file;
-    diagnostic.place.file = path;
-    diagnostic.message = fmt::format("cannot be {}: {}", action, std::strerror(error));
-    return fail(std::move(diagnostic));
+    return fail({.fault = Fault::file,
+                 .place = {path},
+                 .message = fmt::format("cannot be {}: {}", action, std::strerror(error))});
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    [[nodiscard]] int number() const { return number_; }
-    /// 0, or errno. Some file systems report a full disk only here.
-    int close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
-
-  private:
-    int number_;
-};
-
-/// Writes and closes: 0, or errno.
-int write_all(Descriptor& file, std::string_view content) {
-    int error = file.number() < 0 ? errno : 0;
-    while (error == 0 && !content.empty()) {
-        const ssize_t written = ::write(file.number(), content.data(), content.size());
-        if (written >= 0)
-            content.remove_prefix(static_cast<std::size_t>(written));
-        else if (errno != EINTR)
-            error = errno;
-    }
-    const int close_error = file.close();
-    return error != 0 ? error : close_error;
+/// Writes and closes: 0, or errno. Some file systems report a full disk only as the file is closed.
+int write_all(std::FILE* file, std::string_view content) {
+    if (file == nullptr) return errno;
+    errno = 0;
+    const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+    const int error = is_written ? 0 : errno;
+    return std::fclose(file) == 0 || error != 0 ? error : errno;
 }
 
 /// Writes a new file beside `path` and renames it into place. 0, or errno; on an error nothing is left
 /// behind.
 int replace_file(const std::string& path, std::string_view content) {
     std::string temporary = path + ".XXXXXX";
-    Descriptor file(::mkstemp(temporary.data()));
-    if (file.number() < 0) return errno;
+    const int descriptor = ::mkstemp(temporary.data());
+    if (descriptor < 0) return errno;
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    int error = ::fchmod(file.number(), 0666 & ~mask) != 0 ? errno : 0;
-    const int write_error = write_all(file, content);
+    int error = ::fchmod(descriptor, 0666 & ~mask) == 0 ? 0 : errno;
+    const int write_error = write_all(::fdopen(descriptor, "w"), content);
     if (error == 0) error = write_error;
     if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
     if (error != 0) ::unlink(temporary.c_str());
@@ -83,18 +60,17 @@ bool DiskFileSystem::is_file(const std::string& path) const {
 }
 
 Result<std::string> DiskFileSystem::read(const std::string& path) const {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.number() < 0) return file_error(path, "read", errno);
+    std::FILE* const file = std::fopen(path.c_str(), "re");
+    if (file == nullptr) return file_error(path, "read", errno);
     std::string content;
-    char buffer[1 << 16];
-    while (true) {
-        const ssize_t count = ::read(file.number(), buffer, sizeof buffer);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return file_error(path, "read", errno);
-        if (count == 0) return content;
-        content.append(buffer, static_cast<std::size_t>(count));
-        if (content.size() > kLargestFile) return file_error(path, "read", EFBIG);
-    }
+    std::array<char, 1 << 16> buffer;
+    std::size_t count = 0;
+    while (content.size() <= kLargestFile && (count = std::fread(buffer.data(), 1, buffer.size(), file)) > 0)
+        content.append(buffer.data(), count);
+    const int error = std::ferror(file) != 0 ? errno : content.size() > kLargestFile ? EFBIG : 0;
+    std::fclose(file);
+    if (error != 0) return file_error(path, "read", error);
+    return content;
 }
 
 std::vector<std::string> DiskFileSystem::files_below(const std::string& folder) const {
@@ -102,10 +78,9 @@ std::vector<std::string> DiskFileSystem::files_below(const std::string& folder) 
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
     const fs::recursive_directory_iterator end;
-    for (; !error && at != end; at.increment(error)) {
+    for (; !error && at != end; at.increment(error))
         if (at->is_regular_file(error))
             found.push_back(at->path().lexically_relative(folder).generic_string());
-    }
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -113,21 +88,15 @@ std::vector<std::string> DiskFileSystem::files_below(const std::string& folder) 
 Result<bool> DiskFileSystem::write(const std::string& path, std::string_view content) {
     std::error_code kind_error;
     const bool is_regular = fs::is_regular_file(path, kind_error);
-    if (is_regular) {
-        const Result<std::string> present = read(path);
-        if (present && *present == content) return false;
-    }
+    if (is_regular && read(path) == content) return false;
     const fs::path folder = fs::path(path).parent_path();
     std::error_code folder_error;
     if (!folder.empty()) fs::create_directories(folder, folder_error);
     if (folder_error) return file_error(folder.generic_string(), "made", folder_error.value());
-    int error = 0;
-    if (!is_regular && fs::exists(path, kind_error)) {  // /dev/full, a pipe: no renaming onto it
-        Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-        error = write_all(file, content);
-    } else {
-        error = replace_file(path, content);
-    }
+    // /dev/full, a pipe: no renaming onto it
+    const bool is_device = !is_regular && fs::exists(path, kind_error);
+    const int error =
+        is_device ? write_all(std::fopen(path.c_str(), "we"), content) : replace_file(path, content);
     if (error != 0) return file_error(path, "written", error);
     return true;
 }
@@ -141,8 +110,8 @@ std::string DiskFileSystem::real_path(const std::string& path) const {
 Result<void> append_to_disk(const std::string& path, std::string_view content) {
     std::error_code ignored;  // opening tells
     fs::create_directories(fs::path(path).parent_path(), ignored);
-    Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-    if (const int error = write_all(file, content); error != 0) return file_error(path, "written", error);
+    const int error = write_all(std::fopen(path.c_str(), "ae"), content);
+    if (error != 0) return file_error(path, "written", error);
     return {};
 }
 
@@ -159,18 +128,14 @@ Result<std::string> MemoryFileSystem::read(const std::string& path) const {
 std::vector<std::string> MemoryFileSystem::files_below(const std::string& folder) const {
     const std::string prefix = folder.empty() ? "" : folder + "/";
     std::vector<std::string> found;
-    for (const auto& [path, text] : content_) {
+    for (const auto& [path, text] : content_)
         if (path.starts_with(prefix)) found.push_back(path.substr(prefix.size()));
-    }
     return found;
 }
 
 Result<bool> MemoryFileSystem::write(const std::string& path, std::string_view content) {
     const auto [at, is_new] = content_.try_emplace(path, content);
-    if (is_new) return true;
-    if (at->second == content) return false;
-    at->second = content;
-    return true;
+    return is_new || std::exchange(at->second, content) != content;
 }
 
 }  // namespace gobo

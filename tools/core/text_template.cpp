@@ -14,14 +14,13 @@ constexpr std::string_view closing = "}}";
 
 tl::unexpected<Diagnostics> fail_at(const TextTemplate& text_template, std::size_t position,
                                     std::string message) {
-    const std::string_view before = std::string_view(text_template.text).substr(0, position);
-    Diagnostic diagnostic;
-    diagnostic.fault = Fault::internal;
-    diagnostic.place.file = text_template.name;
-    diagnostic.place.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-    diagnostic.message = std::move(message);
-    diagnostic.quoted_line = line_of(text_template.text, diagnostic.place.line);
-    return fail(std::move(diagnostic));
+    const std::string& text = text_template.text;
+    const auto before = text.begin() + static_cast<std::ptrdiff_t>(position);
+    const int line = 1 + static_cast<int>(std::count(text.begin(), before, '\n'));
+    return fail({.fault = Fault::internal,
+                 .place = {text_template.name, line},
+                 .message = std::move(message),
+                 .quoted_line = std::string(line_of(text, line))});
 }
 
 }  // namespace
@@ -37,9 +36,8 @@ Result<std::string> fill(const TextTemplate& text_template, const TemplateValues
         if (end == std::string_view::npos) return fail_at(text_template, found, "a placeholder has no end");
         const std::string_view name = text.substr(found + opening.size(), end - found - opening.size());
         const auto value = values.find(name);
-        if (value == values.end()) {
+        if (value == values.end())
             return fail_at(text_template, found, fmt::format("the placeholder '{}' has no value", name));
-        }
         result += value->second;
         position = end + closing.size();
     }

@@ -17,34 +17,23 @@ constexpr int kWordBits = 64;
 /// The C++ of a condition over a key named `key`.
 std::string cpp_condition(const Expression& condition, const CppKey& key) {
     using Kind = Expression::Kind;
-    constexpr std::string_view operators[] = {"==", "!=", "<", "<=", ">", ">="};  // as Comparison lists them
     const auto sum = [&](const std::vector<int>& features) {
         std::vector<std::string> terms;
         for (const int feature : features) terms.push_back("key." + key[feature].member);
         return join(terms, " + ");
     };
+    if (condition.kind == Kind::compare)
+        return fmt::format("{} {} {}", sum(condition.features),
+                           kComparisonSymbols[static_cast<std::size_t>(condition.comparison)],
+                           condition.subtracted.empty()
+                               ? key[condition.features.front()].value(condition.value)
+                               : sum(condition.subtracted));
     std::vector<std::string> parts;
-    switch (condition.kind) {
-        case Kind::constant:
-            return condition.constant ? "true" : "false";
-        case Kind::compare:
-            return fmt::format("{} {} {}", sum(condition.features),
-                               operators[static_cast<std::size_t>(condition.comparison)],
-                               condition.subtracted.empty()
-                                   ? key[condition.features.front()].value(condition.value)
-                                   : sum(condition.subtracted));
-        case Kind::negation:
-            return "!(" + cpp_condition(*condition.parts.front(), key) + ")";
-        case Kind::conjunction:
-        case Kind::disjunction:
-            for (const auto& part : condition.parts) {
-                const bool is_list = part->kind == Kind::conjunction || part->kind == Kind::disjunction;
-                const std::string text = cpp_condition(*part, key);
-                parts.push_back(is_list ? "(" + text + ")" : text);
-            }
-            return join(parts, condition.kind == Kind::conjunction ? " && " : " || ");
+    for (const Expression& part : condition.parts) {
+        const std::string text = cpp_condition(part, key);
+        parts.push_back(part.kind == Kind::compare ? text : "(" + text + ")");
     }
-    return "true";
+    return join(parts, condition.kind == Kind::conjunction ? " && " : " || ");
 }
 
 std::string enum_text(const CppFeature& named) {
@@ -78,7 +67,7 @@ bool need_repetition(const std::vector<Rule>& rules) {
     const auto look = [&](const auto& self, const Expression& condition) -> void {
         looked_at.insert(condition.features.begin(), condition.features.end());
         looked_at.insert(condition.subtracted.begin(), condition.subtracted.end());
-        for (const auto& part : condition.parts) self(self, *part);
+        for (const Expression& part : condition.parts) self(self, part);
     };
     return std::ranges::any_of(rules, [&](const Rule& rule) {
         if (rule.kind != Rule::Kind::defaults) return false;

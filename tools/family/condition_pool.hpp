@@ -11,17 +11,23 @@
 
 namespace gobo {
 
+/// Mixes all of the numbers into the seed.
+[[nodiscard]] std::size_t hash_of(const auto& numbers, std::size_t seed) {
+    for (const auto number : numbers)
+        seed = (seed ^ (seed >> 29U)) * 0xBF58476D1CE4E5B9U + static_cast<std::size_t>(number);
+    return seed ^ (seed >> 32U);
+}
+
 /// Hash-consed conditions. Equal conditions have equal numbers; `never` and `always` are the two constants.
 class ConditionPool {
   public:
-    using Id = std::uint32_t;
+    using Id = int;
     static constexpr Id never = 0;
     static constexpr Id always = 1;
 
     explicit ConditionPool(const std::vector<Feature>& features);
 
     Id add(const Expression& expression);
-    Id negate(Id condition);
     Id disjoin(std::vector<Id> parts) { return junction(Expression::Kind::disjunction, std::move(parts)); }
     /// The features' values added, compared with a number. ~feature: its value is subtracted.
     Id compare(std::vector<int> terms, Expression::Comparison comparison, int value);
@@ -36,17 +42,20 @@ class ConditionPool {
 
   private:
     struct Node {
-        Expression::Kind kind = Expression::Kind::constant;
+        Expression::Kind kind = Expression::Kind::conjunction;
         Expression::Comparison comparison = Expression::Comparison::equal;
         int value = 0;
-        std::vector<int> operands;  ///< compare: terms; otherwise: conditions
+        std::vector<int> operands = {};  ///< compare: terms; otherwise: conditions
         bool operator==(const Node&) const = default;
     };
     struct Hash {
-        std::size_t operator()(const Node& node) const;
+        std::size_t operator()(const Node& node) const {
+            const auto form =
+                static_cast<std::size_t>(node.kind) * 8 + static_cast<std::size_t>(node.comparison);
+            return hash_of(node.operands, (form << 32U) + static_cast<std::uint32_t>(node.value));
+        }
     };
 
-    Id assign_terms(const Node& node, int feature, int value);
     Id intern(Node node);
     Id junction(Expression::Kind kind, std::vector<Id> parts);
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <random>
-#include <span>
 #include <utility>
 
 namespace gobo {
@@ -16,84 +16,74 @@ struct Combination {
     std::vector<std::size_t> strides;   ///< per feature: how far its next value is in `open`
     std::vector<char> open;             ///< per tuple, in mixed radix, last feature fastest
     std::size_t left = 0;               ///< how many are open
-    std::size_t first = 0;              ///< none before it is
 };
 
-std::size_t tuple_index(const Combination& combination, const PartialKey& key) {
+/// Where the key's tuple is in `open`; nothing where not all of it is decided.
+std::optional<std::size_t> tuple_index(const Combination& combination, const PartialKey& key) {
     std::size_t index = 0;
-    for (std::size_t i = 0; i < combination.features.size(); ++i)
-        index += combination.strides[i] * key[combination.features[i]];
+    for (std::size_t i = 0; i < combination.features.size(); ++i) {
+        const int value = key[combination.features[i]];
+        if (value < 0) return std::nullopt;
+        index += combination.strides[i] * value;
+    }
     return index;
 }
 
-/// Every set of `strength` features, in lexicographic order, with the tuples that occur in the space open.
-class Occurrences {
-  public:
-    Occurrences(const KeySpace& space, std::size_t strength)
-        : space_(space), strength_(strength), key_(space.feature_count(), -1) {}
-
-    std::vector<Combination> find() {
-        follow(OpenPaths(space_), {});
-        std::vector<Combination> combinations;
-        for (auto& [features, combination] : found_) combinations.push_back(std::move(combination));
-        return combinations;
+Combination combination_of(const KeySpace& space, std::vector<std::size_t> features) {
+    Combination combination{std::move(features), {}, {}};
+    std::size_t tuples = 1;
+    for (std::size_t i = combination.features.size(); i-- > 0;) {
+        combination.strides.insert(combination.strides.begin(), tuples);
+        tuples *= space.value_count(combination.features[i]);
     }
+    combination.open.assign(tuples, 0);
+    return combination;
+}
 
-  private:
-    /// Chooses one more feature than those that are decided in `key_`, and its value, in every way.
-    void follow(const OpenPaths& paths, const std::vector<std::size_t>& chosen) {
-        std::vector<std::size_t> features = chosen;
-        features.push_back(0);
-        const std::size_t last = space_.feature_count() - (strength_ - features.size());
-        for (std::size_t feature = chosen.empty() ? 0 : chosen.back() + 1; feature < last; ++feature) {
-            features.back() = feature;
+/// Every set of `strength` features, in lexicographic order, with the tuples that occur in the space open.
+std::vector<Combination> find_combinations(const KeySpace& space, std::size_t strength) {
+    std::map<std::vector<std::size_t>, Combination> found;
+    PartialKey key(space.feature_count(), -1);
+    // Chooses one more feature than those that are decided in `key`, and its value, in every way.
+    const auto follow = [&](const auto& self, const OpenPaths& paths,
+                            std::vector<std::size_t> features) -> void {
+        const std::size_t first = features.empty() ? 0 : features.back() + 1;
+        features.push_back(first);
+        for (; features.back() + strength < space.feature_count() + features.size(); ++features.back()) {
+            const std::size_t feature = features.back();
+            Combination* whole = nullptr;
+            if (features.size() == strength)
+                whole = &found.try_emplace(features, combination_of(space, features)).first->second;
             const std::vector<char> allowed = paths.allowed(feature);
-            Combination* const whole = features.size() == strength_ ? &combination(features) : nullptr;
             for (std::size_t value = 0; value < allowed.size(); ++value) {
                 if (allowed[value] == 0) continue;
-                key_[feature] = static_cast<int>(value);
+                key[feature] = static_cast<int>(value);
                 if (whole == nullptr) {
                     OpenPaths further = paths;
-                    further.decide(feature, key_[feature]);
-                    follow(further, features);
-                } else if (std::exchange(whole->open[tuple_index(*whole, key_)], 1) == 0) {
+                    further.decide(feature, key[feature]);
+                    self(self, further, features);
+                } else if (std::exchange(whole->open[*tuple_index(*whole, key)], 1) == 0) {
                     ++whole->left;
                 }
             }
         }
-    }
-
-    Combination& combination(const std::vector<std::size_t>& features) {
-        const auto [at, is_new] = found_.try_emplace(features);
-        Combination& combination = at->second;
-        if (!is_new) return combination;
-        combination.features = features;
-        combination.strides.resize(features.size());
-        std::size_t tuples = 1;
-        for (std::size_t i = features.size(); i-- > 0;) {
-            combination.strides[i] = tuples;
-            tuples *= space_.value_count(features[i]);
-        }
-        combination.open.assign(tuples, 0);
-        return combination;
-    }
-
-    const KeySpace& space_;
-    std::size_t strength_;
-    PartialKey key_;
-    std::map<std::vector<std::size_t>, Combination> found_;
-};
+    };
+    follow(follow, OpenPaths(space), {});
+    std::vector<Combination> combinations;
+    for (auto& [features, combination] : found) combinations.push_back(std::move(combination));
+    return combinations;
+}
 
 class Coverer {
   public:
     Coverer(const KeySpace& space, std::size_t strength)
         : space_(space),
-          combinations_(Occurrences(space, strength).find()),
+          combinations_(find_combinations(space, strength)),
           touching_(space.feature_count()),
           nothing_decided_(space) {
-        for (std::size_t i = 0; i < combinations_.size(); ++i)
-            for (std::size_t k = 0; k < combinations_[i].features.size(); ++k)
-                touching_[combinations_[i].features[k]].push_back({i, k});
+        for (const Combination& combination : combinations_)
+            for (std::size_t i = 0; i < combination.features.size(); ++i)
+                touching_[combination.features[i]].push_back({&combination, combination.strides[i]});
     }
 
     std::vector<Key> run() {
@@ -111,7 +101,7 @@ class Coverer {
             mark(best.key);
             keys.push_back(std::move(best.key));
         }
-        std::sort(keys.begin(), keys.end());
+        std::ranges::sort(keys);
         return keys;
     }
 
@@ -128,10 +118,9 @@ class Coverer {
     /// The first tuple still open, as a key to start from. Combinations before the cursor hold none.
     bool next_start(PartialKey& start) {
         for (; cursor_ < combinations_.size(); ++cursor_) {
-            Combination& combination = combinations_[cursor_];
+            const Combination& combination = combinations_[cursor_];
             if (combination.left == 0) continue;
-            while (combination.open[combination.first] == 0) ++combination.first;
-            std::size_t index = combination.first;
+            std::size_t index = std::ranges::find(combination.open, 1) - combination.open.begin();
             start.assign(space_.feature_count(), -1);
             for (std::size_t i = 0; i < combination.features.size(); ++i) {
                 start[combination.features[i]] = static_cast<int>(index / combination.strides[i]);
@@ -160,11 +149,10 @@ class Coverer {
     std::size_t decide_best(PartialKey& key, std::size_t feature, const OpenPaths& paths) {
         const std::vector<char> allowed = paths.allowed(feature);
         const std::vector<std::size_t> gains = gains_of(key, feature);
-        const std::size_t count = allowed.size();
-        const std::size_t first = random_() % count;  // so that ties take turns
+        const std::size_t first = random_() % allowed.size();  // so that ties take turns
         std::size_t best_gain = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t value = (first + i) % count;
+        for (std::size_t i = 0; i < allowed.size(); ++i) {
+            const std::size_t value = (first + i) % allowed.size();
             if (allowed[value] == 0 || (key[feature] >= 0 && gains[value] <= best_gain)) continue;
             key[feature] = static_cast<int>(value);
             best_gain = gains[value];
@@ -173,21 +161,14 @@ class Coverer {
     }
 
     /// Per value of the feature: how many open tuples it makes up with what is decided already.
-    [[nodiscard]] std::vector<std::size_t> gains_of(const PartialKey& key, std::size_t feature) const {
+    [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey key, std::size_t feature) const {
+        key[feature] = 0;
         std::vector<std::size_t> gains(space_.value_count(feature), 0);
-        for (const auto& [number, place] : touching_[feature]) {
-            const Combination& combination = combinations_[number];
-            std::size_t index = 0;
-            bool is_decided = true;
-            for (std::size_t i = 0; i < combination.features.size() && is_decided; ++i) {
-                if (i == place) continue;
-                const int value = key[combination.features[i]];
-                is_decided = value >= 0;
-                index += combination.strides[i] * value;
-            }
-            if (!is_decided) continue;
+        for (const auto& [combination, stride] : touching_[feature]) {
+            const std::optional<std::size_t> first = tuple_index(*combination, key);
+            if (!first) continue;
             for (std::size_t value = 0; value < gains.size(); ++value)
-                gains[value] += combination.open[index + value * combination.strides[place]] != 0 ? 1 : 0;
+                gains[value] += combination->open[*first + value * stride];
         }
         return gains;
     }
@@ -196,18 +177,18 @@ class Coverer {
     void mark(const Key& key) {
         for (std::size_t number = cursor_; number < combinations_.size(); ++number) {
             Combination& combination = combinations_[number];
-            if (std::exchange(combination.open[tuple_index(combination, key)], 0) == 0) continue;
+            if (std::exchange(combination.open[*tuple_index(combination, key)], 0) == 0) continue;
             if (--combination.left > 0) continue;
             for (const std::size_t feature : combination.features)
                 std::erase_if(touching_[feature],
-                              [&](const Touch& touch) { return touch.combination == number; });
+                              [&](const Touch& touch) { return touch.combination == &combination; });
         }
     }
 
-    /// A combination that names a feature, and which of its features that is.
+    /// A combination that names a feature, and how far that feature's next value is in it.
     struct Touch {
-        std::size_t combination;
-        std::size_t place;
+        const Combination* combination;
+        std::size_t stride;
     };
 
     const KeySpace& space_;

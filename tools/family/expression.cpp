@@ -1,8 +1,8 @@
 #include "family/expression.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,20 +18,22 @@ using Comparison = Expression::Comparison;
 /// Parentheses and negations nested deeper than this are refused rather than followed into a stack overflow.
 constexpr int deepest_nesting = 200;
 
-/// Recursive descent over one condition. The first error is kept; parsing then runs to its end without
-/// effect.
+/// Recursive descent over one condition. The first error is thrown, and caught by parse().
 class Parser {
   public:
     Parser(std::string_view text, const std::vector<Feature>& features, Place place, Fault fault)
         : text_(text), features_(features), place_(std::move(place)), fault_(fault) {}
 
     Result<Expression> parse() {
-        Expression expression = disjunction();
-        skip_blanks();
-        if (at_ < text_.size())
-            error(fmt::format("unexpected '{}'", text_.substr(at_, 1)), "join conditions by && or ||");
-        if (error_) return fail(*error_);
-        return expression;
+        try {
+            Expression expression = disjunction();
+            skip_blanks();
+            if (at_ < text_.size())
+                stop(fmt::format("unexpected '{}'", text_.substr(at_, 1)), "join conditions by && or ||");
+            return expression;
+        } catch (Diagnostic& error) {
+            return fail(std::move(error));
+        }
     }
 
   private:
@@ -39,28 +41,21 @@ class Parser {
     Expression conjunction() { return chain("&&", Expression::Kind::conjunction, &Parser::negation); }
 
     Expression chain(std::string_view symbol, Expression::Kind kind, Expression (Parser::*part)()) {
-        Expression first = (this->*part)();
-        if (!accepts(symbol)) return first;
-        Expression whole;
-        whole.kind = kind;
-        whole.parts.push_back(std::make_shared<const Expression>(std::move(first)));
-        do {
-            whole.parts.push_back(std::make_shared<const Expression>((this->*part)()));
-        } while (accepts(symbol));
-        return whole;
+        std::vector<Expression> parts = {(this->*part)()};
+        while (accepts(symbol)) parts.push_back((this->*part)());
+        if (parts.size() == 1) return std::move(parts.front());
+        return {.kind = kind, .parts = std::move(parts)};
     }
 
     Expression negation() {
-        if (error_) return {};
-        if (++depth_ > deepest_nesting) error("the condition is nested too deeply", "simplify it");
+        if (++depth_ > deepest_nesting) stop("the condition is nested too deeply", "simplify it");
         Expression expression;
-        if (!error_ && accepts("!")) {
-            expression.kind = Expression::Kind::negation;
-            expression.parts.push_back(std::make_shared<const Expression>(negation()));
-        } else if (!error_ && accepts("(")) {
+        if (accepts("!")) {
+            expression = negated(negation());
+        } else if (accepts("(")) {
             expression = disjunction();
-            if (!accepts(")")) error("missing ')'", "close the parenthesis");
-        } else if (!error_) {
+            if (!accepts(")")) stop("missing ')'", "close the parenthesis");
+        } else {
             expression = compare();
         }
         --depth_;
@@ -68,26 +63,23 @@ class Parser {
     }
 
     Expression compare() {
-        Expression expression;
-        expression.kind = Expression::Kind::compare;
-        expression.features = sum();
+        Expression expression{.kind = Expression::Kind::compare, .features = sum()};
         expression.comparison = comparison();
-        if (!error_) check_kinds(expression.features, expression.comparison);
-        if (!error_ && features_[expression.features.front()].kind == FeatureKind::count && next_is_count()) {
+        check_kinds(expression.features, expression.comparison);
+        const Feature& first = features_[expression.features.front()];
+        if (first.kind == FeatureKind::count && next_is_count()) {
             expression.subtracted = sum();
-            if (!error_) check_kinds(expression.subtracted, expression.comparison);
-        } else if (!error_) {
-            expression.value = value(features_[expression.features.front()]);
+            check_kinds(expression.subtracted, expression.comparison);
+        } else {
+            expression.value = value(first);
         }
         return expression;
     }
 
     /// Features joined by "+".
     std::vector<int> sum() {
-        std::vector<int> features;
-        do {
-            features.push_back(feature());
-        } while (!error_ && accepts("+"));
+        std::vector<int> features = {feature()};
+        while (accepts("+")) features.push_back(feature());
         return features;
     }
 
@@ -101,27 +93,20 @@ class Parser {
     /// What follows, up to the next character that no name has.
     [[nodiscard]] std::string_view identifier() const {
         const std::string_view rest = text_.substr(at_);
-        const auto end = std::find_if_not(rest.begin(), rest.end(), is_identifier_part);
-        return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+        const auto end = std::ranges::find_if_not(rest, is_identifier_part);
+        return rest.substr(0, end - rest.begin());
     }
 
     int feature() {
-        const std::string name(word("a feature's name"));
-        if (error_) return 0;
+        const std::string_view name = word("a feature's name");
         if (const auto index = index_of(features_, name)) return *index;
-        error(fmt::format("unknown feature '{}'", name), help_for(features_, name), at_ - name.size());
-        return 0;
+        stop(fmt::format("unknown feature '{}'", name), help_for(features_, name), name.size());
     }
 
     Comparison comparison() {
-        constexpr std::pair<std::string_view, Comparison> symbols[] = {
-            {"==", Comparison::equal},         {"!=", Comparison::not_equal}, {"<=", Comparison::less_equal},
-            {">=", Comparison::greater_equal}, {"<", Comparison::less},       {">", Comparison::greater}};
-        for (const auto& [symbol, meaning] : symbols) {
-            if (accepts(symbol)) return meaning;
-        }
-        error("expected a comparison", "one of == != < <= > >=");
-        return Comparison::equal;
+        for (std::size_t i = std::size(kComparisonSymbols); i-- > 0;)  // backwards: "<" begins "<="
+            if (accepts(kComparisonSymbols[i])) return static_cast<Comparison>(i);
+        stop("expected a comparison", "one of == != < <= > >=");
     }
 
     void check_kinds(const std::vector<int>& summands, Comparison comparison) {
@@ -129,31 +114,26 @@ class Parser {
         for (const int index : summands) {
             const Feature& feature = features_[index];
             if (feature.kind == FeatureKind::count) continue;
-            if (summands.size() > 1) {
-                error(fmt::format("'{}' is not a count and cannot be added", feature.name),
-                      "add counts only");
-            } else if (!equality) {
-                error(fmt::format("'{}' is not a count and has no order", feature.name),
-                      "compare it by == or !=");
-            }
+            if (summands.size() > 1)
+                stop(fmt::format("'{}' is not a count and cannot be added", feature.name), "add counts only");
+            if (!equality)
+                stop(fmt::format("'{}' is not a count and has no order", feature.name),
+                     "compare it by == or !=");
         }
     }
 
     int value(const Feature& feature) {
-        const std::string text(word("a value"));
-        if (error_) return 0;
+        const std::string_view text = word("a value");
         if (feature.kind != FeatureKind::count) {
             if (const auto index = feature.index_of(text)) return *index;
-            error(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
-                  at_ - text.size());
-            return 0;
+            stop(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
+                 text.size());
         }
         int number = 0;
         const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (failure == std::errc{} && end == text.data() + text.size()) return number;
-        error(fmt::format("'{}' is not a whole number", text), "counts compare with whole numbers",
-              at_ - text.size());
-        return 0;
+        stop(fmt::format("'{}' is not a whole number", text), "counts compare with whole numbers",
+             text.size());
     }
 
     std::string_view word(std::string_view what) {
@@ -161,7 +141,7 @@ class Parser {
         const std::string_view found = identifier();
         at_ += found.size();
         if (found.empty())
-            error(fmt::format("expected {}", what), "a condition reads like 'fog == linear && point <= 2'");
+            stop(fmt::format("expected {}", what), "a condition reads like 'fog == linear && point <= 2'");
         return found;
     }
 
@@ -177,16 +157,14 @@ class Parser {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n')) ++at_;
     }
 
-    void error(std::string message, std::string help, std::size_t at = std::string_view::npos) {
-        if (error_) return;
-        Diagnostic diagnostic;
-        diagnostic.fault = fault_;
-        diagnostic.place = place_;
-        const std::size_t offset = std::min(at == std::string_view::npos ? at_ : at, text_.size());
-        if (place_.column > 0) diagnostic.place.column += static_cast<int>(offset);
-        diagnostic.message = fmt::format("{} in the condition '{}'", message, text_);
-        diagnostic.help = std::move(help);
-        error_ = std::move(diagnostic);
+    /// The error stands `back` characters before what follows.
+    [[noreturn]] void stop(std::string_view message, std::string help, std::size_t back = 0) const {
+        Place place = place_;
+        if (place.column > 0) place.column += static_cast<int>(at_ - back);
+        throw Diagnostic{.fault = fault_,
+                         .place = place,
+                         .message = fmt::format("{} in the condition '{}'", message, text_),
+                         .help = std::move(help)};
     }
 
     std::string_view text_;
@@ -195,27 +173,26 @@ class Parser {
     Fault fault_;
     std::size_t at_ = 0;
     int depth_ = 0;
-    std::optional<Diagnostic> error_;
 };
 
 }  // namespace
 
 bool compare(int left, Expression::Comparison comparison, int right) {
-    switch (comparison) {
-        case Comparison::equal:
-            return left == right;
-        case Comparison::not_equal:
-            return left != right;
-        case Comparison::less:
-            return left < right;
-        case Comparison::less_equal:
-            return left <= right;
-        case Comparison::greater:
-            return left > right;
-        case Comparison::greater_equal:
-            return left >= right;
-    }
-    return false;
+    const std::array holds = {left == right, left != right, left<right, left <= right, left> right,
+                              left >= right};
+    return holds[static_cast<std::size_t>(comparison)];
+}
+
+Expression negated(Expression expression) {
+    constexpr std::array opposites = {Comparison::not_equal,     Comparison::equal,
+                                      Comparison::greater_equal, Comparison::greater,
+                                      Comparison::less_equal,    Comparison::less};
+    expression.comparison = opposites[static_cast<std::size_t>(expression.comparison)];
+    if (expression.kind == Expression::Kind::compare) return expression;
+    const bool was_all = expression.kind == Expression::Kind::conjunction;
+    expression.kind = was_all ? Expression::Kind::disjunction : Expression::Kind::conjunction;
+    for (Expression& part : expression.parts) part = negated(std::move(part));
+    return expression;
 }
 
 Result<Expression> parse_expression(std::string_view text, const std::vector<Feature>& features,
@@ -224,24 +201,15 @@ Result<Expression> parse_expression(std::string_view text, const std::vector<Fea
 }
 
 bool holds(const Expression& expression, const std::vector<int>& key) {
-    const auto part_holds = [&](const auto& part) { return holds(*part, key); };
-    switch (expression.kind) {
-        case Expression::Kind::constant:
-            return expression.constant;
-        case Expression::Kind::compare: {
-            int sum = 0;
-            for (const int feature : expression.features) sum += key[feature];
-            for (const int feature : expression.subtracted) sum -= key[feature];
-            return compare(sum, expression.comparison, expression.value);
-        }
-        case Expression::Kind::conjunction:
-            return std::all_of(expression.parts.begin(), expression.parts.end(), part_holds);
-        case Expression::Kind::disjunction:
-            return std::any_of(expression.parts.begin(), expression.parts.end(), part_holds);
-        case Expression::Kind::negation:
-            return !holds(*expression.parts.front(), key);
-    }
-    return false;
+    const auto part_holds = [&](const Expression& part) { return holds(part, key); };
+    if (expression.kind == Expression::Kind::conjunction)
+        return std::ranges::all_of(expression.parts, part_holds);
+    if (expression.kind == Expression::Kind::disjunction)
+        return std::ranges::any_of(expression.parts, part_holds);
+    int sum = 0;
+    for (const int feature : expression.features) sum += key[feature];
+    for (const int feature : expression.subtracted) sum -= key[feature];
+    return compare(sum, expression.comparison, expression.value);
 }
 
 }  // namespace gobo

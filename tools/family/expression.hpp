@@ -1,7 +1,6 @@
 // Conditions over the features of a family: `shading == hybrid && directional + point + spot > 12`.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +11,7 @@ namespace gobo {
 
 struct Feature;
 
-/// A condition over a key. Immutable; copies share their parts.
+/// A condition over a key. Negations are carried out as it is read.
 ///
 /// Grammar: or  := and ("||" and)*        and := not ("&&" not)*
 ///          not := "!" not | "(" or ")" | sum op (value | sum)
@@ -20,17 +19,22 @@ struct Feature;
 ///          op  := "==" | "!=" | "<" | "<=" | ">" | ">="
 /// Choices and defines compare with == and != only; counts compare with a whole number or with other counts.
 struct Expression {
-    enum class Kind { constant, compare, conjunction, disjunction, negation };
+    enum class Kind { compare, conjunction, disjunction };
     enum class Comparison { equal, not_equal, less, less_equal, greater, greater_equal };
 
-    Kind kind = Kind::constant;
-    bool constant = true;                       ///< constant
-    std::vector<int> features;                  ///< compare: the features whose values are added
-    std::vector<int> subtracted;                ///< compare: those whose values are taken off that sum
+    Kind kind = Kind::conjunction;
+    std::vector<int> features = {};             ///< compare: the features whose values are added
+    std::vector<int> subtracted = {};           ///< compare: those whose values are taken off that sum
     Comparison comparison = Comparison::equal;  ///< compare
     int value = 0;                              ///< compare: a count, or the index of a choice's value
-    std::vector<std::shared_ptr<const Expression>> parts;  ///< conjunction, disjunction, negation
+    std::vector<Expression> parts = {};         ///< conjunction (of none: true), disjunction (of none: false)
 };
+
+/// By Comparison.
+inline constexpr std::string_view kComparisonSymbols[] = {"==", "!=", "<", "<=", ">", ">="};
+
+/// The condition that holds where this one does not.
+[[nodiscard]] Expression negated(Expression expression);
 
 /// Reads a condition. `place` is that of its first character. An unknown feature or value suggests the
 /// nearest; the fault is that of the caller's choosing (usage for --where, input for a family file).

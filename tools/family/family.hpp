@@ -44,9 +44,6 @@ struct Feature {
     [[nodiscard]] std::optional<int> index_of(std::string_view value) const;
     /// What to write where there is no such value.
     [[nodiscard]] std::string help_for(std::string_view value) const;
-
-    /// The indices of the values as the family lists them: most accurate first where the role is quality.
-    [[nodiscard]] std::vector<int> listed() const;
 };
 
 [[nodiscard]] std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name);
@@ -100,10 +97,10 @@ struct Domain {
 
 /// What `gobo render` feeds a family: attributes and uniforms by name, in TOML as written under [render].
 struct RenderValue {
-    std::string name;    ///< reflected name of an attribute or uniform ("PointLights.lights[0].position")
-    std::string source;  ///< a value the renderer supplies ("normal", "model_view"); empty: `numbers`
-    std::vector<double> numbers;
-    Place place;
+    std::string name = {};    ///< reflected, of an attribute or uniform ("PointLights.lights[0].position")
+    std::string source = {};  ///< a value the renderer supplies ("normal", "model_view"); empty: `numbers`
+    std::vector<double> numbers = {};
+    Place place = {};
 };
 
 /// What holds of a family's permutations whatever they compute, and needs no oracle to be tried.
@@ -121,19 +118,27 @@ struct Relation {
     int feature = -1;                      ///< off, finer: its index
     std::vector<RenderValue> at;           ///< off: where it is off
     std::optional<Expression> when;        ///< the keys of which it holds; all where there is none
+    std::string text;  ///< as the family file states it: `any_order = "uLights"`, `off = "fog"`, `turn`
     Place place;
 };
 
-/// As the family file states it: `any_order = "uLights"`, `off = "fog"`.
-[[nodiscard]] std::string to_text(const Relation& relation, const std::vector<Feature>& features);
+/// Key text and where it stands: a file and line, or nowhere for one of the command line.
+struct NamedKey {
+    std::string text;
+    Place place = {};
+};
 
-/// A way of naming keys; see selection.hpp. The family's own is used where the command line names none.
-struct DefaultSelection {
-    std::vector<std::string> keys;
+/// Which keys are meant. The parts unite; `where` restricts what `all` and `cover` range over, and filters
+/// the named keys.
+struct Selection {
+    std::vector<NamedKey> keys = {};
     bool all = false;
-    int cover = 0;
-    std::vector<std::string> over;
-    std::string where;
+    int cover = 0;                       ///< strength; 0: no cover
+    std::vector<std::string> over = {};  ///< features that `all` and `cover` range over; empty: all of them
+    std::string where = {};
+    bool excluded = false;  ///< `all` and `cover` take excluded values too
+
+    [[nodiscard]] bool names_nothing() const { return keys.empty() && !all && cover == 0; }
 };
 
 /// A set of shaders that share templates.
@@ -147,8 +152,8 @@ struct Family {
     std::vector<Varying> varyings;  ///< single ones by location, then counted ones by name
     std::vector<Domain> domains;    ///< sorted by name
     std::vector<RenderValue> render;
-    std::vector<Relation> relations;  ///< in the order of the file
-    std::optional<DefaultSelection> default_selection;
+    std::vector<Relation> relations;             ///< in the order of the file
+    std::optional<Selection> default_selection;  ///< where the command line names no keys
 
     [[nodiscard]] std::optional<int> index_of(std::string_view feature) const {
         return gobo::index_of(features, feature);

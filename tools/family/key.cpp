@@ -1,7 +1,6 @@
 #include "family/key.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,17 +9,9 @@
 
 namespace gobo {
 std::optional<int> Feature::index_of(std::string_view value) const {
-    const auto found = std::find(values.begin(), values.end(), value);
+    const auto found = std::ranges::find(values, value);
     if (found == values.end()) return std::nullopt;
     return static_cast<int>(found - values.begin());
-}
-
-std::vector<int> Feature::listed() const {
-    std::vector<int> order(values.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto last = order.begin() + std::min<std::ptrdiff_t>(default_place + 1, std::ssize(order));
-    if (default_place > 0) std::rotate(order.begin(), order.begin() + 1, last);
-    return order;
 }
 
 std::string Feature::help_for(std::string_view value) const {
@@ -31,8 +22,7 @@ std::string Feature::help_for(std::string_view value) const {
 }
 
 std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name) {
-    const auto found = std::find_if(features.begin(), features.end(),
-                                    [&](const Feature& feature) { return feature.name == name; });
+    const auto found = std::ranges::find(features, name, &Feature::name);
     if (found == features.end()) return std::nullopt;
     return static_cast<int>(found - features.begin());
 }
@@ -41,7 +31,7 @@ std::string help_for(const std::vector<Feature>& features, std::string_view name
     std::vector<std::string> names;
     for (const Feature& feature : features) {
         names.push_back(feature.name);
-        if (std::find(feature.old_names.begin(), feature.old_names.end(), name) != feature.old_names.end())
+        if (std::ranges::count(feature.old_names, name) > 0)
             return fmt::format("'{}' is now '{}'", name, feature.name);
     }
     return suggestion(name, names);
@@ -52,40 +42,33 @@ Key default_key(const Family& family) {
 }
 
 std::string key_text(const Family& family, const Key& key) {
-    std::string text;
+    std::vector<std::string> words;
     for (std::size_t i = 0; i < key.size(); ++i)
-        if (key[i] != 0)
-            text +=
-                (text.empty() ? "" : " ") + family.features[i].name + '=' + family.features[i].values[key[i]];
-    return text.empty() ? "default" : text;
+        if (key[i] != 0) words.push_back(family.features[i].name + '=' + family.features[i].values[key[i]]);
+    return words.empty() ? "default" : join(words, " ");
 }
 
 Result<Key> parse_key(const Family& family, std::string_view text, const Place& place) {
     const auto refuse = [&](std::string message, std::string help) {
-        Diagnostic diagnostic;
-        diagnostic.fault = Fault::usage;
-        diagnostic.place = place;
-        if (!place.file.empty()) diagnostic.quoted_line = text;
-        diagnostic.message = std::move(message);
-        diagnostic.help = std::move(help);
-        return fail(std::move(diagnostic));
+        return fail({.fault = Fault::usage,
+                     .place = place,
+                     .message = std::move(message),
+                     .quoted_line = std::string(place.file.empty() ? "" : text),
+                     .help = std::move(help)});
     };
     Key key = default_key(family);
     std::vector<bool> named(key.size(), false);
     std::string blanks_folded(trim(text));
-    std::replace_if(
-        blanks_folded.begin(), blanks_folded.end(), [](char c) { return c == '\t' || c == '\r'; }, ' ');
+    for (char& character : blanks_folded)
+        if (character == '\t' || character == '\r') character = ' ';
     if (blanks_folded == "default") return key;
     for (const std::string& word : split(blanks_folded, ' ')) {
         const auto equals = word.find('=');
         if (equals == std::string::npos) {
-            std::string example = "default";
-            if (!family.features.empty())  // not the default, where there is another value
-                example =
-                    fmt::format("{}={}", family.features[0].name,
-                                family.features[0].values[family.features[0].values.size() > 1 ? 1 : 0]);
+            Key example = default_key(family);
+            if (!key.empty() && family.features.front().values.size() > 1) example.front() = 1;
             return refuse(fmt::format("'{}' is not of the form feature=value", word),
-                          fmt::format("write a key like '{}'", example));
+                          fmt::format("write a key like '{}'", key_text(family, example)));
         }
         const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
         const auto index = family.index_of(name);
@@ -106,8 +89,7 @@ Result<Key> parse_key(const Family& family, std::string_view text, const Place& 
 }
 
 bool applies_in(const Rule& rule, std::string_view dialect) {
-    return rule.dialects.empty() ||
-           std::find(rule.dialects.begin(), rule.dialects.end(), dialect) != rule.dialects.end();
+    return rule.dialects.empty() || std::ranges::count(rule.dialects, dialect) > 0;
 }
 
 Key canonical(const Family& family, Key key, std::string_view dialect) {

@@ -1,15 +1,16 @@
 #include "family/key_space.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
+#include <random>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/random.hpp"
 #include "family/condition_pool.hpp"
 #include "family/key.hpp"
 
@@ -54,50 +55,41 @@ std::vector<int> ordered(std::vector<int> order, const std::vector<char>& is_fix
     return order;
 }
 
-struct HashOfIds {
-    std::size_t operator()(const std::vector<Id>& ids) const {
-        std::size_t hash = ids.size();
-        for (const Id id : ids) hash = (hash ^ (hash >> 29U)) * 0xBF58476D1CE4E5B9U + id;
-        return hash ^ (hash >> 32U);
-    }
+struct HashOfNumbers {
+    std::size_t operator()(const std::vector<int>& numbers) const { return hash_of(numbers, numbers.size()); }
 };
+using NumberedLists = std::unordered_map<std::vector<int>, int, HashOfNumbers>;
 
 /// What is left of the demands that are open at a level, in their order: a node before merging.
 using State = std::vector<Id>;
-using States = std::unordered_map<State, int, HashOfIds>;
+using States = NumberedLists;
 
 /// Names the rules that tell most of a level's states apart.
 tl::unexpected<Diagnostics> too_large(const Family& family, const std::vector<const Demand*>& open,
                                       const States& states) {
-    std::map<const Rule*, std::size_t> kinds;
+    std::map<const Rule*, int> kinds;
     for (std::size_t i = 0; i < open.size(); ++i) {
         std::set<Id> left;
         for (const auto& [state, node] : states) left.insert(state[i]);
-        kinds[open[i]->rule] = std::max(kinds[open[i]->rule], left.size());
+        kinds[open[i]->rule] = std::max(kinds[open[i]->rule], static_cast<int>(left.size()));
     }
-    std::vector<std::pair<std::size_t, const Rule*>> rules;
-    for (const auto& [rule, count] : kinds) rules.emplace_back(count, rule);
-    const auto place_of = [](const Rule* rule) { return rule == nullptr ? Place{} : rule->place; };
-    std::sort(rules.begin(), rules.end(), [&](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : place_of(a.second).line < place_of(b.second).line;
-    });
+    std::vector<std::tuple<int, int, const Rule*>> rules;  // those with most kinds first, then by line
+    for (const auto& [rule, count] : kinds)
+        rules.emplace_back(-count, rule == nullptr ? 0 : rule->place.line, rule);
+    std::ranges::sort(rules);
+    std::vector<std::string> names;
+    for (const auto& [count, line, rule] : rules)
+        names.push_back(rule == nullptr ? "the --where" : fmt::format("{}:{}", rule->place.file, line));
     constexpr std::size_t most_named = 3;
-    std::string names;
-    for (const auto& [count, rule] : std::span(rules).first(std::min(rules.size(), most_named)))
-        names += (names.empty() ? "" : ", ") +
-                 (rule == nullptr ? "the --where" : fmt::format("{}:{}", rule->place.file, rule->place.line));
-    if (rules.size() > most_named) names += fmt::format(" and {} more", rules.size() - most_named);
-    Diagnostic diagnostic;
-    if (!rules.empty()) diagnostic.place = place_of(rules.front().second);
-    diagnostic.message = fmt::format(
-        "the conditions of family '{}' tie too many values together to count or cover its keys", family.name);
-    diagnostic.help = fmt::format("simplify {}, or vary fewer features with --over", names);
-    return fail(std::move(diagnostic));
-}
-
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
-    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    return a > most - b ? most : a + b;
+    const std::size_t named = std::min(names.size(), most_named);
+    const Rule* const first = rules.empty() ? nullptr : std::get<const Rule*>(rules.front());
+    return fail(
+        first == nullptr ? Place() : first->place, {},
+        fmt::format("the conditions of family '{}' tie too many values together to count or cover its keys",
+                    family.name),
+        fmt::format("simplify {}{}, or vary fewer features with --over",
+                    fmt::join(std::span(names).first(named), ", "),
+                    named < names.size() ? fmt::format(" and {} more", names.size() - named) : ""));
 }
 
 }  // namespace
@@ -110,13 +102,13 @@ class KeySpace::Builder {
         for (const Feature& feature : family.features) allowed_.emplace_back(feature.values.size(), 1);
         for (const Rule& rule : family.rules) {
             if (!applies_in(rule, dialect)) continue;
-            if (rule.kind == Rule::Kind::forbid) demand(rule.when, false, ConditionPool::never, &rule);
+            const Expression unless = negated(rule.when);
+            if (rule.kind == Rule::Kind::forbid) demand(unless, ConditionPool::never, &rule);
             // What a default rule asks is already so.
             for (const int feature : rule.defaults)
-                demand(rule.when, false, pool_.compare({feature}, Comparison::equal, 0), &rule);
+                demand(unless, pool_.compare({feature}, Comparison::equal, 0), &rule);
         }
-        for (const Expression& condition : limits.where)
-            demand(condition, true, ConditionPool::never, nullptr);
+        for (const Expression& condition : limits.where) demand(condition, ConditionPool::never, nullptr);
         for (int i = 0; i < std::ssize(family.features); ++i) {
             const Feature& feature = family.features[i];
             if (!limits.over.empty() && std::ranges::find(limits.over, i) == limits.over.end())
@@ -139,31 +131,25 @@ class KeySpace::Builder {
         std::vector<int> natural(family_.features.size());
         std::iota(natural.begin(), natural.end(), 0);
         for (const std::size_t fraction : {32U, 8U}) {
-            RandomNumbers<SplitMix64> random(1);
+            std::mt19937 random(1);
             std::vector<int> order = natural;
             for (int i = 0; i < orders; ++i) {
                 if (Result<KeySpace> space = build(order, fraction)) return space;
-                for (std::size_t k = order.size(); k > 1; --k)
-                    std::swap(order[k - 1], order[random.bits() % k]);
+                for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random() % k]);
             }
         }
         return build(natural, 1);
     }
 
   private:
-    /// That the expression be true (or false), or else `otherwise` hold. In small parts: `a && b` is demanded
-    /// as a and as b, the negation of `a || b` as that of each, so that no part is open for longer than its
-    /// own features ask.
-    void demand(const Expression& expression, bool truth, Id otherwise, const Rule* rule) {
-        using Kind = Expression::Kind;
-        if (expression.kind == Kind::negation)
-            return demand(*expression.parts.front(), !truth, otherwise, rule);
-        if (expression.kind == (truth ? Kind::conjunction : Kind::disjunction)) {
-            for (const auto& part : expression.parts) demand(*part, truth, otherwise, rule);
+    /// That the expression, or else `otherwise`, hold. In small parts: `a && b` is demanded as a and as b, so
+    /// that no part is open for longer than its own features ask.
+    void demand(const Expression& expression, Id otherwise, const Rule* rule) {
+        if (expression.kind == Expression::Kind::conjunction) {
+            for (const Expression& part : expression.parts) demand(part, otherwise, rule);
             return;
         }
-        Id condition = pool_.add(expression);
-        condition = pool_.disjoin({truth ? condition : pool_.negate(condition), otherwise});
+        const Id condition = pool_.disjoin({pool_.add(expression), otherwise});
         is_empty_ = is_empty_ || condition == ConditionPool::never;
         const auto is_it = [&](const Demand& known) { return known.condition == condition; };
         if (std::ranges::any_of(demands_, is_it)) return;
@@ -261,17 +247,12 @@ void KeySpace::merge_equal_nodes() {
     std::vector<int> merged(node_counts_.back(), 0);  // of the level below: each node's new number, or dead
     for (std::size_t level = feature_count(); level-- > 0;) {
         const std::size_t values = value_counts_[feature_at_[level]];
-        std::unordered_map<std::vector<Id>, int, HashOfIds> known;
+        NumberedLists known;
         std::vector<int> kept, numbers;
         for (std::size_t node = 0; node < node_counts_[level]; ++node) {
-            std::vector<Id> row;
-            bool is_dead = true;
-            for (const int below : next(level, node)) {
-                const int target = below == dead ? dead : merged[below];
-                row.push_back(static_cast<Id>(target));
-                is_dead = is_dead && target == dead;
-            }
-            if (is_dead) {
+            std::vector<int> row;
+            for (const int below : next(level, node)) row.push_back(below == dead ? dead : merged[below]);
+            if (std::ranges::count(row, dead) == std::ssize(row)) {
                 numbers.push_back(dead);
                 continue;
             }
@@ -285,13 +266,13 @@ void KeySpace::merge_equal_nodes() {
     }
 }
 
-std::uint64_t KeySpace::count() const {
-    std::vector<std::uint64_t> below(node_counts_.back(), 1);
+WholeNumber KeySpace::count() const {
+    std::vector<WholeNumber> below(node_counts_.back(), 1);
     for (std::size_t level = feature_count(); level-- > 0;) {
-        std::vector<std::uint64_t> here(node_counts_[level], 0);
+        std::vector<WholeNumber> here(node_counts_[level]);
         for (std::size_t node = 0; node < here.size(); ++node)
             for (const int target : next(level, node))
-                if (target != dead) here[node] = saturating_sum(here[node], below[target]);
+                if (target != dead) here[node] += below[target];
         below = std::move(here);
     }
     return below.empty() ? 0 : below.front();
@@ -335,38 +316,24 @@ std::vector<char> OpenPaths::allowed(std::size_t feature) const {
     return result;
 }
 
-std::span<const int> OpenPaths::ways(std::size_t level, int node) const {
-    const std::span<const int> next = space_->next(level, node);
-    return decided_[level] < 0 ? next : next.subspan(decided_[level], 1);
-}
-
-bool OpenPaths::keep(std::size_t level, const std::vector<char>& kept) {
-    std::vector<int>& nodes = open_[level];
-    const auto closed = [&](int node) { return kept[node] == 0; };
-    const std::size_t before = nodes.size();
-    for (const int node : nodes) is_open_[level][node] = kept[node];
-    std::erase_if(nodes, closed);
-    return nodes.size() < before;
+bool OpenPaths::close(std::size_t level, bool below) {
+    const std::size_t closed = level + (below ? 1 : 0);
+    std::vector<char> kept(is_open_[closed].size(), 0);
+    for (const int node : open_[level]) {
+        const std::span<const int> next = space_->next(level, node);
+        for (const int way : decided_[level] < 0 ? next : next.subspan(decided_[level], 1))
+            if (way != KeySpace::dead && is_open_[level + 1][way] != 0) kept[below ? way : node] = 1;
+    }
+    for (const int node : open_[closed]) is_open_[closed][node] = kept[node];
+    return std::erase_if(open_[closed], [&](int node) { return kept[node] == 0; }) > 0;
 }
 
 void OpenPaths::decide(std::size_t feature, int value) {
-    decided_[levels_[feature]] = value;
-    std::vector<char> kept;
-    bool changes = true;
-    for (std::size_t level = levels_[feature]; level < levels_.size() && changes; ++level) {
-        kept.assign(is_open_[level + 1].size(), 0);  // those that a way leads to
-        for (const int node : open_[level])
-            for (const int next : ways(level, node))
-                if (next != KeySpace::dead) kept[next] = is_open_[level + 1][next];
-        changes = keep(level + 1, kept);
+    const std::size_t start = levels_[feature];
+    decided_[start] = value;
+    for (std::size_t level = start; level < levels_.size() && close(level, true); ++level) {
     }
-    changes = true;
-    for (std::size_t level = levels_[feature] + 1; level-- > 0 && changes;) {
-        kept.assign(is_open_[level].size(), 0);  // those that lead on
-        for (const int node : open_[level])
-            for (const int next : ways(level, node))
-                if (next != KeySpace::dead && is_open_[level + 1][next] != 0) kept[node] = 1;
-        changes = keep(level, kept);
+    for (std::size_t level = start + 1; level-- > 0 && close(level, false);) {
     }
 }
 

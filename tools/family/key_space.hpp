@@ -2,11 +2,11 @@
 // enumerating.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/whole_number.hpp"
 #include "family/family.hpp"
 
 namespace gobo {
@@ -37,8 +37,8 @@ class KeySpace {
     static constexpr std::size_t kMostNodes = 250'000;
     static constexpr std::size_t kMostBranches = 4'000'000;
 
-    /// How many keys there are; the largest 64-bit number where there are more.
-    [[nodiscard]] std::uint64_t count() const;
+    /// How many keys there are.
+    [[nodiscard]] WholeNumber count() const;
 
     /// All keys, in lexicographic order of their value indices.
     [[nodiscard]] std::vector<Key> keys() const;
@@ -86,10 +86,9 @@ class OpenPaths {
     void decide(std::size_t feature, int value);
 
   private:
-    /// Where a node leads to by what is decided of its level.
-    [[nodiscard]] std::span<const int> ways(std::size_t level, int node) const;
-    /// Closes the nodes of a level that are not `kept`; whether there were any.
-    bool keep(std::size_t level, const std::vector<char>& kept);
+    /// Closes the nodes of a level, or of the one `below` it, that no way between the two joins to an open
+    /// one; whether there were any.
+    bool close(std::size_t level, bool below);
 
     const KeySpace* space_;
     std::vector<std::size_t> levels_;         ///< of the features

@@ -18,41 +18,34 @@ constexpr std::int64_t kLargestLocation = 255;
 constexpr std::int64_t kLargestVector = 4;
 
 /// `location = 3`, or `count = "point + spot"`: the counts by whose sum a varying is an array.
-void read_location(TomlReader& reader, const toml::table& row, const std::string& what,
-                   const std::vector<Feature>& features, Varying& varying) {
-    const toml::node* location = row.get("location");
-    const toml::node* count = row.get("count");
-    if (location == nullptr && count == nullptr)
-        reader.error(row, what + " lacks its location", "add location = 0 or more");
-    if (location != nullptr) {
-        const std::int64_t number = reader.integer(row, "location").value_or(-1);
+void read_location(const TomlTable& table, const std::vector<Feature>& features, Varying& varying) {
+    const bool is_counted = table.has("count");
+    if (!table.has("location") && !is_counted)
+        table.error({}, "lacks its location", "add location = 0 or more");
+    if (table.has("location")) {
+        const std::int64_t number = table.integer("location").value_or(-1);
         varying.location = static_cast<int>(number);
         if (number < 0 || number > kLargestLocation)
-            reader.error(*location, what + " has no valid location",
-                         fmt::format("write location = N with N from 0 to {}", kLargestLocation));
-        if (count != nullptr)
-            reader.error(*location, what + " has a location and a count",
-                         "leave the location out: counted varyings lie behind the others");
+            table.error("location", "has no valid location",
+                        fmt::format("write location = N with N from 0 to {}", kLargestLocation));
+        if (is_counted)
+            table.error("location", "has a location and a count",
+                        "leave the location out: counted varyings lie behind the others");
     }
-    if (count != nullptr) {
-        std::vector<std::string> known;
-        for (const Feature& feature : features)
-            if (feature.kind == FeatureKind::count) known.push_back(feature.name);
-        for (const std::string& name : split(reader.string(row, "count").value_or(""), '+')) {
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                reader.error(*count, fmt::format("{} is counted by '{}', which is not a count", what, name),
-                             suggestion(name, known));
-            else
-                varying.counts.push_back(*index_of(features, name));
-        }
-    }
-    if (const toml::node* values = row.get("values_per_element")) {
-        const std::int64_t number = reader.integer(row, "values_per_element").value_or(0);
-        varying.values_per_element = static_cast<int>(number);
-        if (count == nullptr || number < 1 || number > kLargestVector)
-            reader.error(*values, what + " has no valid values_per_element",
-                         fmt::format("write a number from 1 to {} beside a count", kLargestVector));
-    }
+    std::vector<std::string> known;
+    for (const Feature& feature : features)
+        if (feature.kind == FeatureKind::count) known.push_back(feature.name);
+    for (const std::string& name : split(table.string("count").value_or(""), '+'))
+        if (std::ranges::count(known, name) > 0)
+            varying.counts.push_back(*index_of(features, name));
+        else
+            table.error("count", fmt::format("is counted by '{}', which is not a count", name),
+                        suggestion(name, known));
+    const std::int64_t number = table.integer("values_per_element").value_or(1);
+    varying.values_per_element = static_cast<int>(number);
+    if (table.has("values_per_element") && (!is_counted || number < 1 || number > kLargestVector))
+        table.error("values_per_element", "has no valid values_per_element",
+                    fmt::format("write a number from 1 to {} beside a count", kLargestVector));
 }
 
 /// Single varyings by location, counted ones behind them by name.
@@ -61,39 +54,37 @@ bool lies_before(const Varying& a, const Varying& b) {
     return a.counts.empty() && a.location < b.location;
 }
 
-std::vector<Varying> read_varyings(TomlReader& reader, const toml::table& root,
-                                   const std::vector<Feature>& features) {
+std::vector<Varying> read_varyings(const TomlTable& root, const std::vector<Feature>& features) {
     std::vector<Varying> varyings;
-    const toml::table* table = reader.table(root, "varyings");
-    if (table == nullptr) return varyings;
-    for (const auto& [key, node] : *table) {
+    const auto named = root.table("varyings");
+    if (!named) return varyings;
+    for (const auto& [key, node] : named->entries) {
         Varying varying;
         varying.name = key.str();
-        varying.place = reader.place_of(node);
+        varying.place = root.reader.place_of(node);
         const std::string what = fmt::format("varying '{}'", varying.name);
-        const toml::table* row = node.as_table();
-        if (row == nullptr || !is_identifier(varying.name)) {
-            reader.error(node, what + " must be a GLSL identifier with a table",
-                         "write [varyings.NAME] with location, type, piece and value");
+        if (!node.is_table() || !is_identifier(varying.name)) {
+            root.reader.error(node, what + " must be a GLSL identifier with a table",
+                              "write [varyings.NAME] with location, type, piece and value");
             break;
         }
-        reader.only(*row, what,
-                    {"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
-        read_location(reader, *row, what, features, varying);
-        varying.type = reader.required_string(*row, what, "type");
-        varying.value = reader.required_string(*row, what, "value");
-        varying.piece = reader.string(*row, "piece").value_or("");
-        if (reader.one_of(*row, what, "interpolation", {"flat", "noperspective", "smooth"}))
-            varying.interpolation = *reader.string(*row, "interpolation");
+        const TomlTable table(root.reader, *node.as_table(), what);
+        table.only({"location", "count", "values_per_element", "type", "interpolation", "piece", "value"});
+        read_location(table, features, varying);
+        varying.type = table.required_string("type");
+        varying.value = table.required_string("value");
+        varying.piece = table.string("piece").value_or("");
+        if (table.one_of("interpolation", {"flat", "noperspective", "smooth"}))
+            varying.interpolation = *table.string("interpolation");
         varyings.push_back(std::move(varying));
     }
-    std::stable_sort(varyings.begin(), varyings.end(), lies_before);
+    std::ranges::stable_sort(varyings, lies_before);
     for (std::size_t i = 1; i < varyings.size(); ++i)
         if (varyings[i].counts.empty() && varyings[i].location == varyings[i - 1].location)
-            reader.error(varyings[i].place,
-                         fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
-                                     varyings[i].location, varyings[i - 1].name),
-                         "give each varying a location of its own");
+            root.reader.error(varyings[i].place,
+                              fmt::format("varying '{}' shares location {} with '{}'", varyings[i].name,
+                                          varyings[i].location, varyings[i - 1].name),
+                              "give each varying a location of its own");
     return varyings;
 }
 
@@ -103,14 +94,15 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     domain.place = reader.place_of(node);
     const std::string what = fmt::format("the domain of '{}'", domain.name);
     std::vector<double> range;
-    if (const toml::table* table = node.as_table()) {
-        reader.only(*table, what, {"range", "length", "last", "also"});
-        domain.of_length = table->contains("length");
-        range = reader.numbers(*table, domain.of_length ? "length" : "range");
-        domain.also = reader.numbers(*table, "also");
-        domain.last = reader.numbers(*table, "last");
+    if (node.is_table()) {
+        const TomlTable table(reader, *node.as_table(), what);
+        table.only({"range", "length", "last", "also"});
+        domain.of_length = table.has("length");
+        range = table.numbers(domain.of_length ? "length" : "range");
+        domain.also = table.numbers("also");
+        domain.last = table.numbers("last");
         if (!domain.last.empty() && (domain.last.size() != 2 || domain.last[0] > domain.last[1]))
-            reader.error(*table->get("last"), what + " is not a range", "write last = [low, high]");
+            table.error("last", "is not a range", "write last = [low, high]");
     } else {
         range = reader.numbers_of(node, domain.name);
     }
@@ -124,36 +116,34 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
 }
 
 /// Sorted by name, as TOML tables are.
-std::vector<Domain> read_domains(TomlReader& reader, const toml::table& root) {
+std::vector<Domain> read_domains(const TomlTable& root) {
     std::vector<Domain> domains;
-    if (const toml::table* table = reader.table(root, "domain"))
-        for (const auto& [key, node] : *table)
-            domains.push_back(read_domain(reader, std::string(key.str()), node));
+    if (const auto table = root.table("domain"))
+        for (const auto& [key, node] : table->entries)
+            domains.push_back(read_domain(root.reader, std::string(key.str()), node));
     return domains;
 }
 
-std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml::table& root,
-                                                 const Family& family) {
-    const toml::table* table = reader.table(root, "default_set");
-    if (table == nullptr) return std::nullopt;
-    reader.only(*table, "[default_set]", {"keys", "all", "cover", "over", "where"});
-    DefaultSelection selection;
-    selection.keys = reader.strings(*table, "keys");
-    selection.all = reader.boolean(*table, "all").value_or(false);
-    selection.cover = static_cast<int>(std::clamp<std::int64_t>(reader.integer(*table, "cover").value_or(0),
-                                                                0, std::numeric_limits<int>::max()));
-    selection.over = reader.strings(*table, "over");
-    selection.where = reader.string(*table, "where").value_or("");
-    if (selection.keys.empty() && !selection.all && selection.cover < 1)
-        reader.error(*table, "[default_set] selects nothing", "add keys = [...], all = true or cover = 2");
-    if (reader.failed()) return selection;
+std::optional<Selection> read_default_set(const TomlTable& root, const Family& family) {
+    const auto table = root.table("default_set");
+    if (!table) return std::nullopt;
+    table->only({"keys", "all", "cover", "over", "where"});
+    Selection selection;
+    for (const std::string& text : table->strings("keys")) selection.keys.push_back({text});
+    selection.all = table->boolean("all").value_or(false);
+    selection.cover = static_cast<int>(
+        std::clamp<std::int64_t>(table->integer("cover").value_or(0), 0, std::numeric_limits<int>::max()));
+    selection.over = table->strings("over");
+    selection.where = table->string("where").value_or("");
+    if (selection.names_nothing())
+        table->error({}, "selects nothing", "add keys = [...], all = true or cover = 2");
+    if (root.reader.failed()) return selection;
     // Errors in its keys, features and condition are the family's, not those of who uses it.
-    for (const std::string& text : selection.keys)
-        if (const Result<Key> key = parse_key(family, text, reader.place_of(*table->get("keys"))); !key)
-            reader.take(key.error());
-    for (const std::string& name : selection.over)
-        read_feature_name(reader, *table->get("over"), "[default_set]", name, family.features);
-    if (!selection.where.empty()) read_condition(reader, *table, "where", family.features);
+    for (const NamedKey& named : selection.keys)
+        if (const auto key = parse_key(family, named.text, table->place_of("keys")); !key)
+            root.reader.take(key.error());
+    for (const std::string& name : selection.over) read_feature_name(*table, "over", name, family.features);
+    if (!selection.where.empty()) read_condition(*table, "where", family.features);
     return selection;
 }
 
@@ -161,17 +151,17 @@ std::optional<DefaultSelection> read_default_set(TomlReader& reader, const toml:
 Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base) {
     const toml::node* extends = reader.root().get("extends");
     if (extends == nullptr || reader.failed()) return FamilyText{};
-    Diagnostic diagnostic;
-    diagnostic.place = reader.place_of(*extends);
-    diagnostic.help = "name a shipped family or a .toml file: extends = \"lit\"";
-    diagnostic.message = "'extends' must name a family";
-    if (!extends->is_string() || !find_base) return fail(std::move(diagnostic));
+    const auto refuse = [&](std::string message, std::string help) {
+        return fail(reader.place_of(*extends), {}, std::move(message), std::move(help));
+    };
+    if (!extends->is_string() || !find_base)
+        return refuse("'extends' must name a family",
+                      "name a shipped family or a .toml file: extends = \"lit\"");
     const std::string& name = extends->as_string()->get();
     Result<FamilyText> base = find_base(name);
     if (base) return base;
-    diagnostic.message = fmt::format("cannot extend '{}': {}", name, base.error().front().message);
-    diagnostic.help = base.error().front().help;
-    return fail(std::move(diagnostic));
+    const Diagnostic& error = base.error().front();
+    return refuse(fmt::format("cannot extend '{}': {}", name, error.message), error.help);
 }
 
 }  // namespace
@@ -182,32 +172,31 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     if (!base.path.empty()) reader.extend(base.text, base.path, {"values", "excluded", "rules", "relations"});
     Family family;
     family.path = path;
-    const toml::table& root = reader.root();
-    reader.only(root, "the family",
-                {"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
-                 "relations", "default_set", "renamed"});
-    family.name = reader.required_string(root, "the family", "name");
-    if (!reader.failed() && !is_identifier(family.name)) {
-        reader.error(*root.get("name"), fmt::format("'{}' cannot name a family", family.name),
+    const TomlTable root(reader, reader.root(), "the family");
+    root.only({"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
+               "relations", "default_set", "renamed"});
+    family.name = root.required_string("name");
+    if (!reader.failed() && !is_identifier(family.name))
+        reader.error(root.place_of("name"), fmt::format("'{}' cannot name a family", family.name),
                      "use letters, digits and _, not starting with a digit: it names a C++ namespace");
-    }
-    family.vertex = reader.required_string(root, "the family", "vertex");
-    family.fragment = reader.required_string(root, "the family", "fragment");
-    family.features = read_features(reader, root);
-    family.rules = read_rules(reader, root, family.features);
-    family.varyings = read_varyings(reader, root, family.features);
-    family.domains = read_domains(reader, root);
-    family.render = read_render_values(reader, root, "render");
-    family.relations = read_relations(reader, root, family.features);
-    family.default_selection = read_default_set(reader, root, family);
+    family.vertex = root.required_string("vertex");
+    family.fragment = root.required_string("fragment");
+    family.features = read_features(root);
+    family.rules = read_rules(root, family.features);
+    family.varyings = read_varyings(root, family.features);
+    family.domains = read_domains(root);
+    family.render = read_render_values(root, "render");
+    family.relations = read_relations(root, family.features);
+    family.default_selection = read_default_set(root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return family;
 }
 
 Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::string& path) {
     TomlReader reader(text, path);
-    reader.only(reader.root(), "the file", {"domain"});
-    std::vector<Domain> domains = read_domains(reader, reader.root());
+    const TomlTable root(reader, reader.root(), "the file");
+    root.only({"domain"});
+    std::vector<Domain> domains = read_domains(root);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return domains;
 }

@@ -17,65 +17,58 @@ constexpr std::int64_t kLargestCount = 4096;
 
 /// Keys hold indices, and everywhere index 0 is the default: where the family names another than the first
 /// value, that one moves to the front.
-void put_default_first(TomlReader& reader, const toml::table& table, Feature& feature,
-                       const std::string& what) {
-    const std::optional<std::string> name = reader.string(table, "default");
+void put_default_first(const TomlTable& table, Feature& feature) {
+    const std::optional<std::string> name = table.string("default");
     if (!name) return;
     const std::optional<int> index = feature.index_of(*name);
-    if (!index) {
-        reader.error(*table.get("default"), fmt::format("{} has no value '{}' to default to", what, *name),
-                     suggestion(*name, feature.values));
-        return;
-    }
+    if (!index)
+        return table.error("default", fmt::format("has no value '{}' to default to", *name),
+                           suggestion(*name, feature.values));
     feature.default_place = *index;
     const auto first = feature.values.begin();
     std::rotate(first, first + *index, first + *index + 1);
 }
 
-void read_choice(TomlReader& reader, const toml::table& table, Feature& feature, const std::string& what) {
-    feature.values = reader.strings(table, "values");
-    feature.excluded = reader.strings(table, "excluded");
-    const toml::node& values = *table.get("values");
+void read_choice(const TomlTable& table, Feature& feature) {
+    feature.values = table.strings("values");
+    feature.excluded = table.strings("excluded");
     if (feature.values.empty())
-        reader.error(values, what + " has no values", "list at least one; the first is the default");
+        table.error("values", "has no values", "list at least one; the first is the default");
     std::set<std::string> seen;
     for (const std::string& value : feature.values) {
-        if (value.empty() || !std::all_of(value.begin(), value.end(), is_identifier_part))
-            reader.error(values, fmt::format("{} cannot have the value '{}'", what, value),
-                         "use letters, digits and _: it names a file and a C++ enumerator");
+        if (value.empty() || !std::ranges::all_of(value, is_identifier_part))
+            table.error("values", fmt::format("cannot have the value '{}'", value),
+                        "use letters, digits and _: it names a file and a C++ enumerator");
         if (!seen.insert(value).second)
-            reader.error(values, fmt::format("{} has the value '{}' twice", what, value), "list it once");
+            table.error("values", fmt::format("has the value '{}' twice", value), "list it once");
     }
-    put_default_first(reader, table, feature, what);
+    put_default_first(table, feature);
     // Generated headers hold enums and uniform blocks side by side: where a block has a feature's name
     // already, the family names the enum otherwise.
-    feature.enum_name = reader.string(table, "enum").value_or("");
-    if (table.contains("enum") && !is_identifier(feature.enum_name))
-        reader.error(*table.get("enum"), fmt::format("{} has '{}' for an enum", what, feature.enum_name),
-                     "name it as C++ names a type, such as FogKind");
+    feature.enum_name = table.string("enum").value_or("");
+    if (table.has("enum") && !is_identifier(feature.enum_name))
+        table.error("enum", fmt::format("has '{}' for an enum", feature.enum_name),
+                    "name it as C++ names a type, such as FogKind");
     for (const std::string& value : feature.excluded) {
         const auto index = feature.index_of(value);
         if (index.value_or(0) > 0) continue;
-        reader.error(*table.get("excluded"), fmt::format("{} cannot exclude '{}'", what, value),
-                     index ? "the default cannot be excluded" : feature.help_for(value));
+        table.error("excluded", fmt::format("cannot exclude '{}'", value),
+                    index ? "the default cannot be excluded" : feature.help_for(value));
     }
 }
 
-void read_count(TomlReader& reader, const toml::table& table, Feature& feature, const std::string& what) {
+void read_count(const TomlTable& table, Feature& feature) {
     feature.kind = FeatureKind::count;
-    const toml::node& node = *table.get("count");
-    const toml::array* range = node.as_array();
+    const toml::array* range = table.entries["count"].as_array();
     const auto bound = [&](std::size_t i) {
         const auto* number = range == nullptr || range->size() != 2 ? nullptr : (*range)[i].as_integer();
         return number == nullptr ? -1 : number->get();
     };
-    if (bound(0) != 0 || bound(1) < 1 || bound(1) > kLargestCount) {
-        reader.error(node, what + " has no valid count",
-                     fmt::format("write count = [0, N] with N from 1 to {}", kLargestCount));
-        return;
-    }
+    if (bound(0) != 0 || bound(1) < 1 || bound(1) > kLargestCount)
+        return table.error("count", "has no valid count",
+                           fmt::format("write count = [0, N] with N from 1 to {}", kLargestCount));
     for (std::int64_t i = 0; i <= bound(1); ++i) feature.values.push_back(std::to_string(i));
-    feature.macro = reader.required_string(table, what, "constant");
+    feature.macro = table.required_string("constant");
 }
 
 Feature read_feature(TomlReader& reader, std::string name, const toml::node& node) {
@@ -83,100 +76,92 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
     feature.name = std::move(name);
     feature.place = reader.place_of(node);
     const std::string what = fmt::format("feature '{}'", feature.name);
-    const toml::table* table = node.as_table();
-    if (table == nullptr || !is_identifier(feature.name)) {
+    if (!node.is_table() || !is_identifier(feature.name)) {
         reader.error(node, what + " must be an identifier with a table",
                      "write [features.NAME] with values, count or define");
         return feature;
     }
-    if (const toml::node* retired = table->get("retired"))
-        reader.error(*retired, what + " has retired values", "'retired' is now 'excluded'");
-    reader.only(*table, what,
-                {"role", "values", "default", "excluded", "enum", "count", "constant", "define"});
+    const TomlTable table(reader, *node.as_table(), what);
+    if (table.has("retired")) table.error("retired", "has retired values", "'retired' is now 'excluded'");
+    table.only({"role", "values", "default", "excluded", "enum", "count", "constant", "define"});
     constexpr std::array roles = {Role::effect, Role::quality, Role::pipeline};
-    feature.role = roles[reader.one_of(*table, what, "role", {"effect", "quality", "pipeline"}).value_or(0)];
-    const bool is_choice = table->contains("values"), is_count = table->contains("count");
-    if (table->contains("default") && !is_choice)
-        reader.error(*table->get("default"), what + " cannot name its default",
-                     "only a choice can: a count's is 0, a define's is off");
-    if (table->contains("enum") && !is_choice)
-        reader.error(*table->get("enum"), what + " cannot name an enum",
-                     "only a choice has one: a count is an int, a define a bool");
-    if (is_choice + is_count + table->contains("define") != 1) {
-        reader.error(node, what + " must be one of a choice, a count and a define",
-                     "give it exactly one of values, count and define");
+    feature.role = roles[table.one_of("role", {"effect", "quality", "pipeline"}).value_or(0)];
+    const bool is_choice = table.has("values"), is_count = table.has("count");
+    if (table.has("default") && !is_choice)
+        table.error("default", "cannot name its default",
+                    "only a choice can: a count's is 0, a define's is off");
+    if (table.has("enum") && !is_choice)
+        table.error("enum", "cannot name an enum",
+                    "only a choice has one: a count is an int, a define a bool");
+    if (is_choice + is_count + table.has("define") != 1) {
+        table.error({}, "must be one of a choice, a count and a define",
+                    "give it exactly one of values, count and define");
     } else if (is_choice) {
-        read_choice(reader, *table, feature, what);
+        read_choice(table, feature);
     } else if (is_count) {
-        read_count(reader, *table, feature, what);
+        read_count(table, feature);
     } else {
         feature.kind = FeatureKind::define;
         feature.values = {"off", "on"};
-        feature.macro = reader.string(*table, "define").value_or("");
+        feature.macro = table.string("define").value_or("");
     }
     if (!is_choice && !is_identifier(feature.macro))
-        reader.error(node, fmt::format("{} has '{}' for a macro", what, feature.macro),
-                     "a macro is an identifier");
+        table.error({}, fmt::format("has '{}' for a macro", feature.macro), "a macro is an identifier");
     return feature;
 }
 
 /// `old = "new"` for a feature, `"feature=old" = "feature=new"` for a value. Features stand before their
 /// values in the table, as it is sorted.
-void read_renamed(TomlReader& reader, const toml::table& root, std::vector<Feature>& features) {
-    const toml::table* table = reader.table(root, "renamed");
-    if (table == nullptr || reader.failed()) return;
+void read_renamed(const TomlTable& root, std::vector<Feature>& features) {
+    const auto table = root.table("renamed");
+    if (!table || root.reader.failed()) return;
     const auto halves = [](std::string_view text) {
         const auto equals = std::min(text.find('='), text.size());
         return std::pair(text.substr(0, equals), text.substr(equals));
     };
-    for (const auto& [key, node] : *table) {
-        const std::string was(key.str()), now = reader.string(*table, was).value_or("");
+    for (const auto& [key, node] : table->entries) {
+        const std::string was(key.str()), now = table->string(was).value_or("");
         const auto [old_name, old_value] = halves(was);
         const auto [new_name, new_value] = halves(now);
         const auto index = index_of(features, new_name);
         Feature* feature = index ? &features[*index] : nullptr;
-        const auto is_its_name = [&](std::string_view name) {
-            const auto& old_names = feature->old_names;
-            return name == feature->name || std::count(old_names.begin(), old_names.end(), name) > 0;
-        };
         if (feature != nullptr && old_value.empty() && new_value.empty() && !index_of(features, old_name)) {
             feature->old_names.emplace_back(old_name);
         } else if (feature != nullptr && old_value.size() > 1 && new_value.size() > 1 &&
-                   is_its_name(old_name) && feature->index_of(new_value.substr(1)) &&
-                   !feature->index_of(old_value.substr(1))) {
+                   (old_name == feature->name || std::ranges::count(feature->old_names, old_name) > 0) &&
+                   feature->index_of(new_value.substr(1)) && !feature->index_of(old_value.substr(1))) {
             feature->old_values.emplace(old_value.substr(1), new_value.substr(1));
         } else {
-            reader.error(node, fmt::format("'{}' cannot have been renamed to '{}'", was, now),
-                         "write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the "
-                         "new one exists");
+            root.reader.error(node, fmt::format("'{}' cannot have been renamed to '{}'", was, now),
+                              "write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which "
+                              "only the new one exists");
         }
     }
 }
 
-Rule read_rule(TomlReader& reader, const toml::table& table, const std::vector<Feature>& features) {
+Rule read_rule(const TomlTable& table, const std::vector<Feature>& features) {
     Rule rule;
-    rule.place = reader.place_of(table);
-    reader.only(table, "a rule", {"when", "default", "forbid", "reason", "dialects"});
-    const bool defaults = table.contains("when") && table.contains("default") && !table.contains("forbid");
-    const bool forbids = table.contains("forbid") && !table.contains("when") && !table.contains("default");
+    rule.place = table.place_of();
+    table.only({"when", "default", "forbid", "reason", "dialects"});
+    const bool defaults = table.has("when") && table.has("default") && !table.has("forbid");
+    const bool forbids = table.has("forbid") && !table.has("when") && !table.has("default");
     if (defaults == forbids) {
-        reader.error(table, "a rule must be one of default and forbid",
-                     "write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with "
-                     "reason = \"...\"");
+        table.error({}, "must be one of default and forbid",
+                    "write when = \"CONDITION\" with default = [FEATURES], or forbid = \"CONDITION\" with "
+                    "reason = \"...\"");
         return rule;
     }
     rule.kind = forbids ? Rule::Kind::forbid : Rule::Kind::defaults;
-    rule.when = read_condition(reader, table, forbids ? "forbid" : "when", features);
-    if (forbids) rule.reason = reader.required_string(table, "a forbid rule", "reason");
-    for (const std::string& name : reader.strings(table, "default"))
-        rule.defaults.push_back(read_feature_name(reader, *table.get("default"), "the rule", name, features));
-    rule.dialects = reader.strings(table, "dialects");
-    for (const std::string& dialect : rule.dialects) {
-        const std::vector<std::string> known = {"450", "330", "es300"};
-        if (std::find(known.begin(), known.end(), dialect) == known.end())
-            reader.error(*table.get("dialects"), fmt::format("unknown dialect '{}'", dialect),
-                         suggestion(dialect, known));
-    }
+    rule.when = read_condition(table, forbids ? "forbid" : "when", features);
+    if (forbids) rule.reason = table.called("a forbid rule").required_string("reason");
+    for (const std::string& name : table.strings("default"))
+        rule.defaults.push_back(read_feature_name(table.called("the rule"), "default", name, features));
+    rule.dialects = table.strings("dialects");
+    const std::vector<std::string> known = {"450", "330", "es300"};
+    for (const std::string& dialect : rule.dialects)
+        if (std::ranges::count(known, dialect) == 0)
+            table.reader.error(table.place_of("dialects"), fmt::format("unknown dialect '{}'", dialect),
+                               suggestion(dialect, known));
     return rule;
 }
 
@@ -194,156 +179,139 @@ constexpr RelationForm kRelationForms[] = {{Relation::Kind::any_order, "any_orde
                                            {Relation::Kind::finer, "finer", ""}};
 
 /// The form whose name the table holds.
-const RelationForm* form_of(TomlReader& reader, const toml::table& row) {
-    const RelationForm* found = nullptr;
-    for (const RelationForm& form : kRelationForms) {
-        if (!row.contains(form.name)) continue;
-        if (found != nullptr) {
-            reader.error(row,
-                         fmt::format("a relation is either '{}' or '{}', not both", found->name, form.name),
-                         "write each relation under its own [[relations]]");
-            return nullptr;
-        }
-        found = &form;
-    }
-    if (found == nullptr)
-        reader.error(row, "a relation must say what holds",
-                     "write any_order = \"ARRAY\", adds = \"ARRAY[].MEMBER\", turn = [NAMES], off = "
-                     "\"FEATURE\" with at = { NAME = VALUE }, or finer = \"FEATURE\"");
-    return found;
+const RelationForm* form_of(const TomlTable& table) {
+    std::vector<const RelationForm*> found;
+    for (const RelationForm& form : kRelationForms)
+        if (table.has(form.name)) found.push_back(&form);
+    if (found.empty())
+        table.reader.error(table.place_of(), "a relation must say what holds",
+                           "write any_order = \"ARRAY\", adds = \"ARRAY[].MEMBER\", turn = [NAMES], off = "
+                           "\"FEATURE\" with at = { NAME = VALUE }, or finer = \"FEATURE\"");
+    if (found.size() > 1)
+        table.reader.error(
+            table.place_of(),
+            fmt::format("a relation is either '{}' or '{}', not both", found[0]->name, found[1]->name),
+            "write each relation under its own [[relations]]");
+    return found.size() == 1 ? found.front() : nullptr;
 }
 
-/// The uniforms and inputs that turn an effect off.
-std::vector<RenderValue> read_at(TomlReader& reader, const toml::table& row) {
+/// The uniforms and inputs that turn an effect off: numbers.
+std::vector<RenderValue> read_at(const TomlTable& table) {
     std::vector<RenderValue> values;
-    const toml::table* table = reader.table(row, "at");
-    if (table == nullptr) {
-        reader.error(row, "the relation does not say where the effect is off",
-                     "add at = { NAME = VALUE } with the reflected names and their values");
-        return values;
-    }
-    for (const auto& [key, node] : *table)
-        values.push_back(
-            {std::string(key.str()), "", reader.numbers_of(node, key.str()), reader.place_of(node)});
+    if (const auto at = table.table("at"))
+        for (const auto& [key, node] : at->entries)
+            values.push_back({.name = std::string(key.str()),
+                              .numbers = table.reader.numbers_of(node, key.str()),
+                              .place = table.reader.place_of(node)});
+    else
+        table.error({}, "does not say where the effect is off",
+                    "add at = { NAME = VALUE } with the reflected names and their values");
     return values;
 }
 
-Relation read_relation(TomlReader& reader, const toml::table& row, const std::vector<Feature>& features) {
+Relation read_relation(const TomlTable& table, const std::vector<Feature>& features) {
     Relation relation;
-    relation.place = reader.place_of(row);
-    const RelationForm* form = form_of(reader, row);
+    relation.place = table.place_of();
+    const RelationForm* form = form_of(table);
     if (form == nullptr) return relation;
     relation.kind = form->kind;
+    relation.text = form->name;
     std::vector<std::string> known = {std::string(form->name), "when"};
     if (!form->beside.empty()) known.emplace_back(form->beside);
-    reader.only(row, "the relation", known);
+    table.only(known);
     if (form->kind == Relation::Kind::turn) {
-        relation.names = reader.strings(row, "turn");
-        relation.turned_back = reader.strings(row, "turn_back");
+        relation.names = table.strings("turn");
+        relation.turned_back = table.strings("turn_back");
     } else {
-        const std::string name = reader.required_string(row, "the relation", form->name);
-        if (form->kind == Relation::Kind::any_order || form->kind == Relation::Kind::adds) {
+        const std::string name = table.required_string(form->name);
+        relation.text += fmt::format(" = \"{}\"", name);
+        if (form->kind == Relation::Kind::any_order || form->kind == Relation::Kind::adds)
             relation.names = {name};
-            const auto brackets = name.find("[]");
-            if (form->kind == Relation::Kind::adds && (brackets == 0 || brackets == std::string::npos))
-                reader.error(*row.get("adds"),
-                             fmt::format("'{}' is not a member of an array's elements", name),
-                             "write adds = \"ARRAY[].MEMBER\"");
-        } else if (!reader.failed()) {
-            relation.feature =
-                read_feature_name(reader, *row.get(form->name), "the relation", name, features);
-        }
+        else if (!table.reader.failed())
+            relation.feature = read_feature_name(table, form->name, name, features);
+        const auto brackets = name.find("[]");
+        if (form->kind == Relation::Kind::adds && (brackets == 0 || brackets == std::string::npos))
+            table.reader.error(table.place_of("adds"),
+                               fmt::format("'{}' is not a member of an array's elements", name),
+                               "write adds = \"ARRAY[].MEMBER\"");
     }
-    if (form->kind == Relation::Kind::off) relation.at = read_at(reader, row);
-    if (row.contains("when")) relation.when = read_condition(reader, row, "when", features);
+    if (form->kind == Relation::Kind::off) relation.at = read_at(table);
+    if (table.has("when")) relation.when = read_condition(table, "when", features);
     return relation;
 }
 
 }  // namespace
 
-Expression read_condition(TomlReader& reader, const toml::table& table, std::string_view name,
+Expression read_condition(const TomlTable& table, std::string_view entry,
                           const std::vector<Feature>& features) {
-    const std::string text = reader.string(table, name).value_or("");
-    Place place = reader.place_of(*table.get(name));
+    const std::string text = table.string(entry).value_or("");
+    Place place = table.place_of(entry);
     if (place.column > 0) ++place.column;  // behind the quotation mark
     Result<Expression> condition = parse_expression(text, features, place, Fault::input);
     if (condition) return std::move(*condition);
-    reader.take(condition.error());
+    table.reader.take(condition.error());
     return {};
 }
 
-int read_feature_name(TomlReader& reader, const toml::node& node, std::string_view what,
-                      const std::string& name, const std::vector<Feature>& features) {
+int read_feature_name(const TomlTable& table, std::string_view entry, const std::string& name,
+                      const std::vector<Feature>& features) {
     if (const auto index = index_of(features, name)) return *index;
-    reader.error(node, fmt::format("{} names an unknown feature '{}'", what, name), help_for(features, name));
+    table.error(entry, fmt::format("names an unknown feature '{}'", name), help_for(features, name));
     return 0;
 }
 
-std::vector<Feature> read_features(TomlReader& reader, const toml::table& root) {
-    std::vector<Feature> features;  // TOML tables come sorted by name
-    const toml::table* table = reader.table(root, "features");
-    if (table == nullptr) return features;
-    for (const auto& [key, node] : *table)
-        features.push_back(read_feature(reader, std::string(key.str()), node));
-    std::set<std::string> macros;
-    for (const Feature& feature : features) {
-        if (feature.macro.empty() || macros.insert(feature.macro).second) continue;
-        reader.error(feature.place,
-                     fmt::format("feature '{}' shares the macro '{}' with another feature", feature.name,
-                                 feature.macro),
-                     "give each count and define a macro of its own");
-    }
-    read_renamed(reader, root, features);
-    return features;
-}
-
-std::vector<Rule> read_rules(TomlReader& reader, const toml::table& root,
-                             const std::vector<Feature>& features) {
-    std::vector<Rule> rules;
-    for (const toml::table* rule : reader.tables(root, "rules", "rule"))
-        rules.push_back(read_rule(reader, *rule, features));
-    return rules;
-}
-
-std::vector<Relation> read_relations(TomlReader& reader, const toml::table& root,
-                                     const std::vector<Feature>& features) {
-    std::vector<Relation> relations;
-    for (const toml::table* relation : reader.tables(root, "relations", "relation"))
-        relations.push_back(read_relation(reader, *relation, features));
-    return relations;
-}
-
-std::string to_text(const Relation& relation, const std::vector<Feature>& features) {
-    if (relation.kind == Relation::Kind::turn) return "turn";
-    const auto form = std::find_if(std::begin(kRelationForms), std::end(kRelationForms),
-                                   [&](const RelationForm& row) { return row.kind == relation.kind; });
-    const bool names_feature = relation.kind == Relation::Kind::off || relation.kind == Relation::Kind::finer;
-    return fmt::format("{} = \"{}\"", form->name,
-                       names_feature ? features[relation.feature].name : relation.names.front());
-}
-
-std::vector<RenderValue> read_render_values(TomlReader& reader, const toml::table& parent,
-                                            std::string_view name) {
+std::vector<RenderValue> read_render_values(const TomlTable& table, std::string_view entry) {
     std::vector<RenderValue> values;
-    const toml::table* table = reader.table(parent, name);
-    if (table == nullptr) return values;
-    for (const auto& [key, node] : *table) {
+    const auto named = table.table(entry);
+    if (!named) return values;
+    for (const auto& [key, node] : named->entries) {
         RenderValue value;
         value.name = key.str();
-        value.place = reader.place_of(node);
-        const std::string what = fmt::format("the render value of '{}'", value.name);
+        value.place = table.reader.place_of(node);
         if (const auto* source = node.as_string()) {
             value.source = source->get();
-        } else if (const toml::table* row = node.as_table()) {
-            reader.only(*row, what, {"source", "numbers"});
-            value.source = reader.required_string(*row, what, "source");
-            value.numbers = reader.numbers(*row, "numbers");
+        } else if (node.is_table()) {
+            const TomlTable row(table.reader, *node.as_table(),
+                                fmt::format("the render value of '{}'", value.name));
+            row.only({"source", "numbers"});
+            value.source = row.required_string("source");
+            value.numbers = row.numbers("numbers");
         } else {
-            value.numbers = reader.numbers_of(node, value.name);
+            value.numbers = table.reader.numbers_of(node, value.name);
         }
         values.push_back(std::move(value));
     }
     return values;
+}
+
+std::vector<Feature> read_features(const TomlTable& root) {
+    std::vector<Feature> features;  // TOML tables come sorted by name
+    const auto table = root.table("features");
+    if (!table) return features;
+    for (const auto& [key, node] : table->entries)
+        features.push_back(read_feature(root.reader, std::string(key.str()), node));
+    std::set<std::string> macros;
+    for (const Feature& feature : features)
+        if (!feature.macro.empty() && !macros.insert(feature.macro).second)
+            root.reader.error(feature.place,
+                              fmt::format("feature '{}' shares the macro '{}' with another feature",
+                                          feature.name, feature.macro),
+                              "give each count and define a macro of its own");
+    read_renamed(root, features);
+    return features;
+}
+
+std::vector<Rule> read_rules(const TomlTable& root, const std::vector<Feature>& features) {
+    std::vector<Rule> rules;
+    for (const TomlTable& rule : root.tables("rules", "a rule")) rules.push_back(read_rule(rule, features));
+    return rules;
+}
+
+std::vector<Relation> read_relations(const TomlTable& root, const std::vector<Feature>& features) {
+    std::vector<Relation> relations;
+    for (const TomlTable& relation : root.tables("relations", "the relation"))
+        relations.push_back(read_relation(relation, features));
+    return relations;
 }
 
 }  // namespace gobo

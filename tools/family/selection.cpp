@@ -1,6 +1,7 @@
 #include "family/selection.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -23,15 +24,13 @@ Result<Key> named_key(const Family& family, const NamedKey& named, std::string_v
     key = canonical(family, std::move(key), dialect);
     const Rule* rule = forbidding_rule(family, key, dialect);
     if (rule == nullptr) return key;
-    Diagnostic diagnostic;
-    diagnostic.fault = Fault::usage;
-    diagnostic.place = named.place;
-    if (!named.place.file.empty()) diagnostic.quoted_line = named.text;
-    diagnostic.message =
-        fmt::format("family '{}' forbids the key '{}': {}", family.name, key_text(family, key), rule->reason);
-    diagnostic.help =
-        fmt::format("choose another value; the rule is in {}:{}", rule->place.file, rule->place.line);
-    return fail(std::move(diagnostic));
+    return fail({.fault = Fault::usage,
+                 .place = named.place,
+                 .message = fmt::format("family '{}' forbids the key '{}': {}", family.name,
+                                        key_text(family, key), rule->reason),
+                 .quoted_line = named.place.file.empty() ? "" : named.text,
+                 .help = fmt::format("choose another value; the rule is in {}:{}", rule->place.file,
+                                     rule->place.line)});
 }
 
 Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selection) {
@@ -39,11 +38,10 @@ Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selectio
     limits.excluded = selection.excluded;
     for (const std::string& name : selection.over) {
         const auto index = family.index_of(name);
-        if (!index) {
+        if (!index)
             return fail(Fault::usage,
                         fmt::format("--over: family '{}' has no feature '{}'", family.name, name),
                         help_for(family.features, name));
-        }
         limits.over.push_back(*index);
     }
     if (!selection.where.empty()) {
@@ -56,23 +54,19 @@ Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selectio
 /// What the selection means: itself, or the family's default set where it names nothing.
 Result<Selection> resolved(const Family& family, const Selection& selection, std::string_view dialect) {
     if (!selection.names_nothing()) return selection;
-    Selection meant = selection;
+    Selection meant = family.default_selection.value_or(selection);
     if (!family.default_selection) {
         GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, {}));
-        meant.all = space.count() <= small_family;
+        meant.all = space.count().saturated() <= small_family;
         meant.cover = meant.all ? 0 : 2;
         return meant;
     }
-    const DefaultSelection& declared = *family.default_selection;
-    for (const std::string& text : declared.keys) meant.keys.push_back({text, {}});
-    meant.all = declared.all;
-    meant.cover = declared.cover;
-    if (meant.over.empty()) meant.over = declared.over;
-    if (meant.where.empty()) {
-        meant.where = declared.where;
-    } else if (!declared.where.empty()) {
-        meant.where = fmt::format("({}) && ({})", declared.where, meant.where);
-    }
+    meant.excluded = selection.excluded;
+    if (!selection.over.empty()) meant.over = selection.over;
+    if (meant.where.empty())
+        meant.where = selection.where;
+    else if (!selection.where.empty())
+        meant.where = fmt::format("({}) && ({})", meant.where, selection.where);
     return meant;
 }
 
@@ -81,11 +75,9 @@ Result<Selection> resolved(const Family& family, const Selection& selection, std
 std::uint64_t largest_product(const KeySpace& space, std::size_t strength) {
     const OpenPaths paths(space);
     std::vector<std::uint64_t> counts;
-    for (std::size_t feature = 0; feature < space.feature_count(); ++feature) {
-        const std::vector<char> allowed = paths.allowed(feature);
-        counts.push_back(std::count(allowed.begin(), allowed.end(), 1));
-    }
-    std::sort(counts.rbegin(), counts.rend());
+    for (std::size_t feature = 0; feature < space.feature_count(); ++feature)
+        counts.push_back(std::ranges::count(paths.allowed(feature), 1));
+    std::ranges::sort(counts, std::greater());
     counts.resize(std::min(counts.size(), strength));
     std::uint64_t product = 1;
     for (std::size_t i = 0; i < counts.size() && product <= most_keys; ++i) product *= counts[i];
@@ -107,14 +99,14 @@ Result<std::vector<Key>> keys_of_space(const Family& family, const Selection& se
                                        const KeySpaceLimits& limits, std::string_view dialect) {
     if (!selection.all && selection.cover <= 0) return std::vector<Key>{};
     GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, limits));
-    const std::uint64_t count = space.count();
-    if (selection.all && count > most_keys)
-        return fail(Fault::usage, fmt::format("--all means {} keys, more than {}", count, most_keys),
+    const WholeNumber count = space.count();
+    if (selection.all && count.saturated() > most_keys)
+        return fail(Fault::usage, fmt::format("--all means {} keys, more than {}", count.text(), most_keys),
                     "name the features to vary with --over, or a condition with --where");
     if (selection.all) return space.keys();
     const char* const help =
         "lower the strength, name the features to vary with --over, or a condition with --where";
-    if (count > most_keys && largest_product(space, selection.cover) > most_keys)
+    if (count.saturated() > most_keys && largest_product(space, selection.cover) > most_keys)
         return fail(Fault::usage,
                     fmt::format("--cover {} takes more than {} keys", selection.cover, most_keys), help);
     if (selection.cover < std::ssize(family.features) &&
@@ -136,12 +128,12 @@ Result<std::vector<Key>> select(const Family& family, const Selection& asked, st
         GOBO_TRY(Key key, named_key(family, named, dialect));
         if (limits.where.empty() || holds(limits.where.front(), key)) keys.push_back(std::move(key));
     }
-    std::sort(keys.begin(), keys.end());
+    std::ranges::sort(keys);
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     return keys;
 }
 
-Result<std::uint64_t> count_selected(const Family& family, const Selection& asked, std::string_view dialect) {
+Result<WholeNumber> count_selected(const Family& family, const Selection& asked, std::string_view dialect) {
     GOBO_TRY(const Selection selection, resolved(family, asked, dialect));
     if (!selection.all || !selection.keys.empty()) {
         GOBO_TRY(const std::vector<Key> keys, select(family, selection, dialect));

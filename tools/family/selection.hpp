@@ -6,27 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/whole_number.hpp"
 #include "family/family.hpp"
 
 namespace gobo {
-
-/// Key text and where it stands: a file and line, or nowhere for one of the command line.
-struct NamedKey {
-    std::string text;
-    Place place;
-};
-
-/// The parts unite; `where` restricts what `all` and `cover` range over, and filters the named keys.
-struct Selection {
-    std::vector<NamedKey> keys;
-    bool all = false;
-    int cover = 0;                  ///< strength; 0: no cover
-    std::vector<std::string> over;  ///< features that `all` and `cover` range over; empty: all of them
-    std::string where;
-    bool excluded = false;  ///< `all` and `cover` take excluded values too
-
-    [[nodiscard]] bool names_nothing() const { return keys.empty() && !all && cover == 0; }
-};
 
 /// No selection enumerates more keys than this.
 constexpr std::uint64_t most_keys = 1'000'000;
@@ -39,8 +22,8 @@ constexpr std::uint64_t most_keys = 1'000'000;
                                               std::string_view dialect);
 
 /// How many keys select() would give, without enumerating where only `all` is asked for.
-[[nodiscard]] Result<std::uint64_t> count_selected(const Family& family, const Selection& selection,
-                                                   std::string_view dialect);
+[[nodiscard]] Result<WholeNumber> count_selected(const Family& family, const Selection& selection,
+                                                 std::string_view dialect);
 
 /// The keys of a text, one a line; blank lines and what follows `#` are left out.
 [[nodiscard]] std::vector<NamedKey> keys_of_text(std::string_view text, const std::string& path);

@@ -61,84 +61,17 @@ Place TomlReader::place_of(const toml::source_region& region) const {
 
 void TomlReader::error(const Place& place, std::string message, std::string help) {
     if (failed()) return;
-    Diagnostic diagnostic;
-    diagnostic.place = place;
-    diagnostic.message = std::move(message);
     const auto text = texts_.find(place.file);
-    if (text != texts_.end()) diagnostic.quoted_line = line_of(text->second, place.line);
-    diagnostic.help = std::move(help);
-    errors_.push_back(std::move(diagnostic));
+    const std::string_view line = text == texts_.end() ? "" : line_of(text->second, place.line);
+    errors_ = fail(place, line, std::move(message), std::move(help)).value();
 }
 
-void TomlReader::take(Diagnostics errors) {
-    for (Diagnostic& diagnostic : errors)
-        error(diagnostic.place, std::move(diagnostic.message), std::move(diagnostic.help));
-}
-
-void TomlReader::only(const toml::table& table, std::string_view what,
-                      const std::vector<std::string>& known) {
-    for (const auto& [key, node] : table) {
-        const std::string name(key.str());
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        error(place_of(key.source()), fmt::format("unknown name '{}' in {}", name, what),
-              suggestion(name, known));
-    }
+void TomlReader::take(const Diagnostics& errors) {
+    error(errors.front().place, errors.front().message, errors.front().help);
 }
 
 void TomlReader::wrong_type(const toml::node& node, std::string_view name, std::string_view wanted) {
     error(node, fmt::format("'{}' must be {}", name, wanted), fmt::format("write {} = ...", name));
-}
-
-template <class T>
-std::optional<T> TomlReader::value(const toml::table& table, std::string_view name, std::string_view wanted) {
-    const toml::node* node = table.get(name);
-    if (node == nullptr) return std::nullopt;
-    if (const auto* found = node->as<T>()) return found->get();
-    wrong_type(*node, name, wanted);
-    return std::nullopt;
-}
-
-std::optional<std::string> TomlReader::string(const toml::table& table, std::string_view name) {
-    return value<std::string>(table, name, "a string");
-}
-
-std::optional<std::int64_t> TomlReader::integer(const toml::table& table, std::string_view name) {
-    return value<std::int64_t>(table, name, "a whole number");
-}
-
-std::optional<bool> TomlReader::boolean(const toml::table& table, std::string_view name) {
-    return value<bool>(table, name, "true or false");
-}
-
-std::optional<std::size_t> TomlReader::one_of(const toml::table& table, std::string_view what,
-                                              std::string_view name, const std::vector<std::string>& known) {
-    const std::optional<std::string> text = string(table, name);
-    if (!text) return std::nullopt;
-    const auto found = std::find(known.begin(), known.end(), *text);
-    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-    error(*table.get(name), fmt::format("{} has no {} '{}'", what, name, *text), suggestion(*text, known));
-    return std::nullopt;
-}
-
-std::vector<std::string> TomlReader::strings(const toml::table& table, std::string_view name) {
-    const toml::node* node = table.get(name);
-    if (node == nullptr) return {};
-    std::vector<std::string> values;
-    const auto add = [&](const toml::node& element) {
-        const auto* text = element.as_string();
-        if (text == nullptr) return wrong_type(element, name, "an array of strings");
-        values.push_back(text->get());
-    };
-    if (const toml::array* array = node->as_array())
-        for (const toml::node& element : *array) add(element);
-    else
-        wrong_type(*node, name, "an array of strings");
-    return values;
-}
-
-std::vector<double> TomlReader::numbers(const toml::table& table, std::string_view name) {
-    const toml::node* node = table.get(name);
-    return node == nullptr ? std::vector<double>{} : numbers_of(*node, name);
 }
 
 std::vector<double> TomlReader::numbers_of(const toml::node& node, std::string_view name) {
@@ -156,32 +89,94 @@ std::vector<double> TomlReader::numbers_of(const toml::node& node, std::string_v
     return values;
 }
 
-const toml::table* TomlReader::table(const toml::table& parent, std::string_view name) {
-    const toml::node* node = parent.get(name);
-    if (node != nullptr && !node->is_table()) wrong_type(*node, name, "a table");
-    return node == nullptr ? nullptr : node->as_table();
+void TomlTable::error(std::string_view name, std::string_view message, std::string help) const {
+    reader.error(place_of(name), fmt::format("{} {}", what_, message), std::move(help));
 }
 
-std::vector<const toml::table*> TomlReader::tables(const toml::table& parent, std::string_view name,
-                                                   std::string_view one) {
-    std::vector<const toml::table*> found;
-    const toml::node* node = parent.get(name);
-    if (node == nullptr || failed()) return found;
-    const toml::array* array = node->as_array();
-    if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
-        error(*node, fmt::format("'{}' must be an array of tables", name),
-              fmt::format("write each {} under [[{}]]", one, name));
-        return found;
+void TomlTable::only(const std::vector<std::string>& known) const {
+    for (const auto& [key, node] : entries)
+        if (std::ranges::count(known, key.str()) == 0)
+            reader.error(reader.place_of(key.source()),
+                         fmt::format("unknown name '{}' in {}", key.str(), what_),
+                         suggestion(key.str(), known));
+}
+
+template <class T>
+std::optional<T> TomlTable::value(std::string_view name, std::string_view wanted) const {
+    const toml::node* node = entries.get(name);
+    if (node == nullptr) return std::nullopt;
+    if (const auto* found = node->as<T>()) return found->get();
+    reader.wrong_type(*node, name, wanted);
+    return std::nullopt;
+}
+
+std::optional<std::string> TomlTable::string(std::string_view name) const {
+    return value<std::string>(name, "a string");
+}
+
+std::optional<std::int64_t> TomlTable::integer(std::string_view name) const {
+    return value<std::int64_t>(name, "a whole number");
+}
+
+std::optional<bool> TomlTable::boolean(std::string_view name) const {
+    return value<bool>(name, "true or false");
+}
+
+std::optional<std::size_t> TomlTable::one_of(std::string_view name,
+                                             const std::vector<std::string>& known) const {
+    const std::optional<std::string> text = string(name);
+    if (!text) return std::nullopt;
+    const auto found = std::ranges::find(known, *text);
+    if (found != known.end()) return found - known.begin();
+    error(name, fmt::format("has no {} '{}'", name, *text), suggestion(*text, known));
+    return std::nullopt;
+}
+
+std::vector<std::string> TomlTable::strings(std::string_view name) const {
+    std::vector<std::string> values;
+    const toml::node* node = entries.get(name);
+    if (node == nullptr) return values;
+    constexpr const char* wanted = "an array of strings";
+    if (!node->is_array()) {
+        reader.wrong_type(*node, name, wanted);
+        return values;
     }
-    for (const toml::node& element : *array) found.push_back(element.as_table());
+    for (const toml::node& element : *node->as_array()) {
+        if (!element.is_string()) reader.wrong_type(element, name, wanted);
+        values.push_back(element.value_or(""));
+    }
+    return values;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view name) const {
+    return has(name) ? reader.numbers_of(*entries.get(name), name) : std::vector<double>();
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view name) const {
+    const toml::node* node = entries.get(name);
+    if (node == nullptr) return std::nullopt;
+    if (const toml::table* found = node->as_table())
+        return TomlTable(reader, *found, fmt::format("[{}]", name));
+    reader.wrong_type(*node, name, "a table");
+    return std::nullopt;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view name, const std::string& what) const {
+    std::vector<TomlTable> found;
+    const toml::node* node = entries.get(name);
+    if (node == nullptr || reader.failed()) return found;
+    const toml::array* array = node->as_array();
+    if (array != nullptr && array->is_homogeneous(toml::node_type::table))
+        for (const toml::node& element : *array) found.emplace_back(reader, *element.as_table(), what);
+    else
+        reader.error(*node, fmt::format("'{}' must be an array of tables", name),
+                     fmt::format("write each {} under [[{}]]", what.substr(what.find(' ') + 1), name));
     return found;
 }
 
-std::string TomlReader::required_string(const toml::table& table, std::string_view what,
-                                        std::string_view name) {
-    if (!table.contains(name))
-        error(table, fmt::format("{} lacks '{}'", what, name), fmt::format("add {} = \"...\"", name));
-    return string(table, name).value_or("");
+std::string TomlTable::required_string(std::string_view name) const {
+    if (!has(name)) error({}, fmt::format("lacks '{}'", name), fmt::format("add {} = \"...\"", name));
+    return string(name).value_or("");
 }
 
 }  // namespace gobo

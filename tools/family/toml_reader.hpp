@@ -30,51 +30,73 @@ class TomlReader {
     [[nodiscard]] bool failed() const { return !errors_.empty(); }
     [[nodiscard]] const Diagnostics& errors() const { return errors_; }
     [[nodiscard]] Place place_of(const toml::node& node) const { return place_of(node.source()); }
-
-    /// Refuses names that are not in `known`, suggesting the nearest. `what` names the table in messages.
-    void only(const toml::table& table, std::string_view what, const std::vector<std::string>& known);
-
-    // Each is nothing where the name is absent, and an error where the value has another type.
-    [[nodiscard]] std::optional<std::string> string(const toml::table& table, std::string_view name);
-    [[nodiscard]] std::optional<std::int64_t> integer(const toml::table& table, std::string_view name);
-    [[nodiscard]] std::optional<bool> boolean(const toml::table& table, std::string_view name);
-    [[nodiscard]] std::vector<std::string> strings(const toml::table& table, std::string_view name);
-    [[nodiscard]] std::vector<double> numbers(const toml::table& table, std::string_view name);
-    [[nodiscard]] const toml::table* table(const toml::table& parent, std::string_view name);
-
-    /// The index in `known` of the string that the table has; an error where it is none of them.
-    [[nodiscard]] std::optional<std::size_t> one_of(const toml::table& table, std::string_view what,
-                                                    std::string_view name,
-                                                    const std::vector<std::string>& known);
-    /// The tables of `[[name]]`, each being `one`.
-    [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& parent, std::string_view name,
-                                                         std::string_view one);
-
-    /// As string(), and an error where it is absent.
-    [[nodiscard]] std::string required_string(const toml::table& table, std::string_view what,
-                                              std::string_view name);
-    /// Finite numbers of an array node; a single number is an array of one.
-    [[nodiscard]] std::vector<double> numbers_of(const toml::node& node, std::string_view name);
+    [[nodiscard]] Place place_of(const toml::source_region& region) const;
 
     void error(const Place& place, std::string message, std::string help);
     void error(const toml::node& node, std::string message, std::string help) {
         error(place_of(node), std::move(message), std::move(help));
     }
     /// Takes over errors found elsewhere in the document, quoting its lines.
-    void take(Diagnostics errors);
+    void take(const Diagnostics& errors);
+
+    /// Finite numbers of an array node; a single number is an array of one.
+    [[nodiscard]] std::vector<double> numbers_of(const toml::node& node, std::string_view name);
+    void wrong_type(const toml::node& node, std::string_view name, std::string_view wanted);
 
   private:
     [[nodiscard]] toml::table parse(std::string_view text, const std::string& path);
-    [[nodiscard]] Place place_of(const toml::source_region& region) const;
-    template <class T>
-    [[nodiscard]] std::optional<T> value(const toml::table& table, std::string_view name,
-                                         std::string_view wanted);
-    void wrong_type(const toml::node& node, std::string_view name, std::string_view wanted);
 
     std::map<std::string, std::string_view> texts_;  ///< of the documents, by path
     std::string path_;
     toml::table root_;
     Diagnostics errors_;
+};
+
+/// A table of a document that is being read.
+class TomlTable {
+  public:
+    /// `what` names the table in messages: "feature 'fog'".
+    TomlTable(TomlReader& document, const toml::table& table, std::string what)
+        : reader(document), entries(table), what_(std::move(what)) {}
+
+    TomlReader& reader;
+    const toml::table& entries;
+
+    /// The same table, called something else in messages.
+    [[nodiscard]] TomlTable called(std::string what) const { return {reader, entries, std::move(what)}; }
+
+    [[nodiscard]] bool has(std::string_view name) const { return entries.contains(name); }
+    /// The place of an entry, or of the table where it has none of that name.
+    [[nodiscard]] Place place_of(std::string_view name = {}) const {
+        return reader.place_of(has(name) ? *entries.get(name) : entries);
+    }
+    /// An error at place_of(name) whose message goes on after what the table is: "has no values".
+    void error(std::string_view name, std::string_view message, std::string help) const;
+
+    /// Refuses names that are not in `known`, suggesting the nearest.
+    void only(const std::vector<std::string>& known) const;
+
+    // Each is nothing where the name is absent, and an error where the value has another type.
+    [[nodiscard]] std::optional<std::string> string(std::string_view name) const;
+    [[nodiscard]] std::optional<std::int64_t> integer(std::string_view name) const;
+    [[nodiscard]] std::optional<bool> boolean(std::string_view name) const;
+    [[nodiscard]] std::vector<std::string> strings(std::string_view name) const;
+    [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
+    [[nodiscard]] std::optional<TomlTable> table(std::string_view name) const;
+
+    /// The index in `known` of the string that the table has; an error where it is none of them.
+    [[nodiscard]] std::optional<std::size_t> one_of(std::string_view name,
+                                                    const std::vector<std::string>& known) const;
+    /// The tables of `[[name]]`; `what` each is: "a rule".
+    [[nodiscard]] std::vector<TomlTable> tables(std::string_view name, const std::string& what) const;
+    /// As string(), and an error where it is absent.
+    [[nodiscard]] std::string required_string(std::string_view name) const;
+
+  private:
+    template <class T>
+    [[nodiscard]] std::optional<T> value(std::string_view name, std::string_view wanted) const;
+
+    std::string what_;
 };
 
 }  // namespace gobo

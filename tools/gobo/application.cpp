@@ -19,10 +19,9 @@ namespace {
 bool wants_color(const std::vector<std::string>& arguments) {
     bool color = isatty(STDERR_FILENO) != 0;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-        std::string value;
-        if (arguments[i] == "--color" && i + 1 < arguments.size()) value = arguments[i + 1];
-        if (arguments[i].starts_with("--color=")) value = arguments[i].substr(8);
-        if (value == "always" || value == "never") color = value == "always";
+        const bool is_next = i > 0 && arguments[i - 1] == "--color";
+        if (arguments[i] == "--color=always" || (is_next && arguments[i] == "always")) color = true;
+        if (arguments[i] == "--color=never" || (is_next && arguments[i] == "never")) color = false;
     }
     return color;
 }

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "budget/qualities.hpp"
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "gobo/input.hpp"
@@ -40,10 +39,7 @@ Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
     std::erase_if(keys, [&](const StudiedKey& key) {
         return forbidding_rule(family.family, key.key, name_of(family.dialect)) != nullptr;
     });
-    Budget budget;
-    if (options.max_error > 0) budget.max_error = options.max_error;
-    if (options.max_cost > 0) budget.max_cost = options.max_cost;
-    GOBO_TRY(const StudiedKey chosen, choose(keys, budget, text));
+    GOBO_TRY(const StudiedKey chosen, choose(keys, options, text));
     return QualityChoice{chosen.key, kSafety * chosen.error, chosen.error, chosen.cost,
                          is_studied ? "study" : "measured"};
 }

@@ -12,13 +12,11 @@ struct CheckOptions : SelectionOptions {
 Result<Outcome> run(const CheckOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const Composition composition, compose_selection(world, family, options));
-    if (composition.permutations.empty()) {  // silence would be taken for success
-        Diagnostics warning = fail(Fault::input, "the selection holds no keys, so nothing was checked",
-                                   "see what a selection holds with 'gobo list'")
-                                  .value();
-        warning.front().severity = Severity::warning;
-        return Outcome{{}, std::move(warning)};
-    }
+    if (composition.permutations.empty())  // silence would be taken for success
+        return Outcome{{},
+                       {{.severity = Severity::warning,
+                         .message = "the selection holds no keys, so nothing was checked",
+                         .help = "see what a selection holds with 'gobo list'"}}};
     GOBO_TRY(Validated validated,
              compile(world, family.family, composition, {.spirv_val = options.spirv_val}));
     append(validated.diagnostics, same_stages(family.family, composition));

@@ -95,13 +95,11 @@ tl::unexpected<Diagnostics> refuse(const CLI::App& app, const CLI::ParseError& e
         if (option == "--") break;
         if (option.size() < 2 || !option.starts_with('-') || chosen.get_option_no_throw(option) != nullptr)
             continue;
-        for (const auto& [was, now] : {std::pair{"--retired", "--excluded"}})
-            if (option == was && chosen.get_option_no_throw(now) != nullptr)
-                return fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, option),
-                            fmt::format("'{}' is now '{}'", was, now));
         const auto near = nearest(option, known);
-        return fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, option),
-                    near ? fmt::format("did you mean '{}'?", *near) : see_help);
+        std::string help = near ? fmt::format("did you mean '{}'?", *near) : see_help;
+        if (option == "--retired" && chosen.get_option_no_throw("--excluded") != nullptr)
+            help = "'--retired' is now '--excluded'";
+        return fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, option), help);
     }
     return fail(Fault::usage, fmt::format("unexpected argument '{}'", chosen.remaining().front()), see_help);
 }

@@ -1,6 +1,7 @@
 #include "gobo/input.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -17,12 +18,6 @@
 namespace gobo {
 namespace {
 
-tl::unexpected<Diagnostics> fail_at(const std::string& file, std::string message, std::string help = {}) {
-    auto failure = fail(Fault::input, std::move(message), std::move(help));
-    failure.value().front().place.file = file;
-    return failure;
-}
-
 /// Has the lab find what this program has read of standard input.
 void keep_standard_input(const std::string& text) {
     const int file = memfd_create("standard input", 0);
@@ -32,17 +27,15 @@ void keep_standard_input(const std::string& text) {
     close(file);
 }
 
-/// A family file's text and where its templates lie.
-struct FamilySource {
-    std::string text;
-    std::string path;
-    bool is_shipped = false;
-};
+/// Whether it is embedded in the program: named, not by its .toml file.
+bool is_embedded(const World& world, const std::string& family) {
+    return family != "-" && !family.ends_with(".toml") && world.options.library.empty();
+}
 
-Result<FamilySource> find_family(const World& world, const std::string& name) {
+Result<FamilyText> find_family(const World& world, const std::string& name) {
     if (name == "-" || name.ends_with(".toml")) {
         GOBO_TRY(std::string text, read_input(world, name));
-        return FamilySource{std::move(text), name == "-" ? "stdin" : name};
+        return FamilyText{std::move(text), name == "-" ? "stdin" : name};
     }
     const std::string path = world.in_library(fmt::format("templates/{}.toml", name));
     if (!world.library().is_file(path))
@@ -50,7 +43,7 @@ Result<FamilySource> find_family(const World& world, const std::string& name) {
             Fault::usage, fmt::format("there is no shipped family '{}'", name),
             suggestion(name, shipped_families(world)) + " (a family of your own is named by its .toml file)");
     GOBO_TRY(std::string text, world.library().read(path));
-    return FamilySource{std::move(text), path, world.options.library.empty()};
+    return FamilyText{std::move(text), path};
 }
 
 Result<Dialect> read_dialect(const std::string& name) {
@@ -76,10 +69,9 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
     const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
     std::vector<NamedKey> named;
-    for (const Key& key : scene::distinct_keys(keys))
-        named.push_back({key_text(family.family, key), {path, 0, 0}});
+    for (const Key& key : scene::distinct_keys(keys)) named.push_back({key_text(family.family, key), {path}});
     // An empty selection would mean the family's default set.
-    if (named.empty()) return fail_at(path, "needs no permutation: it draws no triangles");
+    if (named.empty()) return fail(Place{path}, {}, "needs no permutation: it draws no triangles");
     return named;
 }
 
@@ -87,8 +79,8 @@ Result<std::vector<NamedKey>> keys_of_file(const World& world, const std::string
     GOBO_TRY(const std::string text, read_input(world, path));
     std::vector<NamedKey> keys = keys_of_text(text, path == "-" ? "stdin" : path);
     if (keys.empty())
-        return fail_at(path, "holds no keys",
-                       "write one key a line; 'default' is the key with every feature at its default");
+        return fail(Place{path}, {}, "holds no keys",
+                    "write one key a line; 'default' is the key with every feature at its default");
     return keys;
 }
 
@@ -137,25 +129,26 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
     LoadedFamily loaded;
     loaded.name = name;
     GOBO_TRY(loaded.dialect, read_dialect(dialect));
-    GOBO_TRY(FamilySource source, find_family(world, name));
+    GOBO_TRY(const FamilyText source, find_family(world, name));
     const std::string folder = folder_of(source.path);
     std::string base_folder = folder;
     const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
         const bool is_file = base_name.ends_with(".toml");
         const bool is_beside = is_file && !base_name.starts_with('/') && !folder.empty();
-        GOBO_TRY(FamilySource base, find_family(world, is_beside ? folder + "/" + base_name : base_name));
-        if (!base.is_shipped) loaded.files.push_back(base.path);
+        GOBO_TRY(FamilyText base, find_family(world, is_beside ? folder + "/" + base_name : base_name));
+        if (!is_embedded(world, base_name)) loaded.files.push_back(base.path);
         if (is_file) base_folder = folder_of(base.path);
-        return FamilyText{std::move(base.text), std::move(base.path)};
+        return base;
     };
     GOBO_TRY(loaded.family, read_family(source.text, source.path, find_base));
     add_include_folders(world, loaded.search);
-    if (!source.is_shipped) loaded.search.add(world.disk, folder, "", true);
+    const bool is_on_disk = !is_embedded(world, name);
+    if (is_on_disk) loaded.search.add(world.disk, folder, "", true);
     if (base_folder != folder) loaded.search.add(world.disk, base_folder, "", true);
     for (const std::string part : {"shader_lib", "templates"})
         loaded.search.add(world.library(), world.in_library(part), part + "/",
                           !world.options.library.empty());
-    if (!source.is_shipped && name != "-") loaded.files.push_back(source.path);
+    if (is_on_disk && name != "-") loaded.files.push_back(source.path);
     return loaded;
 }
 
@@ -177,16 +170,10 @@ OptionGroup selection_options(SelectionOptions& options) {
               &options.more.excluded}}};
 }
 
-Selection to_selection(const SelectionOptions& options) {
+Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
     Selection selection = options.more;
     selection.over = split(join(options.more.over, ","), ',');
-    for (const std::string& text : options.keys) selection.keys.push_back({text, {}});
-    return selection;
-}
-
-Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
-                                   const SelectionOptions& options) {
-    Selection selection = to_selection(options);
+    for (const std::string& text : options.keys) selection.keys.push_back({text});
     for (const std::string& path : options.key_files) {
         GOBO_TRY(const auto keys, keys_of_file(world, path));
         selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
@@ -196,6 +183,12 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
         GOBO_TRY(const auto keys, keys_of_scene(world, family, path, options.bucket_lights));
         selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
     }
+    return selection;
+}
+
+Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
+                                   const SelectionOptions& options) {
+    GOBO_TRY(const Selection selection, load_selection(world, family, options));
     return select(family.family, selection, name_of(family.dialect));
 }
 
@@ -266,8 +259,7 @@ void append(Diagnostics& diagnostics, const Diagnostics& more) {
 }
 
 std::string stem_of(const std::string& path) {
-    const std::string name = path.substr(path.rfind('/') + 1);
-    return name.substr(0, name.rfind('.'));
+    return std::filesystem::path(path).stem().string();
 }
 
 }  // namespace gobo

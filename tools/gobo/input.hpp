@@ -79,19 +79,16 @@ struct SelectionOptions {
 };
 [[nodiscard]] OptionGroup selection_options(SelectionOptions& options);
 
-/// What the options say without their files.
-[[nodiscard]] Selection to_selection(const SelectionOptions& options);
-/// The selected keys. Key files, scenes and their buffers that were read are added to `family.files`.
+/// What the options select. Key files, scenes and their buffers that were read are added to `family.files`.
+[[nodiscard]] Result<Selection> load_selection(const World& world, LoadedFamily& family,
+                                               const SelectionOptions& options);
+/// The selected keys.
 [[nodiscard]] Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                                  const SelectionOptions& options);
 
 /// What a budget chooses qualities by.
-struct BudgetOptions {
-    double max_error = 0;  ///< 0: no limit
-    double max_cost = 0;   ///< 0: no limit
-    std::string study;     ///< a study.csv or summary.csv; empty: the shipped one of the family
-
-    [[nodiscard]] bool is_set() const { return max_error > 0 || max_cost > 0; }
+struct BudgetOptions : Budget {
+    std::string study;  ///< a study.csv or summary.csv; empty: the shipped one of the family
 };
 [[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
 

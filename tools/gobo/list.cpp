@@ -20,11 +20,10 @@ std::string keys_as_json(const Family& family, const std::vector<Key>& keys) {
         nlohmann::ordered_json features;
         for (std::size_t i = 0; i < key.size(); ++i) {
             const Feature& feature = family.features[i];
-            if (feature.kind == FeatureKind::count) {
+            if (feature.kind == FeatureKind::count)
                 features[feature.name] = key[i];
-            } else {
-                features[feature.name] = feature.values[static_cast<std::size_t>(key[i])];
-            }
+            else
+                features[feature.name] = feature.values[key[i]];
         }
         rows.push_back({{"key", key_text(family, key)}, {"features", std::move(features)}});
     }
@@ -32,18 +31,17 @@ std::string keys_as_json(const Family& family, const std::vector<Key>& keys) {
 }
 
 Result<Outcome> run(const ListOptions& options, const World& world) {
-    GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
-    if (options.count && options.key_files.empty() && options.scenes.empty()) {
-        // By arithmetic, where no key need be made.
-        GOBO_TRY(const std::uint64_t count,
-                 count_selected(family.family, to_selection(options), name_of(family.dialect)));
-        return Outcome{fmt::format("{}\n", count)};
+    GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
+    const Family& family = loaded.family;
+    GOBO_TRY(const Selection selection, load_selection(world, loaded, options));
+    if (options.count) {
+        GOBO_TRY(const auto count, count_selected(family, selection, name_of(loaded.dialect)));
+        return Outcome{count.text() + "\n"};
     }
-    GOBO_TRY(const auto keys, load_keys(world, family, options));
-    if (options.count) return Outcome{fmt::format("{}\n", keys.size())};
-    if (options.json) return Outcome{keys_as_json(family.family, keys)};
+    GOBO_TRY(const auto keys, select(family, selection, name_of(loaded.dialect)));
+    if (options.json) return Outcome{keys_as_json(family, keys)};
     Outcome outcome;
-    for (const Key& key : keys) outcome.output += key_text(family.family, key) + "\n";
+    for (const Key& key : keys) outcome.output += key_text(family, key) + "\n";
     return outcome;
 }
 

@@ -16,11 +16,10 @@ struct ShowOptions {
 };
 
 std::string shown(const Composition& composition, int index, bool names_pieces) {
-    const Stage& stage = composition.stages[static_cast<std::size_t>(index)];
+    const Stage& stage = composition.stages[index];
     if (!names_pieces) return source_of(composition, stage);
     std::string text;
-    for (const int piece : stage.pieces)
-        text += composition.pieces[static_cast<std::size_t>(piece)].name + "\n";
+    for (const int piece : stage.pieces) text += composition.pieces[piece].name + "\n";
     return text;
 }
 

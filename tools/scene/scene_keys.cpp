@@ -122,7 +122,7 @@ Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& dra
         funnel.full_product = funnel.full_product > most / count ? most : funnel.full_product * count;
     }
     GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, {{}, {}, true}));
-    funnel.valid = space.count();
+    funnel.valid = space.count().saturated();
     funnel.draws = static_cast<std::size_t>(
         std::ranges::count_if(exact, [](const auto& draw) { return draw.has_value(); }));
     funnel.needed = distinct_keys(exact).size();

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "budget/qualities.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo {
 namespace {
@@ -124,7 +124,8 @@ Result<std::vector<StudiedKey>> measure_qualities(const World& world, const Load
     GOBO_TRY(const auto plan, load_plan(world, family.family));
     std::vector<Key> keys = study::front_qualities(family.family, studied, effects);
     if (studied.empty())
-        for (const Choice& choice : single_choices(family.family, effects)) keys.push_back(choice.key);
+        for (const study::Choice& choice : study::single_choices(family.family, effects))
+            keys.push_back(choice.key);
     const study::Progress progress = progress_on_terminal(world);
     progress("measuring " + key_text(family.family, effects), 0, 1);
     study::Journal journal;

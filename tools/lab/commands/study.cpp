@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "budget/qualities.hpp"
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/study/front.hpp"
+#include "lab/study/qualities.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/rows.hpp"
 

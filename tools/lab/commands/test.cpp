@@ -90,9 +90,8 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
     Diagnostic error;
     error.subject = one;
     error.place = relation.place;
-    error.message =
-        fmt::format("the relation {} does not hold at {} of {} points: {}",
-                    to_text(relation, family.features), report.failed, report.points, report.found);
+    error.message = fmt::format("the relation {} does not hold at {} of {} points: {}", relation.text,
+                                report.failed, report.points, report.found);
     error.help = fmt::format("fix the shaders, or state `when` it holds{}",
                              options.folder.empty() ? "; keep the worst point with -o DIR" : "");
     Diagnostics diagnostics = {std::move(error)};
@@ -294,18 +293,17 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
     verify_options.meshes = verify::test_meshes(std::move(teapot));
     const auto report = verify::verify(family.family, composition, validated, verify_options);
-    Selection everything;
-    everything.all = true;
-    GOBO_TRY(const std::uint64_t valid, count_selected(family.family, everything, name_of(family.dialect)));
+    GOBO_TRY(const auto valid, count_selected(family.family, {.all = true}, name_of(family.dialect)));
     Diagnostics diagnostics = report_failures(world, options, family.family, report);
     if (!options.figures_file.empty()) {
         const auto written =
             world.disk.write(options.figures_file, verify::figures_json(family.family, report));
         if (!written) append(diagnostics, written.error());
     }
-    return Outcome{fmt::format("{} permutations of {} valid ones\n", report.permutations.size(), valid) +
-                       figures_text(report),
-                   std::move(diagnostics)};
+    return Outcome{
+        fmt::format("{} permutations of {} valid ones\n", report.permutations.size(), valid.text()) +
+            figures_text(report),
+        std::move(diagnostics)};
 }
 
 }  // namespace

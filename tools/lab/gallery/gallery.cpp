@@ -12,13 +12,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/html.hpp"
 #include "core/parallel.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/raster/shade.hpp"
 #include "lab/raster/shared_textures.hpp"
+#include "lab/study/html.hpp"
 
 namespace gobo::gallery {
 namespace {
@@ -106,8 +106,8 @@ Result<std::string> page(const FileSystem& shipped, const Family& family, const 
                        {"white_error", gallery.white_error},
                        {"features", features_of(family, gallery)},
                        {"entries", std::move(entries)}};
-    return fill({kTemplate, text}, {{"title", html_escaped("Permutations of " + family.name)},
-                                    {"data", html_script(data.dump())}});
+    return fill({kTemplate, text}, {{"title", study::html_escaped("Permutations of " + family.name)},
+                                    {"data", study::html_script(data.dump())}});
 }
 
 RenderedSelection make_gallery(const Scene& scene, const Family& family, const Composition& composition,

@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/random.hpp"
+#include "lab/raster/random_numbers.hpp"
 
 namespace gobo {
 

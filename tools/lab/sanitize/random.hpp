@@ -2,7 +2,7 @@
 // inputs for.
 #pragma once
 
-#include "core/random.hpp"
+#include "lab/raster/random_numbers.hpp"
 
 namespace gobo::sanitize {
 

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "budget/qualities.hpp"
-#include "core/html.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "lab/study/html.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo::study {
 namespace {

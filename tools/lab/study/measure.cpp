@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/csv.hpp"
+#include "lab/study/csv_text.hpp"
 
 namespace gobo::study {
 namespace {

@@ -6,95 +6,93 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "budget/qualities.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_features.hpp"
 #include "family/selection.hpp"
 #include "lab/raster/rasterise.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo::study {
 namespace {
 
 /// A point in the world, or `point` as it is.
-void read_point(TomlReader& reader, const toml::table& row, std::string_view name,
-                std::array<double, 3>& point) {
-    if (!row.contains(name)) return;
-    const std::vector<double> numbers = reader.numbers(row, name);
+void read_point(const TomlTable& table, std::string_view name, std::array<double, 3>& point) {
+    if (!table.has(name)) return;
+    const std::vector<double> numbers = table.numbers(name);
     if (numbers.size() == 3)
         std::copy(numbers.begin(), numbers.end(), point.begin());
     else
-        reader.error(*row.get(name), fmt::format("'{}' is not a point", name), "write [x, y, z]");
+        table.reader.error(table.place_of(name), fmt::format("'{}' is not a point", name), "write [x, y, z]");
 }
 
-void read_extent(TomlReader& reader, const toml::table& row, std::string_view name, int least, int& extent) {
+void read_extent(const TomlTable& table, std::string_view name, int least, int& extent) {
     constexpr int kMost = 1024;
-    const std::int64_t number = reader.integer(row, name).value_or(extent);
+    const std::int64_t number = table.integer(name).value_or(extent);
     if (number >= least && number <= kMost)
         extent = static_cast<int>(number);
     else
-        reader.error(*row.get(name), fmt::format("'{}' is {}", name, number),
-                     fmt::format("choose from {} to {}", least, kMost));
+        table.reader.error(table.place_of(name), fmt::format("'{}' is {}", name, number),
+                           fmt::format("choose from {} to {}", least, kMost));
 }
 
-StudyScene read_scene(TomlReader& reader, const toml::table& row) {
+StudyScene read_scene(const TomlTable& row) {
     const std::vector<std::string> meshes = {"plane", "sphere", "teapot", "torus"};
     StudyScene scene;
-    scene.name = reader.required_string(row, "a study scene", "name");
-    reader.only(row, fmt::format("the study scene '{}'", scene.name),
-                {"name", "mesh", "detail", "floor_cells", "camera", "target", "values"});
-    scene.mesh = reader.string(row, "mesh").value_or(scene.mesh);
-    if (std::find(meshes.begin(), meshes.end(), scene.mesh) == meshes.end())
-        reader.error(*row.get("mesh"), fmt::format("there is no mesh '{}'", scene.mesh),
-                     suggestion(scene.mesh, meshes));
-    read_extent(reader, row, "detail", 3, scene.detail);
-    read_extent(reader, row, "floor_cells", 0, scene.floor_cells);
-    read_point(reader, row, "camera", scene.camera);
-    read_point(reader, row, "target", scene.target);
-    scene.values = read_render_values(reader, row, "values");
+    scene.name = row.required_string("name");
+    row.called(fmt::format("the study scene '{}'", scene.name))
+        .only({"name", "mesh", "detail", "floor_cells", "camera", "target", "values"});
+    scene.mesh = row.string("mesh").value_or(scene.mesh);
+    if (std::ranges::count(meshes, scene.mesh) == 0)
+        row.reader.error(row.place_of("mesh"), fmt::format("there is no mesh '{}'", scene.mesh),
+                         suggestion(scene.mesh, meshes));
+    read_extent(row, "detail", 3, scene.detail);
+    read_extent(row, "floor_cells", 0, scene.floor_cells);
+    read_point(row, "camera", scene.camera);
+    read_point(row, "target", scene.target);
+    scene.values = read_render_values(row, "values");
     return scene;
 }
 
-void check_keys(TomlReader& reader, const toml::node& node, const std::vector<std::string>& texts,
+void check_keys(TomlReader& reader, const Place& place, const std::vector<std::string>& texts,
                 const Family& family) {
     if (reader.failed()) return;
     for (const std::string& text : texts)
-        if (const Result<Key> key = parse_key(family, text, reader.place_of(node)); !key)
-            reader.take(key.error());
+        if (const Result<Key> key = parse_key(family, text, place); !key) reader.take(key.error());
 }
 
-void check_quality(TomlReader& reader, const toml::node& node, const std::string& name,
+void check_quality(const TomlTable& table, std::string_view entry, const std::string& name,
                    const Family& family) {
     std::vector<std::string> known;
     for (const Feature& feature : family.features)
         if (feature.role == Role::quality) known.push_back(feature.name);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        reader.error(node, fmt::format("the family has no quality feature '{}'", name),
-                     suggestion(name, known));
+    if (std::ranges::count(known, name) == 0)
+        table.reader.error(table.place_of(entry), fmt::format("the family has no quality feature '{}'", name),
+                           suggestion(name, known));
 }
 
-StudyCurve read_curve(TomlReader& reader, const toml::table& row, const Family& family) {
-    reader.only(row, "a study curve", {"feature", "over", "numbers", "effects"});
+StudyCurve read_curve(const TomlTable& row, const Family& family) {
+    row.only({"feature", "over", "numbers", "effects"});
     StudyCurve curve;
-    curve.feature = reader.required_string(row, "a study curve", "feature");
-    curve.over = reader.required_string(row, "a study curve", "over");
-    curve.numbers = reader.numbers(row, "numbers");
-    curve.effects = reader.required_string(row, "a study curve", "effects");
-    if (reader.failed()) return curve;
-    check_quality(reader, *row.get("feature"), curve.feature, family);
-    check_keys(reader, *row.get("effects"), {curve.effects}, family);
+    curve.feature = row.required_string("feature");
+    curve.over = row.required_string("over");
+    curve.numbers = row.numbers("numbers");
+    curve.effects = row.required_string("effects");
+    if (row.reader.failed()) return curve;
+    check_quality(row, "feature", curve.feature, family);
+    check_keys(row.reader, row.place_of("effects"), {curve.effects}, family);
     return curve;
 }
 
-StudyChange read_change(TomlReader& reader, const toml::table& row, const Family& family) {
-    reader.only(row, "a study change", {"from", "to", "from_values", "to_values"});
+StudyChange read_change(const TomlTable& row, const Family& family) {
+    row.only({"from", "to", "from_values", "to_values"});
     StudyChange change;
-    change.from = reader.required_string(row, "a study change", "from");
-    change.to = reader.required_string(row, "a study change", "to");
-    change.from_values = read_render_values(reader, row, "from_values");
-    change.to_values = read_render_values(reader, row, "to_values");
-    if (!reader.failed()) check_keys(reader, row, {change.from, change.to}, family);
+    change.from = row.required_string("from");
+    change.to = row.required_string("to");
+    change.from_values = read_render_values(row, "from_values");
+    change.to_values = read_render_values(row, "to_values");
+    check_keys(row.reader, row.place_of(), {change.from, change.to}, family);
     return change;
 }
 
@@ -182,21 +180,21 @@ bool is_near_edge(const evaluate::DepthTexels& maps, const evaluate::ImageReques
 
 Result<StudyPlan> read_plan(std::string_view text, const std::string& path, const Family& family) {
     TomlReader reader(text, path);
-    const toml::table& root = reader.root();
-    reader.only(root, "the plan", {"effects", "quick", "rate", "scenes", "curves", "changes"});
+    const TomlTable root(reader, reader.root(), "the plan");
+    root.only({"effects", "quick", "rate", "scenes", "curves", "changes"});
     StudyPlan plan;
-    plan.effects = reader.strings(root, "effects");
-    plan.quick = reader.strings(root, "quick");
-    plan.rate = reader.strings(root, "rate");
-    for (const auto& [name, keys] : {std::pair{"effects", &plan.effects}, std::pair{"quick", &plan.quick}})
-        if (const toml::node* node = root.get(name)) check_keys(reader, *node, *keys, family);
-    for (const std::string& name : plan.rate) check_quality(reader, *root.get("rate"), name, family);
-    for (const toml::table* row : reader.tables(root, "scenes", "scene"))
-        plan.scenes.push_back(read_scene(reader, *row));
-    for (const toml::table* row : reader.tables(root, "curves", "curve"))
-        plan.curves.push_back(read_curve(reader, *row, family));
-    for (const toml::table* row : reader.tables(root, "changes", "change"))
-        plan.changes.push_back(read_change(reader, *row, family));
+    plan.effects = root.strings("effects");
+    plan.quick = root.strings("quick");
+    plan.rate = root.strings("rate");
+    check_keys(reader, root.place_of("effects"), plan.effects, family);
+    check_keys(reader, root.place_of("quick"), plan.quick, family);
+    for (const std::string& name : plan.rate) check_quality(root, "rate", name, family);
+    for (const TomlTable& row : root.tables("scenes", "a study scene"))
+        plan.scenes.push_back(read_scene(row));
+    for (const TomlTable& row : root.tables("curves", "a study curve"))
+        plan.curves.push_back(read_curve(row, family));
+    for (const TomlTable& row : root.tables("changes", "a study change"))
+        plan.changes.push_back(read_change(row, family));
     if (reader.failed()) return tl::unexpected(reader.errors());
     return completed(std::move(plan), family);
 }

@@ -6,9 +6,9 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "core/parallel.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/raster/raster_object.hpp"
+#include "lab/study/parallel_results.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/inputs.hpp"
 #include "validate/validate.hpp"

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "budget/qualities.hpp"
-#include "core/html.hpp"
-#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
 #include "lab/study/front.hpp"
+#include "lab/study/html.hpp"
+#include "lab/study/parallel_results.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo::study {
 namespace {

@@ -8,8 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "budget/qualities.hpp"
 #include "family/key.hpp"
+#include "lab/study/csv_text.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo::study {
 namespace {
@@ -35,8 +36,9 @@ struct Words {
 std::string cell_of(const std::string& text) {
     return text;
 }
+/// Six significant digits: more than any measurement here has.
 std::string cell_of(double number) {
-    return csv_number(number);
+    return fmt::format("{:.6g}", number);
 }
 std::string cell_of(std::integral auto number) {
     return std::to_string(number);
@@ -108,7 +110,7 @@ void visit_columns(Row& row, const auto& column, const auto& derived) {
     spread("fragment_ns_processor", timing.processor.fragment);
     spread("vertex_ns_processor", timing.processor.vertex);
     for (const auto& [suffix, part] : kParts)
-        derived(std::string("time_ns") + suffix, row.timing ? csv_number(row.time().*part) : "");
+        derived(std::string("time_ns") + suffix, row.timing ? cell_of(row.time().*part) : "");
     column("time_front", row.on_time_front, Words{});
     std::optional<int> rounds;
     if (row.timing) rounds = timing.rounds;
@@ -368,9 +370,9 @@ std::string curves_csv(const std::vector<CurvePoint>& curves) {
     table.columns = {"feature",   "value",     "over",      "number",   "effects",
                      "model_max", "model_rms", "error_max", "error_rms"};
     for (const CurvePoint& point : curves)
-        table.rows.push_back({point.feature, point.value, point.over, csv_number(point.number), point.effects,
-                              csv_number(point.error.max), csv_number(point.error.rms),
-                              csv_number(point.total.max), csv_number(point.total.rms)});
+        table.rows.push_back({point.feature, point.value, point.over, cell_of(point.number), point.effects,
+                              cell_of(point.error.max), cell_of(point.error.rms), cell_of(point.total.max),
+                              cell_of(point.total.rms)});
     return csv_text(table);
 }
 

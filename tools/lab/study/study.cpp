@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "budget/qualities.hpp"
-#include "core/parallel.hpp"
 #include "family/key.hpp"
+#include "lab/study/parallel_results.hpp"
+#include "lab/study/qualities.hpp"
 
 namespace gobo::study {
 namespace {

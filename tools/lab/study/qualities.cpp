@@ -1,25 +1,22 @@
-#include "budget/qualities.hpp"
+#include "lab/study/qualities.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "family/key.hpp"
 
-namespace gobo {
+namespace gobo::study {
 namespace {
-
-/// The dialect that evaluation works on.
-constexpr std::string_view kDialect = "450";
 
 Key with(const Family& family, Key key, int feature, int value) {
     key[feature] = value;
-    return canonical(family, std::move(key), kDialect);
+    return canonical(family, std::move(key), kStudiedDialect);
 }
 
 }  // namespace
 
 int most_accurate_value(const Feature& feature) {
-    return feature.listed().front();
+    return feature.default_place > 0 ? 1 : 0;  // the default stands first, the others behind it as listed
 }
 
 std::vector<int> quality_features(const Family& family) {
@@ -32,11 +29,7 @@ std::vector<int> quality_features(const Family& family) {
 Key most_accurate(const Family& family, Key key) {
     for (const int feature : quality_features(family))
         key[feature] = most_accurate_value(family.features[feature]);
-    return canonical(family, std::move(key), kDialect);
-}
-
-Key effects_of(const Family& family, Key key) {
-    return with_quality_of(family, std::move(key), default_key(family));
+    return canonical(family, std::move(key), kStudiedDialect);
 }
 
 std::string quality_text(const Family& family, const Key& key) {
@@ -83,11 +76,11 @@ std::vector<Key> all_qualities(const Family& family, const Key& effects, std::si
 
 Key with_quality_of(const Family& family, Key key, const Key& quality) {
     for (const int feature : quality_features(family)) key[feature] = quality[feature];
-    return canonical(family, std::move(key), kDialect);
+    return canonical(family, std::move(key), kStudiedDialect);
 }
 
 bool is_valid(const Family& family, const Key& key) {
-    return forbidding_rule(family, key, kDialect) == nullptr;
+    return forbidding_rule(family, key, kStudiedDialect) == nullptr;
 }
 
-}  // namespace gobo
+}  // namespace gobo::study

@@ -1,11 +1,11 @@
-#include "core/html.hpp"
+#include "lab/study/html.hpp"
 
 #include <cctype>
 #include <cstdint>
 
 #include <fmt/format.h>
 
-namespace gobo {
+namespace gobo::study {
 namespace {
 
 bool is_number(const std::string& cell) {
@@ -18,22 +18,16 @@ bool is_number(const std::string& cell) {
 std::string html_escaped(std::string_view text) {
     std::string result;
     for (const char character : text) {
-        switch (character) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += character;
-        }
+        if (character == '&')
+            result += "&amp;";
+        else if (character == '<')
+            result += "&lt;";
+        else if (character == '>')
+            result += "&gt;";
+        else if (character == '"')
+            result += "&quot;";
+        else
+            result += character;
     }
     return result;
 }
@@ -75,4 +69,4 @@ std::string html_table(const std::vector<std::string>& header, const std::vector
     return text + "</table>\n";
 }
 
-}  // namespace gobo
+}  // namespace gobo::study

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "family/family.hpp"
+#include "budget/budget.hpp"
 
-namespace gobo {
+namespace gobo::study {
 
 /// The index of a quality feature's most accurate value: the first that the family lists.
 [[nodiscard]] int most_accurate_value(const Feature& feature);
@@ -17,9 +17,6 @@ namespace gobo {
 
 /// The key with every quality feature at its most accurate value, canonical.
 [[nodiscard]] Key most_accurate(const Family& family, Key key);
-
-/// The key with every quality feature at its default, canonical: the effects that a scene calls for.
-[[nodiscard]] Key effects_of(const Family& family, Key key);
 
 /// The key's quality features that differ from the most accurate ones of its effects: "power=schlick
 /// shading=vertex"; empty for the most accurate key itself.
@@ -44,4 +41,4 @@ struct Choice {
 /// Whether the rules allow the key in GLSL's own dialect.
 [[nodiscard]] bool is_valid(const Family& family, const Key& key);
 
-}  // namespace gobo
+}  // namespace gobo::study

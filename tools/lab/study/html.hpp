@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gobo {
+namespace gobo::study {
 
 /// `text` for use between tags and in attributes.
 [[nodiscard]] std::string html_escaped(std::string_view text);
@@ -29,4 +29,4 @@ struct HtmlRow {
 [[nodiscard]] std::string html_table(const std::vector<std::string>& header,
                                      const std::vector<HtmlRow>& rows);
 
-}  // namespace gobo
+}  // namespace gobo::study
