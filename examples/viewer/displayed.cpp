@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "lab/render/image_file.hpp"
+#include "lab/render/image.hpp"
 
 namespace viewer {
 

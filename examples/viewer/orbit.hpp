@@ -4,7 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "lab/scene_picture/scene_view.hpp"
+#include "lab/scene_picture/draw_scene.hpp"
 #include "stage.hpp"
 
 namespace viewer {
