@@ -3,7 +3,7 @@
 set -euo pipefail
 
 packages=(
-  ca-certificates g++ clang cmake make ninja-build ccache git
+  ca-certificates g++ clang cmake make ninja-build ccache git dpkg-dev file
   libexpected-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libxxhash-dev libglm-dev
   glslang-dev glslang-tools spirv-tools spirv-headers spirv-cross glslc
   libosmesa6 libegl1 libgl1-mesa-dri libtinyobjloader-dev libopenexr-dev liblodepng-dev

@@ -26,9 +26,12 @@ float highlightPower(float oneMinusCosine, float exponent) {
 float highlightPower(float oneMinusCosine, float exponent) {
     float square = max(1.0 - oneMinusCosine, 0.0);  // guard: base below 0
     float weight = 1.0;
-    for (int digits = int(roundEven(exponent)); digits > 0; digits >>= 1) {
+    int digits = int(roundEven(exponent));
+    // The bound is for Mesa 25.0, which crashes when it links a loop without one to a vertex stage.
+    for (int i = 0; i < 31 && digits > 0; ++i) {
         if ((digits & 1) == 1) weight *= square;
         square *= square;
+        digits >>= 1;
     }
     return weight;
 }

@@ -62,7 +62,9 @@ std::optional<Change> number_at(std::string_view line, std::size_t column) {
     const double value = std::stod(from);
     const bool is_whole = from.find_first_of(".e") == std::string::npos;
     if (is_whole) return Change{column, from, std::to_string(static_cast<int>(value) + 1)};
-    return Change{column, from, fmt::format("{:#}", value == 0 ? 1 : 1.5 * value)};
+    std::string to = fmt::format("{}", value == 0 ? 1 : 1.5 * value);
+    if (to.find_first_of(".e") == std::string::npos) to += ".0";
+    return Change{column, from, to};
 }
 
 /// Where a line's code ends, and its comment begins.

@@ -63,7 +63,9 @@ double error_of(const Row& row, const std::array<float, 3>& drawn, const evaluat
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t at = c * inputs.count + fragment;
         const double expected = row.offset + row.scale * inputs.values.at(row.input)[at];
-        if (expected <= 0) continue;
+        // Where all three vertices hold zero nothing is rounded in between: what differs is the vertex
+        // stage's own rounding.
+        if (expected <= 0 || rounding[at] == 0) continue;
         largest = std::max(largest, std::abs(static_cast<double>(drawn[c]) - expected) /
                                         (std::abs(row.scale) * rounding[at]));
     }

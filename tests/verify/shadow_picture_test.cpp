@@ -43,12 +43,14 @@ Drawable compose_drawable(const std::string& family_name, const std::string& key
 }
 
 /// Composed once.
-const Drawable& drawable(const std::string& family_name, const std::string& key) {
+const Drawable& drawable(std::string_view family_name, std::string_view key) {
     static std::map<std::string, Drawable> known;
-    const std::string name = family_name + " " + key;
+    const std::string name = fmt::format("{} {}", family_name, key);
     const auto found = known.find(name);
-    return found != known.end() ? found->second
-                                : known.emplace(name, compose_drawable(family_name, key)).first->second;
+    return found != known.end()
+               ? found->second
+               : known.emplace(name, compose_drawable(std::string(family_name), std::string(key)))
+                     .first->second;
 }
 
 DepthPass depth_pass() {
