@@ -35,8 +35,10 @@ struct Shown {
     explicit Shown(const Row& row) {
         std::string text = piece_text("fog/none.glsl");
         const std::string radiance = "return radiance;";
+        // The choice keeps drivers from moving the sum into the vertex stage, as Mesa does since 24.
+        const std::string input = fmt::format("(gl_FragCoord.x < 0.0 ? vec3(0.0) : {})", row.input);
         text.replace(text.find(radiance), radiance.size(),
-                     fmt::format("return {:#} + {:#} * {};", row.offset, row.scale, row.input));
+                     fmt::format("return {:#} + {:#} * {};", row.offset, row.scale, input));
         composition =
             compose_lit(family, keys_of(family, {"directional=1"}), {{"fog/none.glsl", text}}).value();
         ValidateOptions options;
@@ -56,6 +58,10 @@ struct Nearest {
     double error = 0;  ///< the largest of its components, in roundings
 };
 
+/// What the vertex stage itself rounds in a unit vector, each of whose components is a sum of three products:
+/// where they cancel, drivers differ by as much.
+constexpr double kVertexRounding = 3 * 0x1p-24;
+
 /// The largest error of what is drawn of the fragment, in roundings.
 double error_of(const Row& row, const std::array<float, 3>& drawn, const evaluate::Invocations& inputs,
                 const std::vector<double>& rounding, std::size_t fragment) {
@@ -63,11 +69,9 @@ double error_of(const Row& row, const std::array<float, 3>& drawn, const evaluat
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t at = c * inputs.count + fragment;
         const double expected = row.offset + row.scale * inputs.values.at(row.input)[at];
-        // Where all three vertices hold zero nothing is rounded in between: what differs is the vertex
-        // stage's own rounding.
-        if (expected <= 0 || rounding[at] == 0) continue;
+        if (expected <= 0) continue;
         largest = std::max(largest, std::abs(static_cast<double>(drawn[c]) - expected) /
-                                        (std::abs(row.scale) * rounding[at]));
+                                        (std::abs(row.scale) * (rounding[at] + kVertexRounding)));
     }
     return largest;
 }
