@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
-#include "lab/raster/interpolation_spread.hpp"
+#include "lab/raster/shade.hpp"
 #include "lab/render/mesh.hpp"
 #include "lab/render/render.hpp"
 #include "lit_library.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/raster/interpolation_spread.hpp"
+#include "lab/raster/shade.hpp"
 
 namespace gobo::raster {
 namespace {
@@ -28,31 +28,15 @@ struct Candidate {
     Color spread{};  ///< of its colour: interpolation_spread()
 };
 
-/// The candidates of each pixel, in the order in which they are drawn. Refers to the objects' fragments.
-class Layers {
-  public:
-    explicit Layers(const std::vector<RasterObject>& objects)
-        : width_(objects.empty() ? 0 : objects.front().width),
-          at_(objects.empty() ? 0 : static_cast<std::size_t>(width_ * objects.front().height)) {}
-
-    /// Pixels are counted from the lower left.
-    [[nodiscard]] std::vector<Candidate>& at(int x, int y) {
-        return at_[static_cast<std::size_t>(y * width_ + x)];
-    }
-    [[nodiscard]] const std::vector<Candidate>& at(int x, int y) const {
-        return at_[static_cast<std::size_t>(y * width_ + x)];
-    }
-
-  private:
-    int width_;
-    std::vector<std::vector<Candidate>> at_;
-};
+/// The candidates of each pixel, in the order in which they are drawn; row after row, the lowest first. Refer
+/// to the objects' fragments.
+using Layers = std::vector<std::vector<Candidate>>;
 
 /// Shades every object, nudged; `with_spread` finds how far its colours may be off by errors of
 /// interpolation.
-Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObject>& objects, bool with_spread,
-                         const Nudge& nudge = {}) {
-    Layers layers(objects);
+Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObject>& objects,
+                         std::size_t pixels, bool with_spread, const Nudge& nudge = {}) {
+    Layers layers(pixels);
     for (std::size_t o = 0; o < objects.size(); ++o) {
         GOBO_TRY(const auto shaded,
                  shade<float>(pipeline, objects[o], nullptr, {nudge.by, nudge.seed * objects.size() + o}));
@@ -62,7 +46,8 @@ Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObjec
         }
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const Fragment& fragment = objects[o].fragments[i];
-            layers.at(fragment.x, fragment.y).push_back({&fragment, shaded[i], spread[i]});
+            layers[static_cast<std::size_t>(fragment.y * objects[o].width + fragment.x)].push_back(
+                {&fragment, shaded[i], spread[i]});
         }
     }
     return layers;
@@ -120,15 +105,7 @@ double ratio_of(const Color& actual, const Seen& expected, const PixelLimit& lim
     return largest;
 }
 
-/// A picture's rows run down, OpenGL's up.
-Color color_at(const Image& image, int x, int y) {
-    Color color{};
-    for (int c = 0; c < 4; ++c)
-        color[static_cast<std::size_t>(c)] = static_cast<double>(image.at(x, image.height - 1 - y, c));
-    return color;
-}
-
-/// Judges one picture.
+/// Judges one picture. Its rows run down, OpenGL's up.
 class Judge {
   public:
     Judge(const Image& drawn, const std::array<float, 4>& background, const PixelLimit& limit,
@@ -149,12 +126,9 @@ class Judge {
     /// Compares those in doubt with their evaluation and its spread. Those out of limit stay in doubt.
     void compare_closer(const Layers& layers) {
         std::erase_if(doubts_, [&](WrongPixel& pixel) {
-            const auto& candidates = layers.at(pixel.x, drawn_.height - 1 - pixel.y);
-            const Seen seen = visible(candidates).value_or(Seen{background_, {}});
-            pixel.ratio = ratio_of(pixel.actual, seen, limit_);
+            pixel.ratio = ratio_of(pixel.actual, seen_at(layers, pixel.x, pixel.y), limit_);
             if (pixel.ratio > 1) return false;
-            report_.largest_ratio = std::max(report_.largest_ratio, nearest_ratio(pixel, candidates));
-            measure(pixel.actual, pixel.expected);
+            accept(pixel, nearest_ratio(pixel, layers));
             return true;
         });
     }
@@ -170,7 +144,7 @@ class Judge {
     /// Clears the doubts that this evaluation explains.
     void explain(const Layers& layers) {
         std::erase_if(doubts_, [&](const WrongPixel& pixel) {
-            const double ratio = nearest_ratio(pixel, layers.at(pixel.x, drawn_.height - 1 - pixel.y));
+            const double ratio = nearest_ratio(pixel, layers);
             if (ratio > 1) return false;
             report_.largest_ratio = std::max(report_.largest_ratio, ratio);
             ++report_.edges;
@@ -193,31 +167,40 @@ class Judge {
     }
 
   private:
+    [[nodiscard]] const std::vector<Candidate>& candidates(const Layers& layers, int x, int y) const {
+        return layers[static_cast<std::size_t>((drawn_.height - 1 - y) * drawn_.width + x)];
+    }
+    [[nodiscard]] Seen seen_at(const Layers& layers, int x, int y) const {
+        return visible(candidates(layers, x, y)).value_or(Seen{background_, {}});
+    }
+
     /// The ratio to whichever of the pixel's possible colours is nearest.
-    [[nodiscard]] double nearest_ratio(const WrongPixel& pixel,
-                                       const std::vector<Candidate>& candidates) const {
+    [[nodiscard]] double nearest_ratio(const WrongPixel& pixel, const Layers& layers) const {
         double nearest = std::numeric_limits<double>::infinity();
-        for (const Seen& seen : possible(candidates, background_))
+        for (const Seen& seen : possible(candidates(layers, pixel.x, pixel.y), background_))
             nearest = std::min(nearest, ratio_of(pixel.actual, seen, limit_));
         return nearest;
     }
 
     void compare(const Layers& layers, int x, int y) {
-        const std::optional<Seen> found = visible(layers.at(x, y));
-        if (found) ++report_.drawn;
-        const Seen seen = found.value_or(Seen{background_, {}});
-        const Color& expected = seen.color;
-        const Color actual = color_at(drawn_, x, y);
-        const int row = drawn_.height - 1 - y;
-        for (int c = 0; c < 4; ++c)
-            report_.expected.at(x, row, c) = static_cast<float>(expected[static_cast<std::size_t>(c)]);
-        const double ratio = ratio_of(actual, seen, limit_);
-        if (ratio > kDoubtfulRatio) {
-            doubts_.push_back({x, row, actual, expected, ratio});
-            return;
+        if (visible(candidates(layers, x, y))) ++report_.drawn;
+        const Seen seen = seen_at(layers, x, y);
+        WrongPixel pixel{x, y, {}, seen.color, 0};
+        for (int c = 0; c < 4; ++c) {
+            const auto channel = static_cast<std::size_t>(c);
+            pixel.actual[channel] = static_cast<double>(drawn_.at(x, y, c));
+            report_.expected.at(x, y, c) = static_cast<float>(seen.color[channel]);
         }
+        pixel.ratio = ratio_of(pixel.actual, seen, limit_);
+        if (pixel.ratio > kDoubtfulRatio)
+            doubts_.push_back(pixel);
+        else
+            accept(pixel, pixel.ratio);
+    }
+
+    void accept(const WrongPixel& pixel, double ratio) {
         report_.largest_ratio = std::max(report_.largest_ratio, ratio);
-        measure(actual, expected);
+        measure(pixel.actual, pixel.expected);
     }
 
     void measure(const Color& actual, const Color& expected) {
@@ -246,11 +229,25 @@ bool computes(const evaluate::Program& program, std::initializer_list<evaluate::
     return false;
 }
 
+/// The limit for a permutation that draws by these stages: it pays for powers, angles and filters only where
+/// they have some. renderer_precision_test measures what is paid for.
+PixelLimit limit_of(const Pipeline& pipeline) {
+    using evaluate::Kind;
+    PixelLimit limit{kSmallestError, kArithmeticError};
+    for (const evaluate::Program* program : {&pipeline.vertex, &pipeline.fragment}) {
+        if (!program->images.empty()) limit.absolute = kSmallestError + kFilteringError;
+        if (computes(*program, {Kind::pow, Kind::exp, Kind::log, Kind::trig}))
+            limit.relative = kArithmeticError + kPowerError;
+    }
+    return limit;
+}
+
 Result<PictureReport> compare(const Image& drawn, const Pipeline& pipeline,
                               const std::vector<RasterObject>& objects,
                               const std::array<float, 4>& background, KeptPictures kept) {
     Judge judge(drawn, background, limit_of(pipeline), kept);
-    GOBO_TRY(const Layers plain, shade_all(pipeline, objects, false));
+    const auto pixels = static_cast<std::size_t>(drawn.width) * static_cast<std::size_t>(drawn.height);
+    GOBO_TRY(const Layers plain, shade_all(pipeline, objects, pixels, false));
     judge.compare(plain);
     const auto in_doubt = [&] {
         std::vector<RasterObject> parts;
@@ -260,13 +257,13 @@ Result<PictureReport> compare(const Image& drawn, const Pipeline& pipeline,
     };
     if (judge.has_doubts()) {
         const std::vector<RasterObject> parts = in_doubt();
-        GOBO_TRY(const Layers closer, shade_all(pipeline, parts, true));
+        GOBO_TRY(const Layers closer, shade_all(pipeline, parts, pixels, true));
         judge.compare_closer(closer);
         judge.explain(closer);
     }
     const std::vector<RasterObject> parts = judge.has_doubts() ? in_doubt() : std::vector<RasterObject>{};
     for (std::uint64_t seed = 1; seed <= kNudges && judge.has_doubts(); ++seed) {
-        GOBO_TRY(const Layers nudged, shade_all(pipeline, parts, false, {kNudge, seed}));
+        GOBO_TRY(const Layers nudged, shade_all(pipeline, parts, pixels, false, {kNudge, seed}));
         judge.explain(nudged);
     }
     return std::move(judge).report();
@@ -277,17 +274,6 @@ Result<PictureReport> compare(const Image& drawn, const Pipeline& pipeline,
 bool PictureReport::fails() const {
     return wrong > 0 || root_mean_square > kRmsLimit ||
            static_cast<double>(edges) > kLargestEdgePixelShare * static_cast<double>(pixels);
-}
-
-PixelLimit limit_of(const Pipeline& pipeline) {
-    using evaluate::Kind;
-    PixelLimit limit{kSmallestError, kArithmeticError};
-    for (const evaluate::Program* program : {&pipeline.vertex, &pipeline.fragment}) {
-        if (!program->images.empty()) limit.absolute = kSmallestError + kFilteringError;
-        if (computes(*program, {Kind::pow, Kind::exp, Kind::log, Kind::trig}))
-            limit.relative = kArithmeticError + kPowerError;
-    }
-    return limit;
 }
 
 PictureReport compare_picture(const Image& drawn, const Pipeline& pipeline,

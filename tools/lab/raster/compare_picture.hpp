@@ -66,10 +66,6 @@ struct PictureReport {
 
 inline constexpr std::size_t kWorstPixels = 3;
 
-/// The limit for a permutation that draws by these stages: it pays for powers, angles and filters only where
-/// they have some. renderer_precision_test measures what is paid for.
-[[nodiscard]] PixelLimit limit_of(const Pipeline& pipeline);
-
 /// Which reports hold their pictures.
 enum class KeptPictures { failing, all };
 

@@ -31,22 +31,23 @@ void add_plain_uniform(const evaluate::Program& program, const Assignment& assig
     }
 }
 
-/// What a texture of one colour answers: the comparison, its size, or the colour.
-evaluate::Image plain_image(const std::array<double, 4>& color, bool is_depth) {
-    return [color, is_depth](const evaluate::ImageRequest& request) {
-        return evaluate::answer(color, request, is_depth ? 1 : 64);
-    };
-}
-
+/// The given images; else a texture of one colour answers the comparison, its size, or the colour.
 void add_images(const evaluate::Program& program, const std::vector<RenderValue>& values,
-                evaluate::Invocations& invocations) {
+                const evaluate::Images& images, evaluate::Invocations& invocations) {
     for (const evaluate::ImagePort& port : program.images) {
+        if (const auto given = images.find(port.name); given != images.end()) {
+            invocations.images.insert(*given);
+            continue;
+        }
         const RenderValue* value = find_value(values, port.name.substr(0, port.name.find('[')));
         std::array<double, 4> color = {0, 0, 0, 1};
         if (value != nullptr)
             std::copy_n(value->numbers.begin(), std::min<std::size_t>(value->numbers.size(), 4),
                         color.begin());
-        invocations.images[port.name] = plain_image(color, port.type.depth);
+        const int side = port.type.depth ? 1 : 64;
+        invocations.images[port.name] = [=](const evaluate::ImageRequest& request) {
+            return evaluate::answer(color, request, side);
+        };
     }
 }
 
@@ -65,7 +66,8 @@ std::vector<double> by_component(const AttributeValues& values, std::uint32_t co
 
 /// The uniforms and textures of one object for a stage; no inputs yet.
 Result<evaluate::Invocations> uniforms_of(const evaluate::Program& program, const Interface& interface,
-                                          const std::vector<RenderValue>& values, const ViewedObject& view) {
+                                          const std::vector<RenderValue>& values, const ViewedObject& view,
+                                          const evaluate::Images& images) {
     GOBO_TRY(const auto resolved, resolve_uniforms(interface, values, view));
     evaluate::Invocations invocations;
     for (const Block& block : interface.blocks) {
@@ -76,7 +78,7 @@ Result<evaluate::Invocations> uniforms_of(const evaluate::Program& program, cons
     }
     for (const Assignment& assignment : resolved.assignments)
         if (assignment.leaf.block.empty()) add_plain_uniform(program, assignment, invocations);
-    add_images(program, values, invocations);
+    add_images(program, values, images, invocations);
     return invocations;
 }
 
@@ -98,13 +100,6 @@ void add_attributes(const evaluate::Program& program, const Mesh& mesh,
             numbers.assign(port.components, source == "color" ? 1 : 0);
         }
     }
-}
-
-void give_images(const evaluate::Program& program, const evaluate::Images& images,
-                 evaluate::Invocations& invocations) {
-    for (const evaluate::ImagePort& port : program.images)
-        if (const auto given = images.find(port.name); given != images.end())
-            invocations.images[port.name] = given->second;
 }
 
 /// The vertices of those numbers, in their order.
@@ -145,10 +140,11 @@ Interpolator RasterObject::interpolator(std::uint32_t triangle) const {
 }
 
 Result<RasterObject> object_inputs(const Pipeline& pipeline, const Interface& interface, const Mesh& mesh,
-                                   const std::vector<RenderValue>& values, const ViewedObject& view) {
+                                   const std::vector<RenderValue>& values, const ViewedObject& view,
+                                   const evaluate::Images& images) {
     RasterObject object;
-    GOBO_TRY(object.vertices, uniforms_of(pipeline.vertex, interface, values, view));
-    GOBO_TRY(object.uniforms, uniforms_of(pipeline.fragment, interface, values, view));
+    GOBO_TRY(object.vertices, uniforms_of(pipeline.vertex, interface, values, view, images));
+    GOBO_TRY(object.uniforms, uniforms_of(pipeline.fragment, interface, values, view, images));
     add_attributes(pipeline.vertex, mesh, values, object.vertices);
     object.indices = mesh.indices;
     object.width = static_cast<int>(view.viewport.x);
@@ -162,9 +158,7 @@ Result<RasterObject> rasterise_object(const Pipeline& pipeline, const Interface&
     viewed.model = object.model;
     std::vector<RenderValue> values = family_values;
     values.insert(values.end(), object.values.begin(), object.values.end());
-    GOBO_TRY(RasterObject result, object_inputs(pipeline, interface, object.mesh, values, viewed));
-    give_images(pipeline.vertex, images, result.vertices);
-    give_images(pipeline.fragment, images, result.uniforms);
+    GOBO_TRY(RasterObject result, object_inputs(pipeline, interface, object.mesh, values, viewed, images));
     GOBO_TRY(const auto outputs, evaluate::run<float>(pipeline.vertex, result.vertices));
     const auto position = outputs.values.find("gl_Position");
     if (position == outputs.values.end())

@@ -34,14 +34,16 @@ struct RasterObject {
 };
 
 /// An object's inputs, uniforms and textures for both stages, as make_draw_list() sets them; neither
-/// positions nor fragments. `values` are all that the object has; `view` holds its model matrix.
+/// positions nor fragments. `values` are all that the object has; `view` holds its model matrix. Samplers
+/// that `images` names ask those, others hold the colour that `values` say.
 [[nodiscard]] Result<RasterObject> object_inputs(const Pipeline& pipeline, const Interface& interface,
                                                  const Mesh& mesh, const std::vector<RenderValue>& values,
-                                                 const ViewedObject& view);
+                                                 const ViewedObject& view,
+                                                 const evaluate::Images& images = {});
 
 /// Evaluates the vertex stage for one object and rasterises it, without the faces that it culls. `values` are
 /// the family's, the object's own come after them; `view` is the camera's part, the model matrix is the
-/// object's. Samplers that `images` names ask those, others hold the colour that `values` say.
+/// object's.
 [[nodiscard]] Result<RasterObject> rasterise_object(const Pipeline& pipeline, const Interface& interface,
                                                     const Object& object,
                                                     const std::vector<RenderValue>& values, ViewedObject view,

@@ -1,9 +1,11 @@
 // The fragments of a rasterised object shaded: both stages evaluated, with inputs as they are or moved a
-// little.
+// little; and what a renderer's errors of interpolation make of their colours.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "lab/raster/raster_object.hpp"
@@ -61,14 +63,6 @@ struct Work {
     evaluate::Counts helpers{};
 };
 
-/// The fragment stage in arithmetic of T (float or double) at the inputs of the places_of() that it needs.
-/// Adds to `work` unless it is null.
-template <class T>
-[[nodiscard]] Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline,
-                                                          const RasterObject& object,
-                                                          const evaluate::Invocations& inputs,
-                                                          Work* work = nullptr);
-
 /// How attributes and varyings are moved, to see what hangs on a rounding: each component at random by up to
 /// `by` of the largest component of its vector. Coverage stays.
 struct Nudge {
@@ -80,5 +74,22 @@ struct Nudge {
 template <class T>
 [[nodiscard]] Result<std::vector<Shaded>> shade(const Pipeline& pipeline, const RasterObject& object,
                                                 Work* work = nullptr, const Nudge& nudge = {});
+
+/// How far each component of a varying may be from exact interpolation, in roundings. A renderer solves for
+/// planes from positions in the window that are floats, and evaluates them at pixels: a rounding of a place,
+/// 2^-24 of the window's width or height, moves a value by as much as it changes over that. The value itself
+/// is rounded as well. renderer_precision_test measures how many.
+inline constexpr double kInterpolationRoundings = 12;
+
+/// One rounding's effect on each input of fragment_inputs(): for each component of each place, as there. Flat
+/// inputs have none.
+[[nodiscard]] std::map<std::string, std::vector<double>, std::less<>> interpolation_rounding(
+    const Pipeline& pipeline, const RasterObject& object, const evaluate::Outputs& varyings);
+
+/// How far each fragment's colour may be off by kInterpolationRoundings in each component of each varying:
+/// the sum of what each does by itself, to first order. Steps do not count: of the two ways in which a
+/// component may be off, the one that moves the colour less does.
+[[nodiscard]] Result<std::vector<std::array<double, 4>>> interpolation_spread(const Pipeline& pipeline,
+                                                                              const RasterObject& object);
 
 }  // namespace gobo::raster

@@ -25,12 +25,6 @@ evaluate::Image image_of(Texels texels) {
     };
 }
 
-int layers_of(const std::vector<ShadowLight>& lights) {
-    int layers = 0;
-    for (const ShadowLight& light : lights) layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
-    return layers;
-}
-
 }  // namespace
 
 Result<void> SharedTextures::add(const Interface& interface, const std::vector<RenderValue>& values,
@@ -60,7 +54,8 @@ Result<void> SharedTextures::add(const Interface& interface, const std::vector<R
 
 evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
     evaluate::DepthTexels texels;
-    texels.layers = layers_of(lights);
+    texels.layers = 0;
+    for (const ShadowLight& light : lights) texels.layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
     for (int i = 0; i < texels.layers; ++i) {
         const Image layer = maps.layer(i);
         texels.width = layer.width;
