@@ -6,7 +6,7 @@
 
 #include "compose/compose.hpp"
 #include "family/key.hpp"
-#include "lab/verify/decoded.hpp"
+#include "lab/verify/relations.hpp"
 #include "lab/verify/inputs.hpp"
 #include "lab/verify/sample.hpp"
 #include "settings.hpp"

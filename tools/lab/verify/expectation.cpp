@@ -15,10 +15,15 @@
 namespace gobo::verify {
 namespace {
 
-Expected expected(std::string output, const glm::dvec3& value, const glm::dvec3& largest,
-                  const glm::dvec3& float_error) {
-    Expected result{std::move(output), 3, {}, {}, {}};
-    for (int i = 0; i < 3; ++i) {
+template <glm::length_t size>
+using Vector = glm::vec<size, double>;
+
+template <glm::length_t size>
+Expected expected(std::string output, const Vector<size>& value,
+                  const Vector<size>& largest = Vector<size>(0),
+                  const Vector<size>& float_error = Vector<size>(0)) {
+    Expected result{std::move(output), size, {}, {}, {}};
+    for (int i = 0; i < size; ++i) {
         const auto index = static_cast<std::size_t>(i);
         result.value[index] = value[i];
         result.largest[index] = largest[i];
@@ -45,20 +50,13 @@ Placed place(const Sample& sample) {
 }
 
 Expected expect_clip_position(const Sample& sample, const Placed& placed) {
-    Expected result{"gl_Position", 4, {}, {}, {}};
-    for (int row = 0; row < 4; ++row) {
-        const auto index = static_cast<std::size_t>(row);
-        const double last = sample.projection[3][row];
-        result.value[index] = last;
-        result.largest[index] = std::abs(last);
-        for (int column = 0; column < 3; ++column) {
-            const double factor = sample.projection[column][row];
-            result.value[index] += factor * placed.value[column];
-            result.largest[index] += std::abs(factor) * placed.largest[column];
-        }
-        result.float_error[index] = 8 * kUnitRoundoff * result.largest[index];  // two transformations
+    glm::dvec4 value = sample.projection[3];
+    glm::dvec4 largest = glm::abs(value);
+    for (int column = 0; column < 3; ++column) {
+        value += sample.projection[column] * placed.value[column];
+        largest += glm::abs(sample.projection[column]) * placed.largest[column];
     }
-    return result;
+    return expected("gl_Position", value, largest, 8 * kUnitRoundoff * largest);  // two transformations
 }
 
 /// The unit normal in eye space, and its relative error: three roundings of the terms' sum before it is made
@@ -76,13 +74,9 @@ EyeNormal eye_normal(const Sample& sample) {
 }
 
 Expected expect_ray(std::size_t index, const oracle::IncidentLight& incident, const IncidentErrors& errors) {
-    Expected result = expected(fmt::format("lightRays[{}]", index), incident.to_light, glm::dvec3(1),
-                               glm::dvec3(errors.direction));
-    result.components = 4;
-    result.value[3] = incident.radiance.x;
-    result.largest[3] = incident.unshaped.x;
-    result.float_error[3] = errors.radiance.x;
-    return result;
+    return expected(fmt::format("lightRays[{}]", index), glm::dvec4(incident.to_light, incident.radiance.x),
+                    glm::dvec4(glm::dvec3(1), incident.unshaped.x),
+                    glm::dvec4(glm::dvec3(errors.direction), errors.radiance.x));
 }
 
 Expected expect_halfway(std::size_t index, const glm::dvec3& half, double error) {
@@ -138,10 +132,8 @@ std::vector<Expected> expect_cosines(const oracle::Model& model, const oracle::S
 
 /// What the vertex stage passes on as it is.
 void add_passed_on(const Sample& sample, std::vector<Expected>& outputs) {
-    const glm::dvec4& color = sample.surface.color;
-    const glm::dvec2& uv = sample.texture_coordinate;
-    outputs.push_back({"vertexColor", 4, {color.r, color.g, color.b, color.a}, {}, {}});
-    outputs.push_back({"textureCoordinate", 2, {uv.x, uv.y}, {}, {}});
+    outputs.push_back(expected("vertexColor", sample.surface.color));
+    outputs.push_back(expected("textureCoordinate", sample.texture_coordinate));
     outputs.push_back({"flatMaterialIndex", 1, {static_cast<double>(sample.surface.material)}, {}, {}, true});
     outputs.push_back(
         {"handedness", 1, {glm::determinant(glm::dmat3(sample.model_view)) < 0 ? -1.0 : 1.0}, {}, {}, true});
@@ -210,11 +202,9 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
         oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);
     // What is cut off at a range is no further off than it was before.
     const glm::dvec3 held = oracle::within_range(model.output_range, seen.value);
-    Expected color =
-        expected("fragmentColor", held, seen.largest, fog_error(model, sample.scene, seen, value, error, 0));
-    color.components = 4;
-    color.value[3] = oracle::alpha_of(model, point);
-    return color;
+    return expected("fragmentColor", glm::dvec4(held, oracle::alpha_of(model, point)),
+                    glm::dvec4(seen.largest, 0),
+                    glm::dvec4(fog_error(model, sample.scene, seen, value, error, 0), 0));
 }
 
 std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,

@@ -2,178 +2,94 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <memory>
 
-#include <glm/gtc/type_ptr.hpp>
-
 #include "lab/evaluate/images.hpp"
+#include "lab/verify/random_points.hpp"
+#include "lab/verify/sample_members.hpp"
 
 namespace gobo::verify {
 namespace {
 
-template <class Number>
-std::vector<double> numbers(const Number& value) requires std::is_arithmetic_v<Number> {
-    return {static_cast<double>(value)};
-}
-std::vector<double> numbers(const std::array<double, 3>& values) {
-    return {values.begin(), values.end()};
-}
-template <glm::length_t size>
-std::vector<double> numbers(const glm::vec<size, double>& value) {
-    return {glm::value_ptr(value), glm::value_ptr(value) + size};
-}
-template <glm::length_t columns, glm::length_t rows>
-std::vector<double> numbers(const glm::mat<columns, rows, double>& value) {
-    return {glm::value_ptr(value), glm::value_ptr(value) + columns * rows};
+template <class Value>
+std::vector<double> numbers(const Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>) return {static_cast<double>(value)};
+    const auto* first = reinterpret_cast<const double*>(&value);
+    return {first, first + sizeof(Value) / sizeof(double)};
 }
 
-template <class Number>
-void assign(Number& target, const std::vector<double>& values) requires std::is_arithmetic_v<Number> {
-    target = static_cast<Number>(values.at(0));
-}
-void assign(std::array<double, 3>& target, const std::vector<double>& values) {
-    std::copy_n(values.begin(), 3, target.begin());
-}
-template <class Vector>
-void assign(Vector& target, const std::vector<double>& values) requires(!std::is_arithmetic_v<Vector>) {
-    std::copy_n(values.begin(), std::min(values.size(), numbers(target).size()), glm::value_ptr(target));
+template <class Value>
+void assign(Value& target, const std::vector<double>& values) {
+    if constexpr (std::is_arithmetic_v<Value>)
+        target = static_cast<Value>(values.at(0));
+    else
+        std::copy_n(values.begin(), std::min(values.size(), sizeof(Value) / sizeof(double)),
+                    reinterpret_cast<double*>(&target));
 }
 
-/// The field that `access` gives a reference to.
-template <class Access>
-Field field(Access access) {
-    return {[access](const Sample& sample) { return numbers(access(sample)); },
-            [access](Sample& sample, const std::vector<double>& values) { assign(access(sample), values); }};
+// An element of a list. Setting it makes the element, and those before it, where there are fewer; one that
+// was never set is zero, as where the vertex stage is about to write it.
+template <class Value>
+Value& element(std::vector<Value>& list, std::size_t index) {
+    list.resize(std::max(list.size(), index + 1));
+    return list[index];
+}
+template <class Value>
+const Value& element(const std::vector<Value>& list, std::size_t index) {
+    static const Value kZero{};
+    return index < list.size() ? list[index] : kZero;
+}
+template <class Value, std::size_t size>
+auto& element(std::array<Value, size>& list, std::size_t index) {
+    return list.at(index);
+}
+template <class Value, std::size_t size>
+auto& element(const std::array<Value, size>& list, std::size_t index) {
+    return list.at(index);
 }
 
-const std::map<std::string, Field, std::less<>>& plain_fields() {
-    static const std::map<std::string, Field, std::less<>> kFields = {
-        // Of the vertex stage.
-        {"position", field([](auto& s) -> auto& { return s.object_position; })},
-        {"normal", field([](auto& s) -> auto& { return s.object_normal; })},
-        {"color", field([](auto& s) -> auto& { return s.surface.color; })},
-        {"texcoord", field([](auto& s) -> auto& { return s.texture_coordinate; })},
-        {"materialIndex", field([](auto& s) -> auto& { return s.surface.material; })},
-        {"Transform.modelView", field([](auto& s) -> auto& { return s.model_view; })},
-        {"Transform.projection", field([](auto& s) -> auto& { return s.projection; })},
-        {"Transform.normalMatrix", field([](auto& s) -> auto& { return s.normal_matrix; })},
-        // Interpolated.
-        {"eyePosition", field([](auto& s) -> auto& { return s.surface.position; })},
-        {"eyeNormal", field([](auto& s) -> auto& { return s.surface.normal; })},
-        {"vertexColor", field([](auto& s) -> auto& { return s.surface.color; })},
-        {"textureCoordinate", field([](auto& s) -> auto& { return s.texture_coordinate; })},
-        {"flatMaterialIndex", field([](auto& s) -> auto& { return s.surface.material; })},
-        {"handedness", field([](auto& s) -> auto& { return s.handedness; })},
-        {"litRadiance", field([](auto& s) -> auto& { return s.lit_radiance; })},
-        {"flatRadiance", field([](auto& s) -> auto& { return s.lit_radiance; })},
-        {"backRadiance", field([](auto& s) -> auto& { return s.back_radiance; })},
-        {"flatBackRadiance", field([](auto& s) -> auto& { return s.back_radiance; })},
-        {"gl_FrontFacing", field([](auto& s) -> auto& { return s.is_front_facing; })},
-        {"gl_FragCoord",
-         {[](const Sample& s) {
-              return std::vector<double>{0.5, 0.5, s.depth, 1};
-          },
-          [](Sample& s, const std::vector<double>& values) { s.depth = values.at(2); }}},
-        // The same for a whole draw.
-        {"Material.emission", field([](auto& s) -> auto& { return s.scene.material.emission; })},
-        {"Material.ambient", field([](auto& s) -> auto& { return s.scene.material.ambient; })},
-        {"Material.diffuse", field([](auto& s) -> auto& { return s.scene.material.diffuse; })},
-        {"Material.specular", field([](auto& s) -> auto& { return s.scene.material.specular; })},
-        {"Material.shininess", field([](auto& s) -> auto& { return s.scene.material.shininess; })},
-        {"Material.strength", field([](auto& s) -> auto& { return s.scene.material.strength; })},
-        {"Ambient.color", field([](auto& s) -> auto& { return s.scene.ambient; })},
-        {"Hemisphere.up", field([](auto& s) -> auto& { return s.scene.hemisphere.up; })},
-        {"Hemisphere.sky", field([](auto& s) -> auto& { return s.scene.hemisphere.sky; })},
-        {"Hemisphere.ground", field([](auto& s) -> auto& { return s.scene.hemisphere.ground; })},
-        {"Harmonics.toProbe", field([](auto& s) -> auto& { return s.scene.harmonics.to_probe; })},
-        {"Harmonics.scale", field([](auto& s) -> auto& { return s.scene.harmonics.scale; })},
-        {"ImageLight.color", field([](auto& s) -> auto& { return s.scene.image_light.color; })},
-        {"ImageLight.weight", field([](auto& s) -> auto& { return s.scene.image_light.weight; })},
-        {"ImageLight.toMap", field([](auto& s) -> auto& { return s.scene.image_light.to_map; })},
-        {"Reflection.weight", field([](auto& s) -> auto& { return s.scene.reflection.weight; })},
-        {"Reflection.toMap", field([](auto& s) -> auto& { return s.scene.reflection.to_map; })},
-        {"Toon.levels", field([](auto& s) -> auto& { return s.scene.toon_levels; })},
-        {"ToonThresholds.thresholds", field([](auto& s) -> auto& { return s.scene.toon_thresholds; })},
-        {"ToonThresholds.tones", field([](auto& s) -> auto& { return s.scene.toon_tones; })},
-        {"Cutout.threshold", field([](auto& s) -> auto& { return s.scene.cutout_threshold; })},
-        {"Fog.color", field([](auto& s) -> auto& { return s.scene.fog.color; })},
-        {"Fog.density", field([](auto& s) -> auto& { return s.scene.fog.density; })},
-        {"Fog.start", field([](auto& s) -> auto& { return s.scene.fog.start; })},
-        {"Fog.end", field([](auto& s) -> auto& { return s.scene.fog.end; })},
-        {"DepthOffset.offset", field([](auto& s) -> auto& { return s.scene.depth_offset; })},
-    };
-    return kFields;
-}
+/// So many elements a list may have.
+template <class Value>
+constexpr std::size_t kMostElements = std::numeric_limits<std::size_t>::max();
+template <class Value, std::size_t size>
+constexpr std::size_t kMostElements<std::array<Value, size>> = size;
 
-// The lists of a sample, and what stands for a whole element.
-constexpr auto kDirectional = [](auto& s) -> auto& {
-    return s.scene.directional;
-};
-constexpr auto kPoint = [](auto& s) -> auto& {
-    return s.scene.point;
-};
-constexpr auto kSpot = [](auto& s) -> auto& {
-    return s.scene.spot;
-};
-constexpr auto kDirectionalOrPoint = [](auto& s) -> auto& {
-    return s.scene.directional_or_point;
-};
-constexpr auto kLightAmbients = [](auto& s) -> auto& {
-    return s.scene.light_ambients;
-};
-constexpr auto kShadows = [](auto& s) -> auto& {
-    return s.scene.shadows;
-};
-constexpr auto kMaterials = [](auto& s) -> auto& {
-    return s.scene.materials;
-};
-constexpr auto kHarmonics = [](auto& s) -> auto& {
-    return s.scene.harmonics.coefficients;
-};
-constexpr auto kRays = [](auto& s) -> auto& {
-    return s.surface.rays;
-};
-constexpr auto kHalfways = [](auto& s) -> auto& {
-    return s.surface.halfways;
-};
-constexpr auto kWhole = [](auto& element) -> auto& {
-    return element;
-};
+/// By name without subscripts, for an index: nothing where an array ends before it.
+using Fields = std::map<std::string, std::function<std::optional<Field>(std::size_t)>, std::less<>>;
 
-/// A member of an element. Setting it makes the element, and those before it, where there are fewer; one that
-/// was never set is zero, as where the vertex stage is about to write it.
-template <auto list, auto member>
-std::optional<Field> element(std::size_t index) {
-    using List = std::remove_cvref_t<decltype(list(std::declval<Sample&>()))>;
-    constexpr bool kGrows = requires(List & grown) {
-        grown.resize(1);
-    };
-    if constexpr (!kGrows) {
-        if (index >= std::tuple_size_v<List>) return std::nullopt;
+/// Adds what `at` gives a reference to, or its members, down to numbers.
+template <class At>
+void add_fields(Fields& fields, const std::string& name, std::size_t most, At at) {
+    using Value = std::remove_cvref_t<decltype(at(std::declval<Sample&>(), 0))>;
+    if constexpr (kIsNumbers<Value>) {
+        const bool is_place = name.ends_with("[].position");  // as the shaders take it: its w is 1
+        fields[name] = [=](std::size_t index) -> std::optional<Field> {
+            if (index >= most) return std::nullopt;
+            return Field{[=](const Sample& sample) {
+                             std::vector<double> values = numbers(at(sample, index));
+                             if (is_place && values.size() == 3) values.push_back(1);
+                             return values;
+                         },
+                         [=](Sample& sample, const std::vector<double>& values) {
+                             assign(at(sample, index), values);
+                         }};
+        };
+    } else if constexpr (requires(Value & list) { element(list, 0); }) {
+        add_fields(
+            fields, name + "[]", kMostElements<Value>, [=](auto& sample, std::size_t index) -> auto& {
+                return element(at(sample, index), index);
+            });
+    } else {
+        const auto add_member = [&](const std::string& member_name, auto member) {
+            const bool is_nested = !name.empty() && !member_name.empty();
+            add_fields(
+                fields, name + (is_nested ? "." : "") + member_name,
+                most, [=](auto& sample, std::size_t index) -> auto& { return at(sample, index).*member; });
+        };
+        for_each_member<Value>(add_member);
     }
-    return Field{[index](const Sample& sample) {
-                     const List& all = list(sample);
-                     const typename List::value_type zero{};
-                     return numbers(std::invoke(member, index < all.size() ? all[index] : zero));
-                 },
-                 [index](Sample& sample, const std::vector<double>& values) {
-                     List& all = list(sample);
-                     if constexpr (kGrows) all.resize(std::max(all.size(), index + 1));
-                     assign(std::invoke(member, all[index]), values);
-                 }};
-}
-
-/// A light's position as the shaders take it: its w is 1.
-template <auto list>
-std::optional<Field> position(std::size_t index) {
-    std::optional<Field> field = element<list, &oracle::PointLight::position>(index);
-    field->get = [get = field->get](const Sample& sample) {
-        std::vector<double> values = get(sample);
-        values.push_back(1);
-        return values;
-    };
-    return field;
 }
 
 /// The cosines of four lights.
@@ -193,58 +109,22 @@ std::optional<Field> cosines(std::size_t index) {
                  }};
 }
 
-/// What an element of an array, or a member of it, is bound to.
-struct ElementField {
-    std::string_view array;
-    std::string_view member;
-    std::optional<Field> (*at)(std::size_t index);
-};
-
-constexpr ElementField kElementFields[] = {
-    {"DirectionalLights.lights", ".direction", &element<kDirectional, &oracle::DirectionalLight::direction>},
-    {"DirectionalLights.lights", ".color", &element<kDirectional, &oracle::DirectionalLight::color>},
-    {"PointLights.lights", ".position", &position<kPoint>},
-    {"PointLights.lights", ".color", &element<kPoint, &oracle::PointLight::color>},
-    {"PointLights.lights", ".attenuation", &element<kPoint, &oracle::PointLight::attenuation>},
-    {"SpotLights.lights", ".position", &position<kSpot>},
-    {"SpotLights.lights", ".color", &element<kSpot, &oracle::PointLight::color>},
-    {"SpotLights.lights", ".attenuation", &element<kSpot, &oracle::PointLight::attenuation>},
-    {"SpotLights.lights", ".axis", &element<kSpot, &oracle::SpotLight::axis>},
-    {"SpotLights.lights", ".exponent", &element<kSpot, &oracle::SpotLight::exponent>},
-    {"SpotLights.lights", ".innerOneMinusCosine",
-     &element<kSpot, &oracle::SpotLight::inner_one_minus_cosine>},
-    {"SpotLights.lights", ".outerOneMinusCosine",
-     &element<kSpot, &oracle::SpotLight::outer_one_minus_cosine>},
-    {"DirectionalOrPointLights.lights", ".position",
-     &element<kDirectionalOrPoint, &oracle::DirectionalOrPointLight::position>},
-    {"DirectionalOrPointLights.lights", ".color",
-     &element<kDirectionalOrPoint, &oracle::DirectionalOrPointLight::color>},
-    {"DirectionalOrPointLights.lights", ".attenuation",
-     &element<kDirectionalOrPoint, &oracle::DirectionalOrPointLight::attenuation>},
-    {"LightAmbients.colors", "", &element<kLightAmbients, kWhole>},
-    {"Shadows.shadows", ".toMap", &element<kShadows, &oracle::Shadow::to_map>},
-    {"Shadows.shadows", ".layer", &element<kShadows, &oracle::Shadow::layer>},
-    {"Shadows.shadows", ".depthScale", &element<kShadows, &oracle::Shadow::depth_scale>},
-    {"Shadows.shadows", ".depthShift", &element<kShadows, &oracle::Shadow::depth_shift>},
-    {"Shadows.shadows", ".spread", &element<kShadows, &oracle::Shadow::spread>},
-    {"Materials.rows", ".emission", &element<kMaterials, &oracle::Material::emission>},
-    {"Materials.rows", ".ambient", &element<kMaterials, &oracle::Material::ambient>},
-    {"Materials.rows", ".diffuse", &element<kMaterials, &oracle::Material::diffuse>},
-    {"Materials.rows", ".specular", &element<kMaterials, &oracle::Material::specular>},
-    {"Materials.rows", ".shininess", &element<kMaterials, &oracle::Material::shininess>},
-    {"Materials.rows", ".strength", &element<kMaterials, &oracle::Material::strength>},
-    {"Harmonics.coefficients", "", &element<kHarmonics, kWhole>},
-    {"lightRays", "", &element<kRays, kWhole>},
-    {"lightsHalfways", "", &element<kHalfways, kWhole>},
-    {"lightCosines", "", &cosines},
-};
-
-std::optional<Field> element_field(std::string_view name) {
-    const auto element = element_name(name);
-    if (!element) return std::nullopt;
-    for (const ElementField& row : kElementFields)
-        if (row.array == element->array && row.member == element->rest) return row.at(element->index);
-    return std::nullopt;
+const Fields& fields_of_lit() {
+    static const Fields kFields = [] {
+        Fields fields;
+        add_fields(
+            fields, "", kMostElements<Sample>, [](auto& sample, std::size_t) -> auto& { return sample; });
+        fields["lightCosines[]"] = &cosines;
+        fields["gl_FragCoord"] = [](std::size_t) {
+            return Field{
+                [](const Sample& sample) {
+                    return std::vector<double>{0.5, 0.5, sample.depth, 1};
+                },
+                [](Sample& sample, const std::vector<double>& values) { sample.depth = values.at(2); }};
+        };
+        return fields;
+    }();
+    return kFields;
 }
 
 FieldOfFamily family_field = nullptr;
@@ -367,8 +247,10 @@ std::optional<ElementName> element_name(std::string_view name) {
 }
 
 std::optional<Field> field_of(const std::string& name) {
-    const auto found = plain_fields().find(name);
-    std::optional<Field> field = found != plain_fields().end() ? found->second : element_field(name);
+    const auto found = fields_of_lit().find(without_subscripts(name));
+    const auto element = element_name(name);
+    std::optional<Field> field;
+    if (found != fields_of_lit().end()) field = found->second(element ? element->index : 0);
     return family_field == nullptr ? field : family_field(name, std::move(field));
 }
 

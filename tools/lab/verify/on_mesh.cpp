@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "lab/verify/comparison.hpp"
 #include "lab/verify/inputs.hpp"
+#include "lab/verify/stage_check.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -77,13 +77,9 @@ bool set_field(std::vector<Sample>& samples, const std::string& name, const Valu
 /// The draw's sample at each place, without its varyings.
 std::vector<Sample> samples_at(const Sample& draw, const Drawn& drawn) {
     std::vector<Sample> samples(drawn.places.size(), draw);
-    const auto position = field_of("gl_FragCoord");
-    const auto front = field_of("gl_FrontFacing");
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const raster::FragmentPlace& place = drawn.places[i];
-        const std::array<double, 4> window = place.window_position();
-        if (position) position->set(samples[i], {window.begin(), window.end()});
-        if (front) front->set(samples[i], {place.fragment->is_front_facing ? 1.0 : 0.0});
+        samples[i].depth = drawn.places[i].weights.depth;
+        samples[i].is_front_facing = drawn.places[i].fragment->is_front_facing;
     }
     return samples;
 }

@@ -10,50 +10,36 @@ namespace {
 
 constexpr double kLargestOrdinary = 1e3;
 
-/// Draws values of ports.
-class Drawer {
-  public:
-    Drawer(const std::vector<Domain>& domains, std::uint64_t seed) : domains_(domains), random_(seed) {}
+/// Half of them spread evenly, half over the powers of ten.
+double component(double low, double high, Random& random) {
+    low = std::max(low, -kLargestOrdinary);
+    high = std::clamp(high, low, kLargestOrdinary);
+    if (high <= 0 || random.one_in(2)) return random.between(low, high);
+    const double size = random.across(std::max(low, high * 1e-4), high);
+    return low < 0 && random.one_in(2) ? std::max(-size, low) : size;
+}
 
-    /// The values of one port for all invocations, as floats hold them.
-    std::vector<double> draw(const evaluate::Port& port, std::size_t count) {
-        std::vector<double> values(port.components * count);
-        const auto domain =
-            std::find_if(domains_.begin(), domains_.end(),
-                         [name = without_subscripts(port.name)](const Domain& d) { return d.name == name; });
-        for (std::size_t i = 0; i < count; ++i) {
-            const double scale = domain != domains_.end() && domain->of_length ? length(*domain, port) : 1;
-            for (std::size_t c = 0; c < port.components; ++c) {
-                double value = domain != domains_.end() && !domain->of_length
-                                   ? component(domain->low, domain->high)
-                                   : scale * component(-1, 1);
-                if (port.name == "gl_FragCoord") value = c < 2 ? random_.whole(0, 63) + 0.5 : random_.unit();
-                if (port.scalar != evaluate::Scalar::float32) value = std::floor(value);
-                if (port.scalar == evaluate::Scalar::boolean) value = random_.whole(0, 1);
-                values[c * count + i] = static_cast<float>(value);
-            }
+/// The values of one port for all invocations, as floats hold them. Vectors whose length is bounded get
+/// components that give about such a length.
+std::vector<double> draw(const evaluate::Port& port, const Domain* domain, std::size_t count,
+                         Random& random) {
+    std::vector<double> values(port.components * count);
+    const bool is_length = domain != nullptr && domain->of_length;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double scale = is_length ? component(domain->low, domain->high, random) /
+                                             std::sqrt(static_cast<double>(port.components) / 3)
+                                       : 1;
+        for (std::size_t c = 0; c < port.components; ++c) {
+            double value = domain != nullptr && !is_length ? component(domain->low, domain->high, random)
+                                                           : scale * component(-1, 1, random);
+            if (port.name == "gl_FragCoord") value = c < 2 ? random.whole(0, 63) + 0.5 : random.unit();
+            if (port.scalar != evaluate::Scalar::float32) value = std::floor(value);
+            if (port.scalar == evaluate::Scalar::boolean) value = random.whole(0, 1);
+            values[c * count + i] = static_cast<float>(value);
         }
-        return values;
     }
-
-  private:
-    /// Vectors whose length is bounded: components that give about such a length.
-    double length(const Domain& domain, const evaluate::Port& port) {
-        return component(domain.low, domain.high) / std::sqrt(static_cast<double>(port.components) / 3);
-    }
-
-    /// Half of them spread evenly, half over the powers of ten.
-    double component(double low, double high) {
-        low = std::max(low, -kLargestOrdinary);
-        high = std::clamp(high, low, kLargestOrdinary);
-        if (high <= 0 || random_.one_in(2)) return random_.between(low, high);
-        const double size = random_.across(std::max(low, high * 1e-4), high);
-        return low < 0 && random_.one_in(2) ? std::max(-size, low) : size;
-    }
-
-    const std::vector<Domain>& domains_;
-    Random random_;
-};
+    return values;
+}
 
 /// Every number of type float moved up or down, at random, by `step` relative to itself.
 evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base,
@@ -82,13 +68,21 @@ std::string without_subscripts(const std::string& name) {
     return result;
 }
 
+const Domain* domain_of(const std::vector<Domain>& domains, const std::string& name) {
+    const auto found = std::find_if(
+        domains.begin(), domains.end(),
+        [plain = without_subscripts(name)](const Domain& domain) { return domain.name == plain; });
+    return found == domains.end() ? nullptr : &*found;
+}
+
 evaluate::Invocations draw_points(const evaluate::Program& program, const std::vector<Domain>& domains,
                                   std::size_t count, std::uint64_t seed) {
-    Drawer drawer(domains, seed);
+    Random random(seed);
     evaluate::Invocations invocations;
     invocations.count = count;
     for (const auto* ports : {&program.inputs, &program.uniforms})
-        for (const evaluate::Port& port : *ports) invocations.values[port.name] = drawer.draw(port, count);
+        for (const evaluate::Port& port : *ports)
+            invocations.values[port.name] = draw(port, domain_of(domains, port.name), count, random);
     // A smooth picture, the same in every texture: one that has no texels has no edges.
     const evaluate::Image smooth = [](const evaluate::ImageRequest& request) {
         const double x = request.coordinates[0];
@@ -97,6 +91,12 @@ evaluate::Invocations draw_points(const evaluate::Program& program, const std::v
     };
     for (const evaluate::ImagePort& image : program.images) invocations.images[image.name] = smooth;
     return invocations;
+}
+
+double largest_component(const std::vector<double>& values, std::size_t count, std::size_t index) {
+    double size = 0;
+    for (std::size_t k = index; k < values.size(); k += count) size = std::max(size, std::abs(values[k]));
+    return size;
 }
 
 Result<NamedValues> spread(const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base,

@@ -15,6 +15,9 @@ namespace gobo::verify {
 /// "PointLights.lights[2].color" as domains name it: "PointLights.lights[].color".
 [[nodiscard]] std::string without_subscripts(const std::string& name);
 
+/// That of a port or field; null where none is declared.
+[[nodiscard]] const Domain* domain_of(const std::vector<Domain>& domains, const std::string& name);
+
 /// `count` invocations with inputs and uniforms of their own, floats within the domains and within 1e3; from
 /// -1 to 1 where no domain is declared. Every texture is one smooth picture.
 [[nodiscard]] evaluate::Invocations draw_points(const evaluate::Program& program,
@@ -23,6 +26,10 @@ namespace gobo::verify {
 
 /// By name, component by component, as evaluate::Outputs::values.
 using NamedValues = std::map<std::string, std::vector<double>, std::less<>>;
+
+/// The largest component of an output at a point, of so many points.
+[[nodiscard]] double largest_component(const std::vector<double>& values, std::size_t count,
+                                       std::size_t index);
 
 /// How far outputs move, at most, as the points are moved by `step` a few times: `run` evaluates points,
 /// `outputs` are those where nothing is moved.

@@ -5,15 +5,16 @@
 #include <limits>
 
 #include "compose/dialect.hpp"
+#include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/raster/shade.hpp"
 #include "lab/render/render.hpp"
-#include "lab/verify/alone.hpp"
 #include "lab/verify/inputs.hpp"
 #include "lab/verify/random_points.hpp"
 #include "lab/verify/relation_sides.hpp"
 #include "lab/verify/sample.hpp"
+#include "lab/verify/stage_check.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::verify {
@@ -83,81 +84,38 @@ Result<NamedValues> run_at_points(const Pipeline& pipeline, const evaluate::Invo
 /// A component of an output whose two sides are too far apart.
 struct Difference {
     std::string output;
-    std::uint32_t component = 0;
+    std::size_t component = 0;
     double one = 0;
     double other = 0;
     double limit = 0;
     double ratio = 0;  ///< of the difference to the limit; infinite for a NaN on one side
 };
-using Differences = std::vector<std::optional<Difference>>;  ///< of each point
+using Differences = std::map<std::size_t, Difference>;  ///< by point
 
 constexpr double kDoubleRounding = 0x1p-53;
 
-/// How far the outputs move with the inputs.
-Result<NamedValues> spread_of(const Pipeline& pipeline, const evaluate::Invocations& points,
-                              const NamedValues& outputs, double step, std::uint64_t seed) {
-    return spread(given_ports(pipeline), points, outputs, step, seed,
-                  [&](const evaluate::Invocations& moved) { return run_at_points(pipeline, moved); });
-}
-
-/// The largest component of an output at a point.
-double size_at(const std::vector<double>& values, std::size_t count, std::size_t index) {
-    double size = 0;
-    for (std::size_t k = index; k < values.size(); k += count) size = std::max(size, std::abs(values[k]));
-    return size;
-}
-
-double ratio_of(double difference, double limit) {
-    if (difference <= limit) return limit > 0 ? difference / limit : 0;
-    return std::isnan(difference) || limit == 0 ? std::numeric_limits<double>::infinity()
-                                                : difference / limit;
-}
-
-/// Both sides evaluated.
-struct Evaluated {
-    const Sides& sides;
-    NamedValues one;
-    NamedValues other;
-    NamedValues known_to;  ///< spread of `one` at kRoundingStep
-};
-
-/// The worst component of each point; outputs that only one side has are no concern.
-Differences differences(const Evaluated& both) {
-    const std::size_t count = both.sides.one.count;
-    Differences worst(count);
-    for (const auto& [name, values] : both.one) {
-        const auto there = both.other.find(name);
-        if (there == both.other.end() || there->second.size() != values.size()) continue;
+/// The worst component of each point; outputs that only one side has are no concern. `known_to` is the spread
+/// of the one side at kRoundingStep.
+Differences differences(const NamedValues& here, const NamedValues& there, const NamedValues& known_to,
+                        std::size_t count) {
+    Differences worst;
+    for (const auto& [name, values] : here) {
+        const auto others = there.find(name);
+        if (others == there.end() || others->second.size() != values.size()) continue;
         for (std::size_t k = 0; k < values.size(); ++k) {
             const double one = values[k];
-            const double other = there->second[k];
+            const double other = others->second[k];
             if (one == other || (std::isnan(one) && std::isnan(other))) continue;
-            const double known_to = both.known_to.at(name)[k] * (kDoubleRounding / kRoundingStep) +
-                                    kDoubleRounding * size_at(values, count, k % count);
-            const double limit = kConditionFactor * known_to + std::numeric_limits<double>::min();
+            const std::size_t point = k % count;
+            const double known = known_to.at(name)[k] * (kDoubleRounding / kRoundingStep) +
+                                 kDoubleRounding * largest_component(values, count, point);
+            const double limit = kConditionFactor * known + std::numeric_limits<double>::min();
             const double ratio = ratio_of(std::abs(one - other), limit);
-            std::optional<Difference>& broken = worst[k % count];
-            if (ratio <= 1 || (broken && broken->ratio >= ratio)) continue;
-            broken = Difference{name, static_cast<std::uint32_t>(k / count), one, other, limit, ratio};
+            if (ratio > 1 && ratio > worst[point].ratio)
+                worst[point] = {name, k / count, one, other, limit, ratio};
         }
     }
     return worst;
-}
-
-/// Points whose difference a step explains: moving the inputs by 1e-5 spreads the output as far.
-Result<void> leave_out_edges(const Pipeline& pipeline, const Evaluated& both, std::uint64_t seed,
-                             Differences& broken, RelationReport& report) {
-    if (std::none_of(broken.begin(), broken.end(), [](const auto& one) { return one.has_value(); }))
-        return {};
-    GOBO_TRY(const NamedValues far, spread_of(pipeline, both.sides.one, both.one, kEdgeStep, seed));
-    for (std::size_t i = 0; i < broken.size(); ++i) {
-        if (!broken[i]) continue;
-        const double steps = far.at(broken[i]->output)[broken[i]->component * broken.size() + i];
-        if (!(std::abs(broken[i]->one - broken[i]->other) <= 2 * steps)) continue;
-        ++report.edges;
-        broken[i].reset();
-    }
-    return {};
 }
 
 /// What the stage that writes `output` is given at a point.
@@ -168,37 +126,37 @@ Result<evaluate::EvalPoint> given(const Pipeline& pipeline, const evaluate::Invo
     return evaluate::point_of(pipeline.fragment, fragments.invocations, index);
 }
 
-Result<void> describe(const Pipeline& one, const Pipeline& other, const Sides& sides,
-                      const Differences& broken, RelationReport& report) {
-    std::size_t worst = broken.size();
-    for (std::size_t i = 0; i < broken.size(); ++i) {
-        if (!broken[i]) continue;
-        ++report.failed;
-        if (worst == broken.size() || broken[i]->ratio > broken[worst]->ratio) worst = i;
-    }
-    if (report.failed == 0) return {};
-    const Difference& difference = *broken[worst];
-    report.found = fmt::format("{}[{}] is {} on one side and {} on the other, which may differ by {:.2g}",
-                               difference.output, difference.component, difference.one, difference.other,
-                               difference.limit);
-    BrokenPoint& point = report.worst.emplace();
-    point.stage = difference.output == "gl_Position" ? StageKind::vertex : StageKind::fragment;
-    GOBO_TRY(point.one, given(one, sides.one, point.stage, worst));
-    GOBO_TRY(point.other, given(other, sides.other, point.stage, worst));
-    return {};
-}
-
 Result<RelationReport> compare(const Pipeline& one, const Pipeline& other, const Sides& sides,
                                std::uint64_t seed) {
-    Evaluated both{sides, {}, {}, {}};
-    GOBO_TRY(both.one, run_at_points(one, sides.one));
-    GOBO_TRY(both.other, run_at_points(other, sides.other));
-    GOBO_TRY(both.known_to, spread_of(one, sides.one, both.one, kRoundingStep, seed));
-    Differences broken = differences(both);
+    GOBO_TRY(const NamedValues here, run_at_points(one, sides.one));
+    GOBO_TRY(const NamedValues there, run_at_points(other, sides.other));
+    const auto spread_by = [&](double step) {
+        return spread(given_ports(one), sides.one, here, step, seed,
+                      [&](const evaluate::Invocations& moved) { return run_at_points(one, moved); });
+    };
+    GOBO_TRY(const NamedValues known_to, spread_by(kRoundingStep));
     RelationReport report;
     report.points = sides.one.count;
-    GOBO_TRY_DO(leave_out_edges(one, both, seed, broken, report));
-    GOBO_TRY_DO(describe(one, other, sides, broken, report));
+    Differences broken = differences(here, there, known_to, report.points);
+    if (broken.empty()) return report;
+    // A step explains a difference where moving the inputs by 1e-5 spreads the output as far.
+    GOBO_TRY(const NamedValues far, spread_by(kEdgeStep));
+    report.edges = std::erase_if(broken, [&](const auto& point) {
+        const auto& [index, difference] = point;
+        const double steps = far.at(difference.output)[difference.component * report.points + index];
+        return std::abs(difference.one - difference.other) <= 2 * steps;
+    });
+    report.failed = broken.size();
+    if (broken.empty()) return report;
+    const auto& [index, worst] =
+        *std::max_element(broken.begin(), broken.end(),
+                          [](const auto& a, const auto& b) { return a.second.ratio < b.second.ratio; });
+    report.found = fmt::format("{}[{}] is {} on one side and {} on the other, which may differ by {:.2g}",
+                               worst.output, worst.component, worst.one, worst.other, worst.limit);
+    BrokenPoint& point = report.worst.emplace();
+    point.stage = worst.output == "gl_Position" ? StageKind::vertex : StageKind::fragment;
+    GOBO_TRY(point.one, given(one, sides.one, point.stage, index));
+    GOBO_TRY(point.other, given(other, sides.other, point.stage, index));
     return report;
 }
 
@@ -310,11 +268,27 @@ const Permutation* find(const Composition& composition, const std::optional<Key>
     return found == composition.permutations.end() ? nullptr : &*found;
 }
 
-}  // namespace
-
+/// Whether the relation speaks of the key, so far as its condition and its feature say.
 bool speaks_of(const Relation& relation, const Key& key) {
     if (relation.feature >= 0 && key[static_cast<std::size_t>(relation.feature)] == 0) return false;
     return !relation.when || holds(*relation.when, key);
+}
+
+}  // namespace
+
+Decoded::Decoded(const Composition& composition, const Validated& validated, int jobs)
+    : composition_(composition), validated_(validated), programs_(validated.stages.size()) {
+    parallel_for(jobs, programs_.size(),
+                 [&](std::size_t i) { programs_[i] = evaluate::decode(validated.stages[i].spirv); });
+}
+
+Result<raster::Pipeline> Decoded::pipeline(const Permutation& permutation) const {
+    if (permutation.vertex < 0 || permutation.fragment < 0)
+        return fail(Fault::input, "a permutation of one stage has nothing to join");
+    GOBO_TRY(const evaluate::Program& vertex, stage(permutation.vertex));
+    GOBO_TRY(const evaluate::Program& fragment, stage(permutation.fragment));
+    return raster::join(vertex, fragment,
+                        validated_.stages[static_cast<std::size_t>(permutation.fragment)].spirv);
 }
 
 std::optional<Key> partner_of(const Family& family, const Relation& relation, const Key& key,

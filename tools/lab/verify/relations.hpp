@@ -7,12 +7,38 @@
 #include <string>
 #include <vector>
 
+#include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
 #include "family/family.hpp"
-#include "lab/verify/decoded.hpp"
+#include "lab/raster/pipeline.hpp"
 #include "lab/verify/report.hpp"
+#include "validate/validate.hpp"
 
 namespace gobo::verify {
+
+/// The stages of a composition, ready to be evaluated. Refers to what it is made of, which must outlive it.
+class Decoded {
+  public:
+    /// Decodes every stage, by `jobs` threads. `validated` must hold their SPIR-V.
+    Decoded(const Composition& composition, const Validated& validated, int jobs);
+
+    [[nodiscard]] const Composition& composition() const { return composition_; }
+    [[nodiscard]] const Validated& validated() const { return validated_; }
+    /// Errors of evaluate::decode().
+    [[nodiscard]] const Result<evaluate::Program>& stage(int index) const {
+        return programs_[static_cast<std::size_t>(index)];
+    }
+    [[nodiscard]] StageKind kind_of(int index) const {
+        return composition_.stages[static_cast<std::size_t>(index)].kind;
+    }
+    /// Both stages joined; errors of decoding and of raster::join(), and of a permutation that lacks a stage.
+    [[nodiscard]] Result<raster::Pipeline> pipeline(const Permutation& permutation) const;
+
+  private:
+    const Composition& composition_;
+    const Validated& validated_;
+    std::vector<Result<evaluate::Program>> programs_;
+};
 
 /// The worst point at which a relation does not hold: what the stage that shows it was given on either side.
 struct BrokenPoint {
@@ -33,9 +59,6 @@ struct RelationReport {
 
 /// Points at which each relation is tried: as many as are evaluated at a time.
 inline constexpr std::size_t kRelationPoints = evaluate::kLanes;
-
-/// Whether the relation speaks of the key, so far as its condition and its feature say.
-[[nodiscard]] bool speaks_of(const Relation& relation, const Key& key);
 
 /// The key that the relation compares this one with: of `off` the effect's absence (of a count, one fewer),
 /// of `finer` the feature's default. Nothing where there is none or the rules forbid it.

@@ -1,12 +1,19 @@
 #include "lab/verify/report.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
 namespace gobo::verify {
 std::string_view name_of(Precision precision) {
     return precision == Precision::fp32 ? "fp32" : "fp64";
+}
+
+double ratio_of(double error, double limit) {
+    if (error == 0) return 0;
+    return error <= std::numeric_limits<double>::max() && limit > 0 ? error / limit
+                                                                    : std::numeric_limits<double>::infinity();
 }
 
 Figures& Figures::operator+=(const Figures& other) {

@@ -16,6 +16,9 @@ enum class Precision { fp32, fp64 };
 /// "fp32" or "fp64".
 [[nodiscard]] std::string_view name_of(Precision precision);
 
+/// Of an error to its limit; infinite for a NaN.
+[[nodiscard]] double ratio_of(double error, double limit);
+
 /// A point where an output is out of tolerance: its worst component.
 struct Failure {
     StageKind stage = StageKind::vertex;

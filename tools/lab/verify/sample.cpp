@@ -9,6 +9,7 @@
 
 #include "lab/oracle/oracle.hpp"
 #include "lab/verify/sample_effects.hpp"
+#include "lab/verify/sample_members.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -51,16 +52,11 @@ class SampleMaker {
         fill_materials(sample);
         sample.scene.ambient = random_.components(0, 1);
         add_lights(sample);
-        if (model_.shading == oracle::Shading::hybrid && !is_vertex_)
-            interpolate_lights(model_, sample.scene, random_, sample.surface);
-        if (model_.n_dot_l == oracle::NDotL::vertex && !is_vertex_)
-            interpolate_cosines(model_, sample.scene, random_, sample.surface);
+        if (!is_vertex_) interpolate_lights(model_, sample.scene, random_, sample.surface);
         sample.scene.toon_levels = random_.whole(1, 8);
         fill_fog(sample.scene.fog, glm::length(sample.surface.position));
         sample.scene.depth_offset = random_.between(-0.6, 0.6);
-        add_shadows(model_, random_, sample);
-        fill_environment(model_, random_, sample.scene);
-        if (model_.looks_up_images()) fill_image_lights(random_, sample.scene);
+        fill_effects(model_, random_, sample);
         if (model_.output_range == oracle::OutputRange::half_float && random_.one_in(4))
             scale_beyond_half_float(sample);
     }
@@ -257,56 +253,19 @@ class SampleMaker {
 };
 
 /// Rounds every number to a float.
-struct ToFloat {
-    template <class... Values>
-    static void all(Values&... values) {
-        (one(values), ...);
-    }
-
-    static void one(double& number) { number = static_cast<float>(number); }
-    template <glm::length_t size>
-    static void one(glm::vec<size, double>& vector) {
-        for (glm::length_t i = 0; i < size; ++i) one(vector[i]);
-    }
-    template <glm::length_t columns, glm::length_t rows>
-    static void one(glm::mat<columns, rows, double>& matrix) {
-        for (glm::length_t i = 0; i < columns; ++i) one(matrix[i]);
-    }
-    template <class Element>
-    static void one(std::vector<Element>& list) {
-        for (Element& element : list) one(element);
-    }
-    template <class Element, std::size_t size>
-    static void one(std::array<Element, size>& list) {
-        for (Element& element : list) one(element);
-    }
-
-    static void one(oracle::Material& m) {
-        all(m.emission, m.ambient, m.diffuse, m.specular, m.shininess, m.strength);
-    }
-    static void one(oracle::DirectionalLight& light) { all(light.direction, light.color); }
-    static void one(oracle::PointLight& light) { all(light.position, light.color, light.attenuation); }
-    static void one(oracle::SpotLight& light) {
-        one(static_cast<oracle::PointLight&>(light));
-        all(light.axis, light.exponent, light.inner_one_minus_cosine, light.outer_one_minus_cosine);
-    }
-    static void one(oracle::DirectionalOrPointLight& light) {
-        all(light.position, light.color, light.attenuation);
-    }
-    static void one(oracle::Shadow& s) { all(s.to_map, s.layer, s.depth_scale, s.depth_shift, s.spread); }
-    static void one(oracle::ImageLight& light) { all(light.color, light.weight, light.to_map); }
-    static void one(oracle::FogParameters& fog) { all(fog.color, fog.density, fog.start, fog.end); }
-    static void one(oracle::HemisphereLight& light) { all(light.up, light.sky, light.ground); }
-    static void one(oracle::HarmonicsLight& light) { all(light.to_probe, light.scale, light.coefficients); }
-    static void one(oracle::SurfacePoint& s) {
-        all(s.position, s.normal, s.color, s.opacity, s.rays, s.halfways, s.cosines);
-    }
-    static void one(oracle::Scene& s) {
-        all(s.material, s.materials, s.ambient, s.hemisphere, s.harmonics, s.light_ambients, s.image_light,
-            s.reflection, s.directional, s.point, s.spot, s.directional_or_point, s.shadows, s.maps.depths,
-            s.toon_thresholds, s.toon_tones, s.fog, s.cutout_threshold, s.depth_offset);
-    }
-};
+template <class Value>
+void round_to_float(Value& value) {
+    if constexpr (std::is_same_v<Value, double>)
+        value = static_cast<float>(value);
+    else if constexpr (std::is_arithmetic_v<Value>)
+        return;  // ints and bools
+    else if constexpr (requires { value.begin(); })
+        for (auto& element : value) round_to_float(element);
+    else if constexpr (kIsNumbers<Value>)
+        for (glm::length_t i = 0; i < Value::length(); ++i) round_to_float(value[i]);
+    else
+        for_each_member<Value>([&](const auto&, auto member) { round_to_float(value.*member); });
+}
 
 }  // namespace
 
@@ -331,9 +290,11 @@ Sample at_vertex(const Sample& draw, const Mesh& mesh, std::size_t vertex) {
 }
 
 Sample rounded_to_float(Sample sample) {
-    ToFloat::all(sample.scene, sample.surface, sample.object_position, sample.object_normal,
-                 sample.model_view, sample.projection, sample.normal_matrix, sample.lit_radiance,
-                 sample.back_radiance, sample.depth, sample.texture_coordinate);
+    round_to_float(sample);
+    round_to_float(sample.depth);
+    round_to_float(sample.surface.opacity);
+    round_to_float(sample.surface.cosines);
+    round_to_float(sample.scene.maps.depths);
     return sample;
 }
 

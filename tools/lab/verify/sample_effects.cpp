@@ -10,12 +10,6 @@
 namespace gobo::verify {
 namespace {
 
-void fill_hemisphere(Random& random, oracle::HemisphereLight& light) {
-    light.up = random.direction();
-    light.sky = random.components(0, 2);
-    light.ground = random.components(0, 2);
-}
-
 /// A bright mean, so that the polynomial is seldom negative, and sides that make it so now and then.
 void fill_harmonics(Random& random, oracle::HarmonicsLight& light) {
     light.to_probe = glm::dmat3(glm::rotate(glm::dmat4(1), random.between(0, 6.28), random.direction()));
@@ -87,6 +81,41 @@ void fill_layer(oracle::DepthMaps& maps, int layer, double reference, Random& ra
     }
 }
 
+void fill_environment(const oracle::Model& model, Random& random, oracle::Scene& scene) {
+    if (model.ambient == oracle::Ambient::hemisphere)
+        scene.hemisphere = {random.direction(), random.components(0, 2), random.components(0, 2)};
+    if (model.ambient == oracle::Ambient::spherical_harmonics) fill_harmonics(random, scene.harmonics);
+    if (model.light_ambient == oracle::LightAmbient::each)
+        for (int i = 0; i < model.lights(); ++i) scene.light_ambients.push_back(random.components(0, 0.5));
+    if (model.diffuse != oracle::Diffuse::toon_thresholds) return;
+    for (double& threshold : scene.toon_thresholds) threshold = random.unit();
+    std::sort(scene.toon_thresholds.rbegin(), scene.toon_thresholds.rend());
+    if (random.one_in(8)) scene.toon_thresholds[2] = 0;
+    for (double& tone : scene.toon_tones) tone = random.one_in(8) ? 0 : random.unit();
+}
+
+void add_shadows(const oracle::Model& model, Random& random, Sample& sample) {
+    if (model.shadows() == 0) return;
+    oracle::DepthMaps& maps = sample.scene.maps;
+    maps.width = random.whole(1, 8);
+    maps.height = random.whole(1, 8);
+    int layer = random.whole(0, 2);
+    maps.layers = layer + model.directional_shadows + model.spot_shadows + 6 * model.point_shadows;
+    maps.depths.assign(static_cast<std::size_t>(maps.width * maps.height * maps.layers), 0.5);
+    const int first_cube = model.directional_shadows + model.spot_shadows;
+    for (int i = 0; i < model.shadows(); ++i) {
+        oracle::Shadow& shadow = sample.scene.shadows.emplace_back();
+        shadow.layer = layer;
+        const bool is_cube = i >= first_cube;
+        const double reference = random.one_in(16) ? random.between(-0.2, 1.2) : random.between(0.05, 0.95);
+        if (is_cube)
+            place_cube(shadow, reference, sample.surface.position, random);
+        else
+            place_map(shadow, i >= model.directional_shadows, reference, sample.surface.position, random);
+        for (int face = 0; face < (is_cube ? 6 : 1); ++face) fill_layer(maps, layer++, reference, random);
+    }
+}
+
 }  // namespace
 
 /// The scene with local lights that are white and 1 bright: what arrives of them is their attenuation.
@@ -135,69 +164,36 @@ void vary_surface(std::size_t vertex, Sample& sample) {
     sample.surface.material = random.whole(-2, 16);
 }
 
-void fill_environment(const oracle::Model& model, Random& random, oracle::Scene& scene) {
-    if (model.ambient == oracle::Ambient::hemisphere) fill_hemisphere(random, scene.hemisphere);
-    if (model.ambient == oracle::Ambient::spherical_harmonics) fill_harmonics(random, scene.harmonics);
-    if (model.light_ambient == oracle::LightAmbient::each)
-        for (int i = 0; i < model.lights(); ++i) scene.light_ambients.push_back(random.components(0, 0.5));
-    if (model.diffuse != oracle::Diffuse::toon_thresholds) return;
-    for (double& threshold : scene.toon_thresholds) threshold = random.unit();
-    std::sort(scene.toon_thresholds.rbegin(), scene.toon_thresholds.rend());
-    if (random.one_in(8)) scene.toon_thresholds[2] = 0;
-    for (double& tone : scene.toon_tones) tone = random.one_in(8) ? 0 : random.unit();
-}
-
-void fill_image_lights(Random& random, oracle::Scene& scene) {
-    fill(random, scene.image_light);
-    fill(random, scene.reflection);
-}
-
 void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, Random& random,
                         oracle::SurfacePoint& point) {
     oracle::Decisions decisions;
-    const glm::dvec3 to_viewer = oracle::to_viewer(model, point.position);
-    const oracle::Scene white = with_white_lights(scene);
-    std::size_t number = 0;
-    for (const oracle::IncidentLight& incident :
-         oracle::incident_lights(model, white, point.position, decisions)) {
-        if (number++ >= scene.directional.size()) {
-            const double attenuation = incident.radiance.x * random.between(0.9, 1.1);
-            point.rays.emplace_back(shortened(incident.to_light, random),
-                                    random.one_in(16) ? -0.01 * attenuation : attenuation);
+    if (model.shading == oracle::Shading::hybrid) {
+        const glm::dvec3 to_viewer = oracle::to_viewer(model, point.position);
+        const oracle::Scene white = with_white_lights(scene);
+        std::size_t number = 0;
+        for (const oracle::IncidentLight& incident :
+             oracle::incident_lights(model, white, point.position, decisions)) {
+            if (number++ >= scene.directional.size()) {
+                const double attenuation = incident.radiance.x * random.between(0.9, 1.1);
+                point.rays.emplace_back(shortened(incident.to_light, random),
+                                        random.one_in(16) ? -0.01 * attenuation : attenuation);
+            }
+            point.halfways.push_back(shortened(oracle::direction_of(incident.to_light + to_viewer), random));
         }
-        point.halfways.push_back(shortened(oracle::direction_of(incident.to_light + to_viewer), random));
     }
-}
-
-void interpolate_cosines(const oracle::Model& model, const oracle::Scene& scene, Random& random,
-                         oracle::SurfacePoint& point) {
-    oracle::Decisions decisions;
+    if (model.n_dot_l != oracle::NDotL::vertex) return;
     const glm::dvec3 normal = oracle::direction_of(point.normal);
     for (const oracle::IncidentLight& incident :
          oracle::incident_lights(model, scene, point.position, decisions))
         point.cosines.push_back(glm::dot(normal, incident.to_light) * random.between(0.7, 1));
 }
 
-void add_shadows(const oracle::Model& model, Random& random, Sample& sample) {
-    if (model.shadows() == 0) return;
-    oracle::DepthMaps& maps = sample.scene.maps;
-    maps.width = random.whole(1, 8);
-    maps.height = random.whole(1, 8);
-    int layer = random.whole(0, 2);
-    maps.layers = layer + model.directional_shadows + model.spot_shadows + 6 * model.point_shadows;
-    maps.depths.assign(static_cast<std::size_t>(maps.width * maps.height * maps.layers), 0.5);
-    const int first_cube = model.directional_shadows + model.spot_shadows;
-    for (int i = 0; i < model.shadows(); ++i) {
-        oracle::Shadow& shadow = sample.scene.shadows.emplace_back();
-        shadow.layer = layer;
-        const bool is_cube = i >= first_cube;
-        const double reference = random.one_in(16) ? random.between(-0.2, 1.2) : random.between(0.05, 0.95);
-        if (is_cube)
-            place_cube(shadow, reference, sample.surface.position, random);
-        else
-            place_map(shadow, i >= model.directional_shadows, reference, sample.surface.position, random);
-        for (int face = 0; face < (is_cube ? 6 : 1); ++face) fill_layer(maps, layer++, reference, random);
-    }
+void fill_effects(const oracle::Model& model, Random& random, Sample& sample) {
+    add_shadows(model, random, sample);
+    fill_environment(model, random, sample.scene);
+    if (!model.looks_up_images()) return;
+    fill(random, sample.scene.image_light);
+    fill(random, sample.scene.reflection);
 }
 
 }  // namespace gobo::verify

@@ -17,29 +17,21 @@ void fill_surface(const oracle::Model& model, StageKind stage, Random& random, S
 /// Gives a vertex of a draw colours, texture coordinates and a material of its own.
 void vary_surface(std::size_t vertex, Sample& sample);
 
-/// Fills the light that belongs to no direction: of a hemisphere, of harmonics, the lights' own ambient
-/// terms; and the thresholds of tones.
-void fill_environment(const oracle::Model& model, Random& random, oracle::Scene& scene);
-
-/// Environments to look up, bright in the mean and brighter to one side, turned any way.
-void fill_image_lights(Random& random, oracle::Scene& scene);
-
 /// The scene with local lights that are white and 1 bright: what arrives of them is their attenuation. Lights
 /// that arrive refer to those of their scene.
 [[nodiscard]] oracle::Scene with_white_lights(oracle::Scene scene);
 
-/// Gives the point rays and half vectors such as interpolation makes of its lights' (hybrid shading): shorter
-/// than 1, attenuations a little off, now and then below 0.
+/// Gives the point what interpolation makes of its lights': with hybrid shading rays and half vectors,
+/// shorter than 1, attenuations a little off, now and then below 0; cosines nearer to 0 where the vertices
+/// find them.
 void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, Random& random,
                         oracle::SurfacePoint& point);
 
-/// Gives the point cosines such as interpolation makes of its lights': nearer to 0.
-void interpolate_cosines(const oracle::Model& model, const oracle::Scene& scene, Random& random,
-                         oracle::SurfacePoint& point);
-
-/// Gives the sample the shadows that the model counts, and maps for them: of 1 to 8 texels a side, the point
-/// on the map or a little beside it, before or behind the light, and texels around that are nearer to the
-/// light than the point by up to 0.3, or further.
-void add_shadows(const oracle::Model& model, Random& random, Sample& sample);
+/// Gives the sample what few models ask for. The shadows that the model counts, and maps for them: of 1 to 8
+/// texels a side, the point on the map or a little beside it, before or behind the light, and texels around
+/// that are nearer to the light than the point by up to 0.3, or further. The light that belongs to no
+/// direction: of a hemisphere, of harmonics, the lights' own ambient terms, environments to look up, bright
+/// in the mean and brighter to one side, turned any way. The thresholds of tones.
+void fill_effects(const oracle::Model& model, Random& random, Sample& sample);
 
 }  // namespace gobo::verify

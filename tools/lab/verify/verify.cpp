@@ -8,9 +8,8 @@
 
 #include "core/parallel.hpp"
 #include "family/key.hpp"
-#include "lab/verify/alone.hpp"
-#include "lab/verify/comparison.hpp"
 #include "lab/verify/on_mesh.hpp"
+#include "lab/verify/stage_check.hpp"
 
 namespace gobo::verify {
 namespace {

@@ -1,10 +1,12 @@
-// Outputs of a stage, point by point, against what the oracle expects of them.
+// Outputs of a stage, point by point: against what the oracle expects of them or, where it knows nothing,
+// fp32 against fp64.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "family/family.hpp"
 #include "lab/evaluate/evaluate.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/report.hpp"
@@ -51,5 +53,20 @@ class StageCheck {
 [[nodiscard]] Result<StageReport> check_against_oracle(const evaluate::Program& program, StageKind stage,
                                                        const oracle::Model& model, int count,
                                                        std::uint64_t seed);
+
+/// Evaluates the stage at `count` points of the family's domains (within 1e3; from -1 to 1 where none is
+/// declared) and compares fp32 with fp64.
+///
+/// There are no equations to derive a bound from. Instead the inputs are moved by a rounding up or down, at
+/// random, in several fp64 evaluations: what the outputs spread by is their condition, and a float evaluation
+/// may be off by kConditionFactor times that. Where moving them by 1e-5 spreads further, as across a
+/// discontinuity, anything within that spread is right, and counted as an edge.
+[[nodiscard]] Result<StageReport> check_alone(const evaluate::Program& program, StageKind stage,
+                                              const std::vector<Domain>& domains, int count,
+                                              std::uint64_t seed);
+
+/// A stage of some hundred operations rounds about as often; errors of either sign cancel as a random walk
+/// does, so that the sum of n is about sqrt(n) of one, and four times that is hardly ever passed: 4 * 16.
+inline constexpr double kConditionFactor = 64;
 
 }  // namespace gobo::verify

@@ -1,10 +1,13 @@
-#include "lab/verify/comparison.hpp"
+#include "lab/verify/stage_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "lab/verify/inputs.hpp"
+#include "lab/verify/random_points.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -17,12 +20,6 @@ struct Deviation {
     Failure worst;          ///< the component that is furthest out, measured by its tolerance
     double of_largest = 0;  ///< error relative to the largest term, over all components
 };
-
-double ratio_of(double error, double limit) {
-    if (error == 0) return 0;
-    return error <= std::numeric_limits<double>::max() && limit > 0 ? error / limit
-                                                                    : std::numeric_limits<double>::infinity();
-}
 
 void compare(const Expected& expected, std::uint32_t component, double actual, Deviation& deviation) {
     Failure& worst = deviation.worst;
@@ -50,6 +47,41 @@ Deviation deviation_of(const std::vector<Expected>& all, const evaluate::Outputs
             compare(expected, c, found->second[c * outputs.count + index], deviation);
     }
     return deviation;
+}
+
+/// Both evaluations of all points, and how far they may be apart.
+struct Evaluations {
+    NamedValues in_float;
+    NamedValues in_double;
+    NamedValues by_rounding;
+    NamedValues by_edge;
+};
+
+/// Judges one point, and keeps its worst component in `failure`; whether only an edge explains it.
+bool is_at_edge(const Evaluations& all, std::size_t count, std::size_t index, Figures& figures,
+                std::optional<Failure>& failure) {
+    bool is_edge = false;
+    for (const auto& [name, values] : all.in_double) {
+        const std::vector<double>& in_float = all.in_float.at(name);
+        const double size = largest_component(values, count, index);
+        for (std::size_t k = index; k < values.size(); k += count) {
+            const double error = std::abs(in_float[k] - values[k]);
+            const double limit =
+                kConditionFactor * (all.by_rounding.at(name)[k] + kRoundingStep * size) +
+                static_cast<double>(std::numeric_limits<float>::min());  // below it floats lose digits
+            if (error <= limit || in_float[k] == values[k]) {
+                figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, error / limit);
+                if (size > 0) figures.largest_fp32_error = std::max(figures.largest_fp32_error, error / size);
+            } else if (error <= 2 * all.by_edge.at(name)[k]) {
+                is_edge = true;
+            } else {
+                const auto component = static_cast<std::uint32_t>(k / count);
+                failure = Failure{StageKind::vertex, Precision::fp32, name,          component, values[k],
+                                  in_float[k],       limit,           error / limit, {}};
+            }
+        }
+    }
+    return is_edge;
 }
 
 }  // namespace
@@ -117,6 +149,35 @@ Result<StageReport> check_against_oracle(const evaluate::Program& program, Stage
         GOBO_TRY_DO(check.run(precision, samples, invocations));
     }
     return std::move(check).report();
+}
+
+Result<StageReport> check_alone(const evaluate::Program& program, StageKind stage,
+                                const std::vector<Domain>& domains, int count, std::uint64_t seed) {
+    StageReport report;
+    report.figures.points = static_cast<std::size_t>(count);
+    const evaluate::Invocations points = draw_points(program, domains, report.figures.points, seed);
+    const auto in_double = [&](const evaluate::Invocations& invocations) -> Result<NamedValues> {
+        GOBO_TRY(auto outputs, evaluate::run<double>(program, invocations));
+        return std::move(outputs.values);
+    };
+    std::vector<evaluate::Port> ports = program.inputs;
+    ports.insert(ports.end(), program.uniforms.begin(), program.uniforms.end());
+    Evaluations all;
+    GOBO_TRY(auto in_float, evaluate::run<float>(program, points));
+    all.in_float = std::move(in_float.values);
+    GOBO_TRY(all.in_double, in_double(points));
+    GOBO_TRY(all.by_rounding, spread(ports, points, all.in_double, kRoundingStep, seed, in_double));
+    GOBO_TRY(all.by_edge, spread(ports, points, all.in_double, kEdgeStep, seed, in_double));
+    for (std::size_t i = 0; i < report.figures.points; ++i) {
+        std::optional<Failure> failure;
+        if (is_at_edge(all, report.figures.points, i, report.figures, failure)) ++report.figures.edges;
+        if (!failure) continue;
+        failure->stage = stage;
+        failure->point = evaluate::point_of(program, points, i);
+        ++report.failed_points;
+        report.add(std::move(*failure));
+    }
+    return report;
 }
 
 }  // namespace gobo::verify
