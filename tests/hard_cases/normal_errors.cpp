@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gobo/normal_matrix.hpp>
 
-#include "lab/sanitize/random.hpp"
+#include "lab/sanitize/input_space.hpp"
 
 namespace gobo {
 namespace {

@@ -82,10 +82,7 @@ TEST_P(PlainShader, NamesAnInputThatShowsIt) {
         const auto invocations = evaluate::invocations_of(*inputs, *program);
         ASSERT_TRUE(invocations) << to_text(invocations.error().front());
         const sanitize::InputSpace space = sanitize::input_space_of(*program, {});
-        sanitize::PointSet point;
-        point.numbers = space.numbers;
-        point.resize(1);
-        point.values = sanitize::flat_point(space, *invocations, 0);
+        const sanitize::PointSet point = sanitize::point_set(space, shared.finding.point);
         sanitize::OutputBounds bounds(*family, Key{}, composition->stages.front().kind, *program, space,
                                       sanitize::depth_promise_of(validated.stages.front().spirv));
         const auto alone =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <glm/geometric.hpp>
 
@@ -9,6 +10,7 @@
 #include "lab/oracle/model.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/inputs.hpp"
+#include "lab/verify/random_points.hpp"
 #include "lab/verify/rounding.hpp"
 #include "spirv/module.hpp"
 
@@ -58,8 +60,7 @@ Interval interval_of(const Domain& domain) {
     return interval;
 }
 
-}  // namespace
-
+/// What the lighting models of `lit` allow.
 class LitBounds {
   public:
     LitBounds(const oracle::Model& model, StageKind stage, const evaluate::Program& program)
@@ -100,17 +101,16 @@ class LitBounds {
     };
 
     void bring_lights_nearer() {
-        if (stage_ == StageKind::fragment) {
-            for (oracle::DirectionalOrPointLight& light : sample_.scene.directional_or_point)
-                bring_nearer(light, sample_.surface.position, 0);
-            return;
-        }
-        const glm::dvec3 surface = glm::dvec3(sample_.model_view * glm::dvec4(sample_.object_position, 1));
-        const double error = position_error(sample_);
-        for (oracle::PointLight& light : sample_.scene.point) bring_nearer(light, surface, error);
-        for (oracle::SpotLight& light : sample_.scene.spot) bring_nearer(light, surface, error);
-        for (oracle::DirectionalOrPointLight& light : sample_.scene.directional_or_point)
-            bring_nearer(light, surface, error);
+        oracle::Scene& scene = sample_.scene;
+        const bool is_vertex = stage_ == StageKind::vertex;
+        const glm::dvec3 surface =
+            is_vertex ? glm::dvec3(sample_.model_view * glm::dvec4(sample_.object_position, 1))
+                      : sample_.surface.position;
+        const double error = is_vertex ? position_error(sample_) : 0;
+        for (auto& light : scene.directional_or_point) bring_nearer(light, surface, error);
+        if (!is_vertex) return;
+        for (auto& light : scene.point) bring_nearer(light, surface, error);
+        for (auto& light : scene.spot) bring_nearer(light, surface, error);
     }
 
     void narrow(const verify::Expected& expected, std::span<Interval> intervals) const {
@@ -131,16 +131,14 @@ class LitBounds {
     std::vector<double> scratch_;
 };
 
-namespace {
-
 /// Null where the oracle does not know the key's model or what the stage reads.
-std::unique_ptr<LitBounds> lit_bounds(const Family& family, const Key& key, StageKind stage,
+std::shared_ptr<LitBounds> lit_bounds(const Family& family, const Key& key, StageKind stage,
                                       const evaluate::Program& program, const InputSpace& space) {
     auto model = oracle::model_of(family, key);
     if (!model) return nullptr;
     // A shadow only takes light away.
     model->directional_shadows = model->point_shadows = model->spot_shadows = 0;
-    auto bounds = std::make_unique<LitBounds>(*model, stage, program);
+    auto bounds = std::make_shared<LitBounds>(*model, stage, program);
     for (const InputField& field : space.fields)
         if (!bounds->add(field)) return nullptr;
     return bounds;
@@ -162,25 +160,24 @@ DepthPromise depth_promise_of(std::span<const std::uint32_t> words) {
 
 OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage,
                            const evaluate::Program& program, const InputSpace& space, DepthPromise promise)
-    : model_(lit_bounds(family, key, stage, program, space)), promise_(promise) {
+    : promise_(promise) {
+    if (auto model = lit_bounds(family, key, stage, program, space))
+        narrow_ = [model](auto point, auto intervals) { model->narrow(point, intervals); };
     for (const evaluate::Port& output : program.outputs) {
         Interval interval;
         if (output.name == "gl_FragDepth") {
             interval = {0, 1};
             depth_ = declared_.size();
         }
-        const auto domain = std::find_if(family.domains.begin(), family.domains.end(),
-                                         [&](const Domain& one) { return one.name == output.name; });
+        const Domain* domain = verify::domain_of(family.domains, output.name);
         // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
         // within theirs can be anything.
-        if (stage == StageKind::fragment && domain != family.domains.end()) interval = interval_of(*domain);
+        if (stage == StageKind::fragment && domain != nullptr) interval = interval_of(*domain);
         declared_.insert(declared_.end(), output.components, interval);
     }
     for (const InputField& field : space.fields)
         if (field.name == "gl_FragCoord") own_depth_ = field.first + 2;
 }
-
-OutputBounds::~OutputBounds() = default;
 
 void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
     // A machine that flushes denormal numbers reads 0 for one.
@@ -191,11 +188,11 @@ void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
 
 std::vector<Interval> OutputBounds::at(const PointSet& points) {
     std::vector<Interval> intervals;
-    intervals.reserve(points.count() * declared_.size());
-    for (std::size_t i = 0; i < points.count(); ++i) {
+    intervals.reserve(points.count * declared_.size());
+    for (std::size_t i = 0; i < points.count; ++i) {
         intervals.insert(intervals.end(), declared_.begin(), declared_.end());
         const auto here = std::span(intervals).last(declared_.size());
-        if (model_) model_->narrow(points[i], here);
+        if (narrow_) narrow_(points[i], here);
         if (depth_ && own_depth_) keep_promise(points[i][*own_depth_], here[*depth_]);
     }
     return intervals;

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,9 +29,6 @@ struct Interval {
     double high = static_cast<double>(std::numeric_limits<float>::max());
 };
 
-/// What the lighting models of `lit` allow.
-class LitBounds;
-
 /// Every output is finite. A fragment stage's stay within the domain that the family declares for them by
 /// name, its depth within [0, 1] and, where it reads gl_FragCoord, on the side of gl_FragCoord.z that it
 /// promises. Where the oracle knows the key's model, they are as the model allows: no radiance is negative or
@@ -41,7 +38,6 @@ class OutputBounds {
     /// `program` and `space` must outlive the bounds.
     OutputBounds(const Family& family, const Key& key, StageKind stage, const evaluate::Program& program,
                  const InputSpace& space, DepthPromise promise);
-    ~OutputBounds();
 
     /// One interval of each component of each output, for each point, one point after the other.
     [[nodiscard]] std::vector<Interval> at(const PointSet& points);
@@ -50,7 +46,8 @@ class OutputBounds {
     void keep_promise(double own_depth, Interval& depth) const;
 
     std::vector<Interval> declared_;
-    std::unique_ptr<LitBounds> model_;  ///< null where there are no equations
+    /// Narrows a point's intervals to what its model allows; nothing where there are no equations.
+    std::function<void(std::span<const double> point, std::span<Interval>)> narrow_;
     DepthPromise promise_;
     /// Index of gl_FragDepth's interval; nothing where the stage writes none.
     std::optional<std::size_t> depth_;

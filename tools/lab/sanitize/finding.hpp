@@ -10,7 +10,6 @@
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/sanitize/bounds.hpp"
 #include "lab/sanitize/machine.hpp"
-#include "lab/sanitize/observers.hpp"
 
 namespace gobo::sanitize {
 
@@ -37,10 +36,10 @@ struct Finding {
 
 /// The traps of one stage at the given points; the stage's kind is left to the caller. An output that nothing
 /// ever stores to has no place. `bounds` are those of OutputBounds::at(), or empty: points that trap are not
-/// held to them. `reach` watches beside the traps.
+/// held to them. `also` watches, too.
 [[nodiscard]] Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
                                                       const evaluate::Invocations& invocations,
                                                       Machine machine, std::span<const Interval> bounds = {},
-                                                      ReachObserver* reach = nullptr);
+                                                      evaluate::Observer<float>* also = nullptr);
 
 }  // namespace gobo::sanitize

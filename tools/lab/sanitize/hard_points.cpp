@@ -179,7 +179,7 @@ class PointMaker {
 
 /// Pixels of quads: neighbours differ by one.
 void place_pixels(const InputField& field, PointSet& points) {
-    for (std::size_t i = 0; i < points.count(); ++i) {
+    for (std::size_t i = 0; i < points.count; ++i) {
         const std::span<double> coordinate = points[i].subspan(field.first, field.components);
         coordinate[0] = static_cast<double>(i / 4 % 32 * 2 + i % 2) + 0.5;
         coordinate[1] = static_cast<double>(i / 128 % 32 * 2 + i / 2 % 2) + 0.5;
@@ -187,39 +187,7 @@ void place_pixels(const InputField& field, PointSet& points) {
     }
 }
 
-}  // namespace
-
-PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t seed) {
-    PointMaker maker(space, seed);
-    PointSet points;
-    points.numbers = space.numbers;
-    points.resize(count);
-    for (std::size_t i = 0; i < count; ++i) maker.make(points[i]);
-    for (const InputField& field : space.fields)
-        if (field.name == "gl_FragCoord") place_pixels(field, points);
-    return points;
-}
-
-PointChanger::PointChanger(const InputSpace& space) : space_(space) {
-    for (std::size_t field = 0; field < space.fields.size(); ++field)
-        field_of_.insert(field_of_.end(), space.fields[field].components, field);
-}
-
-std::size_t PointChanger::change(std::span<double> point, std::size_t number, Random& random) const {
-    const InputField& field = space_.fields[field_of_[number]];
-    const std::span<double> numbers = point.subspan(field.first, field.components);
-    if (field.components > 1 && random.one_in(8)) {
-        const double factor = random.one_in(4) ? -1 : std::exp2(random.between(-8, 8));
-        for (double& component : numbers) component *= factor;
-    } else {
-        point[number] = changed_number(point, field, point[number], random);
-    }
-    bring_into_domain(field, numbers);
-    return number;
-}
-
-double PointChanger::changed_number(std::span<const double> point, const InputField& field, double number,
-                                    Random& random) const {
+double changed_number(std::span<const double> point, const InputField& field, double number, Random& random) {
     const double sign = random.one_in(2) ? 1 : -1;
     switch (random.index(8)) {
         case 0:
@@ -237,6 +205,33 @@ double PointChanger::changed_number(std::span<const double> point, const InputFi
         default:
             return number + sign * std::max(std::abs(number), 1.0) * std::exp2(random.between(-24, 1));
     }
+}
+
+}  // namespace
+
+PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t seed) {
+    PointMaker maker(space, seed);
+    PointSet points(space.numbers, count);
+    for (std::size_t i = 0; i < count; ++i) maker.make(points[i]);
+    for (const InputField& field : space.fields)
+        if (field.name == "gl_FragCoord") place_pixels(field, points);
+    return points;
+}
+
+void change(const InputSpace& space, std::span<double> point, std::size_t number, Random& random) {
+    const InputField& field = space.fields[space.field_of[number]];
+    const std::span<double> numbers = point.subspan(field.first, field.components);
+    if (field.components > 1 && random.one_in(8)) {
+        const double factor = random.one_in(4) ? -1 : std::exp2(random.between(-8, 8));
+        for (double& component : numbers) component *= factor;
+    } else {
+        point[number] = changed_number(point, field, point[number], random);
+    }
+    bring_into_domain(field, numbers);
+}
+
+void change_any(const InputSpace& space, std::span<double> point, std::size_t times, Random& random) {
+    for (; times > 0; --times) change(space, point, random.index(space.numbers), random);
 }
 
 }  // namespace gobo::sanitize

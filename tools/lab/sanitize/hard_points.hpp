@@ -11,22 +11,11 @@ namespace gobo::sanitize {
 /// neighbours. Fragments lie in quads. The same seed gives the same points.
 [[nodiscard]] PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t seed);
 
-/// Takes small and large steps from a point to another.
-class PointChanger {
-  public:
-    /// `space` must outlive it.
-    explicit PointChanger(const InputSpace& space);
+/// Changes that number of the point, or all of its field, within the domain: by a few roundings, by any power
+/// of two, to a hard number, or to some other number of the point.
+void change(const InputSpace& space, std::span<double> point, std::size_t number, Random& random);
 
-    /// Changes that number of the point, or all of its field, within the domain: by a few roundings, by any
-    /// power of two, to a hard number, or to some other number of the point. Returns the number.
-    std::size_t change(std::span<double> point, std::size_t number, Random& random) const;
-
-  private:
-    [[nodiscard]] double changed_number(std::span<const double> point, const InputField& field, double number,
-                                        Random& random) const;
-
-    const InputSpace& space_;
-    std::vector<std::size_t> field_of_;  ///< of each number of a point
-};
+/// The same so many times, each time to any of its numbers.
+void change_any(const InputSpace& space, std::span<double> point, std::size_t times, Random& random);
 
 }  // namespace gobo::sanitize

@@ -18,27 +18,29 @@ Domain plain_domain(const std::string& name, double low, double high) {
     return domain;
 }
 
+/// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
+/// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
+Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
+    const std::string name = verify::without_subscripts(port.name);
+    if (const Domain* declared = verify::domain_of(domains, port.name)) return *declared;
+    if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
+    if (port.scalar == evaluate::Scalar::uint32) return plain_domain(name, 0, 100);
+    if (name == "gl_FragCoord" || name == "gl_PointCoord" || name == "gl_SamplePosition")
+        return plain_domain(name, 0, 1);
+    if (name.starts_with("gl_")) return plain_domain(name, 0, 100);
+    return plain_domain(name, -100, 100);
+}
+
 constexpr double kAboveOne = 1.00000012;  // a float's neighbours of 1
 constexpr double kBelowOne = 0.99999994;
 
 void add_field(InputSpace& space, InputField field) {
     field.first = space.numbers;
     space.numbers += field.components;
+    space.field_of.insert(space.field_of.end(), field.components, space.fields.size());
     if (field.is_vector() && !field.is_texture) space.vectors.push_back(space.fields.size());
     if (field.is_number()) space.floats.push_back(space.fields.size());
     space.fields.push_back(std::move(field));
-}
-
-InputField texture_field(const std::string& name) {
-    InputField field;
-    field.name = name;
-    field.type = "vec4";
-    field.is_texture = true;
-    field.components = 4;
-    field.domain.name = name;
-    field.domain.high = 1;
-    field.hard = {0, 1};
-    return field;
 }
 
 double nearest_allowed(const Domain& domain, double number) {
@@ -53,7 +55,7 @@ double nearest_allowed(const Domain& domain, double number) {
 /// The colour of each point, whatever is asked; sizes and levels are those of a small texture.
 evaluate::Image one_colour_at_each_point(std::size_t first, const PointSet& points) {
     using Texel = std::array<double, 4>;
-    auto texels = std::make_shared<std::vector<Texel>>(points.count());
+    auto texels = std::make_shared<std::vector<Texel>>(points.count);
     for (std::size_t i = 0; i < texels->size(); ++i)
         std::copy_n(points[i].begin() + static_cast<std::ptrdiff_t>(first), 4, (*texels)[i].begin());
     return [texels](const evaluate::ImageRequest& request) {
@@ -67,19 +69,6 @@ double length_of(std::span<const double> vector) {
     double square = 0;
     for (const double component : vector) square += component * component;
     return std::sqrt(square);
-}
-
-Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
-    const std::string name = verify::without_subscripts(port.name);
-    const auto declared =
-        std::find_if(domains.begin(), domains.end(), [&](const Domain& d) { return d.name == name; });
-    if (declared != domains.end()) return *declared;
-    if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
-    if (port.scalar == evaluate::Scalar::uint32) return plain_domain(name, 0, 100);
-    if (name == "gl_FragCoord" || name == "gl_PointCoord" || name == "gl_SamplePosition")
-        return plain_domain(name, 0, 1);
-    if (name.starts_with("gl_")) return plain_domain(name, 0, 100);
-    return plain_domain(name, -100, 100);
 }
 
 bool holds(const Domain& domain, double number) {
@@ -113,11 +102,7 @@ bool InputField::is_vector() const {
 }
 
 Domain InputField::last_domain() const {
-    Domain last;
-    last.name = name;
-    last.low = domain.last.at(0);
-    last.high = domain.last.at(1);
-    return last;
+    return plain_domain(name, domain.last.at(0), domain.last.at(1));
 }
 
 InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains) {
@@ -133,7 +118,16 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
             field.components = port.components;
             add_field(space, std::move(field));
         }
-    for (const evaluate::ImagePort& image : program.images) add_field(space, texture_field(image.name));
+    for (const evaluate::ImagePort& image : program.images) {
+        InputField field;
+        field.name = image.name;
+        field.type = "vec4";
+        field.is_texture = true;
+        field.domain = plain_domain(image.name, 0, 1);
+        field.hard = {0, 1};
+        field.components = 4;
+        add_field(space, std::move(field));
+    }
     return space;
 }
 
@@ -157,7 +151,7 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
 
 evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points) {
     evaluate::Invocations invocations;
-    const std::size_t count = points.count();
+    const std::size_t count = points.count;
     invocations.count = count;
     for (const InputField& field : space.fields) {
         if (field.is_texture) {
@@ -174,26 +168,14 @@ evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& po
     return invocations;
 }
 
-std::vector<double> flat_point(const InputSpace& space, const evaluate::Invocations& invocations,
-                               std::size_t index) {
-    std::vector<double> point(space.numbers);
-    evaluate::ImageRequest request;
-    request.invocation = index;
-    for (const InputField& field : space.fields) {
-        if (field.is_texture) {
-            const auto given = invocations.images.find(field.name);
-            if (given == invocations.images.end()) continue;
-            const std::array<double, 4> texel = given->second(request);
-            std::copy(texel.begin(), texel.end(), point.begin() + static_cast<std::ptrdiff_t>(field.first));
-            continue;
-        }
-        const auto given = invocations.values.find(field.name);
-        if (given == invocations.values.end()) continue;
-        const bool is_common = given->second.size() == field.components;
-        for (std::size_t c = 0; c < field.components; ++c)
-            point[field.first + c] = given->second[is_common ? c : c * invocations.count + index];
-    }
-    return point;
+PointSet point_set(const InputSpace& space, const evaluate::EvalPoint& point) {
+    PointSet points(space.numbers, 1);
+    for (const InputField& field : space.fields)
+        for (const auto* values : {&point.inputs, &point.uniforms, &point.samplers})
+            if (const auto given = values->find(field.name); given != values->end())
+                std::copy_n(given->second.begin(), std::min(given->second.size(), field.components),
+                            points[0].begin() + static_cast<std::ptrdiff_t>(field.first));
+    return points;
 }
 
 }  // namespace gobo::sanitize

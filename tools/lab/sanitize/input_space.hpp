@@ -8,18 +8,23 @@
 #include <vector>
 
 #include "family/family.hpp"
-#include "lab/evaluate/evaluate.hpp"
-#include "lab/sanitize/random.hpp"
+#include "lab/evaluate/eval_file.hpp"
+#include "lab/raster/random_numbers.hpp"
 
 namespace gobo::sanitize {
+
+/// The standard library's generators cost more than the shaders they make inputs for.
+class Random : public RandomNumbers<Xoshiro256> {
+  public:
+    using RandomNumbers::RandomNumbers;
+
+    /// True one time in `n`.
+    [[nodiscard]] bool one_in(std::size_t n) { return index(n) == 0; }
+};
 
 /// Numbers nearer to 0 than this are drawn only where a domain's own bounds are: coordinates and lengths
 /// below it occur as exactly 0.
 inline constexpr double kSmallest = 1e-6;
-
-/// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
-/// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
-[[nodiscard]] Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains);
 
 /// Whether a component may hold the number. Not for domains of a length.
 [[nodiscard]] bool holds(const Domain& domain, double number);
@@ -56,30 +61,27 @@ struct InputField {
 /// The fields of a stage.
 struct InputSpace {
     std::vector<InputField> fields;
-    std::size_t numbers = 0;           ///< of a point
-    std::vector<std::size_t> vectors;  ///< fields that are vectors of floats
-    std::vector<std::size_t> floats;   ///< fields that are single floats
+    std::size_t numbers = 0;            ///< of a point
+    std::vector<std::size_t> vectors;   ///< fields that are vectors of floats
+    std::vector<std::size_t> floats;    ///< fields that are single floats
+    std::vector<std::size_t> field_of;  ///< of each number of a point
 };
 
 /// Points of one stage, each `InputSpace::numbers` numbers, one after the other.
 struct PointSet {
-    std::size_t numbers = 0;
+    PointSet(std::size_t numbers_of_point, std::size_t points)
+        : numbers(numbers_of_point), count(points), values(numbers * points) {}
+
+    std::size_t numbers;
+    std::size_t count;
     std::vector<double> values;
 
-    [[nodiscard]] std::size_t count() const { return numbers == 0 ? count_ : values.size() / numbers; }
     [[nodiscard]] std::span<const double> operator[](std::size_t index) const {
         return {values.data() + index * numbers, numbers};
     }
     [[nodiscard]] std::span<double> operator[](std::size_t index) {
         return {values.data() + index * numbers, numbers};
     }
-    void resize(std::size_t count) {
-        count_ = count;
-        values.resize(count * numbers);
-    }
-
-  private:
-    std::size_t count_ = 0;  ///< of a stage that reads nothing
 };
 
 [[nodiscard]] InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains);
@@ -90,8 +92,7 @@ void bring_into_domain(const InputField& field, std::span<double> numbers);
 /// The points as invocations of the stage. Each texture is of one colour, its own at every point.
 [[nodiscard]] evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points);
 
-/// Invocation `index` as a point: what the invocations do not name is 0.
-[[nodiscard]] std::vector<double> flat_point(const InputSpace& space,
-                                             const evaluate::Invocations& invocations, std::size_t index);
+/// One point; what it does not name is 0.
+[[nodiscard]] PointSet point_set(const InputSpace& space, const evaluate::EvalPoint& point);
 
 }  // namespace gobo::sanitize

@@ -20,26 +20,21 @@ namespace gobo::sanitize {
 namespace {
 
 /// What makes a number jump.
-bool is_step(std::uint32_t code) {
-    switch (code) {
-        case spv::OpConvertFToS:
-        case spv::OpConvertFToU:
-        case evaluate::kExtended + GLSLstd450Floor:
-        case evaluate::kExtended + GLSLstd450Ceil:
-        case evaluate::kExtended + GLSLstd450Round:
-        case evaluate::kExtended + GLSLstd450RoundEven:
-        case evaluate::kExtended + GLSLstd450Trunc:
-        case evaluate::kExtended + GLSLstd450FSign:
-        case evaluate::kExtended + GLSLstd450Step:
-            return true;
-        default:
-            return false;
-    }
-}
+constexpr std::uint32_t kSteps[] = {
+    spv::OpConvertFToS,
+    spv::OpConvertFToU,
+    evaluate::kExtended + GLSLstd450Floor,
+    evaluate::kExtended + GLSLstd450Ceil,
+    evaluate::kExtended + GLSLstd450Round,
+    evaluate::kExtended + GLSLstd450RoundEven,
+    evaluate::kExtended + GLSLstd450Trunc,
+    evaluate::kExtended + GLSLstd450FSign,
+    evaluate::kExtended + GLSLstd450Step,
+};
 
-/// A number for all that an invocation decided: every comparison, and every step from reals to whole numbers.
-/// Where it is the same in fp32 and fp64, what the outputs differ by is rounding; otherwise one of them may
-/// stand on the other side of a jump.
+/// A number for all that an invocation decided: every comparison, and every step from floats to whole
+/// numbers. Where it is the same in fp32 and fp64, what the outputs differ by is rounding; otherwise one of
+/// them may stand on the other side of a jump.
 template <class T>
 class DecisionObserver final : public evaluate::Observer<T> {
   public:
@@ -47,7 +42,9 @@ class DecisionObserver final : public evaluate::Observer<T> {
         for (std::size_t at = 0; at < program.operations.size(); ++at) {
             const evaluate::Row& row = evaluate::instruction_table()[program.operations[at].row];
             const bool makes_truth = program.infos[at].result.scalar == evaluate::Scalar::boolean;
-            decides_.push_back(is_step(row.code) || (makes_truth && row.kind == evaluate::Kind::compare));
+            const bool is_step =
+                std::find(std::begin(kSteps), std::end(kSteps), row.code) != std::end(kSteps);
+            decides_.push_back(is_step || (makes_truth && row.kind == evaluate::Kind::compare));
         }
     }
     void after(const evaluate::Step<T>& step) override {
@@ -70,15 +67,6 @@ class DecisionObserver final : public evaluate::Observer<T> {
 };
 
 constexpr std::size_t kPoints = 1024;  ///< made and run at a time
-
-/// The points as one set of a single point, `count` times.
-PointSet repeated(std::span<const double> point, std::size_t count) {
-    PointSet points;
-    points.numbers = point.size();
-    points.resize(count);
-    for (std::size_t i = 0; i < count; ++i) std::copy(point.begin(), point.end(), points[i].begin());
-    return points;
-}
 
 /// Whether the operation has something to round: not where it moves, chooses or negates numbers, or cuts off
 /// their digits.
@@ -114,7 +102,7 @@ Difference difference(const std::vector<double>& fp32, const std::vector<double>
 class Measurement {
   public:
     Measurement(const evaluate::Program& program, const InputSpace& space, std::uint64_t seed)
-        : program_(program), space_(space), changer_(space), random_(seed), seed_(seed) {
+        : program_(program), space_(space), random_(seed), seed_(seed) {
         worst_.resize(program.outputs.size());
     }
 
@@ -141,11 +129,11 @@ class Measurement {
 
     Result<void> measure(const PointSet& points) {
         const evaluate::Invocations invocations = invocations_of(space_, points);
-        DecisionObserver<float> decided32(program_, points.count());
-        DecisionObserver<double> decided64(program_, points.count());
+        DecisionObserver<float> decided32(program_, points.count);
+        DecisionObserver<double> decided64(program_, points.count);
         GOBO_TRY(const auto fp32, evaluate::run<float>(program_, invocations, {}, &decided32));
         GOBO_TRY(const auto fp64, evaluate::run<double>(program_, invocations, {}, &decided64));
-        for (std::size_t i = 0; i < points.count(); ++i) {
+        for (std::size_t i = 0; i < points.count; ++i) {
             ++report_.points;
             if (fp64.discarded[i] || fp32.discarded[i]) continue;
             if (decided32.of(i) != decided64.of(i))
@@ -178,8 +166,7 @@ class Measurement {
             const Worst& worst = worst_[i % worst_.size()];
             if (worst.point.empty()) continue;
             std::copy(worst.point.begin(), worst.point.end(), points[i].begin());
-            for (std::size_t changes = 1 + random_.index(3); changes > 0; --changes)
-                (void)changer_.change(points[i], random_.index(space_.numbers), random_);
+            change_any(space_, points[i], 1 + random_.index(3), random_);
         }
         return points;
     }
@@ -189,7 +176,10 @@ class Measurement {
     Result<void> explain(Worst& worst) {
         OutputLoss& loss = worst.loss;
         const std::size_t operations = program_.operations.size();
-        const evaluate::Invocations invocations = invocations_of(space_, repeated(worst.point, operations));
+        PointSet points(space_.numbers, operations);
+        for (std::size_t at = 0; at < operations; ++at)
+            std::copy(worst.point.begin(), worst.point.end(), points[at].begin());
+        const evaluate::Invocations invocations = invocations_of(space_, points);
         loss.point = point_of(program_, invocations, 0);
         std::vector<std::int64_t> rounded_in(operations);
         for (std::size_t at = 0; at < operations; ++at)
@@ -218,7 +208,6 @@ class Measurement {
 
     const evaluate::Program& program_;
     const InputSpace& space_;
-    PointChanger changer_;
     Random random_;
     std::uint64_t seed_;
     std::vector<Worst> worst_;  ///< of each output
@@ -227,10 +216,7 @@ class Measurement {
 
 using Json = nlohmann::ordered_json;
 
-struct Line {
-    const StagePrecision* stage;
-    const OutputLoss* loss;
-};
+using Line = std::pair<const StagePrecision*, const OutputLoss*>;
 
 /// The largest error first; the rest of the order only keeps it the same.
 std::vector<Line> sorted_lines(const std::vector<StagePrecision>& stages) {
@@ -238,16 +224,12 @@ std::vector<Line> sorted_lines(const std::vector<StagePrecision>& stages) {
     for (const StagePrecision& stage : stages)
         for (const OutputLoss& loss : stage.report.outputs) lines.push_back({&stage, &loss});
     std::stable_sort(lines.begin(), lines.end(),
-                     [](const Line& a, const Line& b) { return a.loss->error > b.loss->error; });
+                     [](const Line& a, const Line& b) { return a.second->error > b.second->error; });
     return lines;
 }
 
 double share_of(const Contribution& contribution, const OutputLoss& loss) {
     return contribution.change / loss.all_contributions;
-}
-
-std::string component_text(const OutputLoss& loss) {
-    return fmt::format("{}[{}]", loss.output, loss.component);
 }
 
 /// "fog/linear.glsl:15 FSub, 87 %"; a loss that no single rounding makes has no place.
@@ -286,25 +268,20 @@ Result<std::vector<StagePrecision>> measure_precision(const Family& family, cons
                                                       const Validated& validated,
                                                       const SanitizeOptions& options) {
     std::vector<StagePrecision> stages(composition.stages.size());
-    std::vector<Diagnostics> errors(stages.size());
+    std::vector<Result<PrecisionReport>> reports(stages.size());
     parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
         stages[i].stage = composition.stages[i].kind;
         for (const std::size_t permutation : permutations_of(composition, i))
             stages[i].keys.push_back(key_text(family, composition.permutations[permutation].key));
-        const Result<evaluate::Program> program = evaluate::decode(validated.stages[i].spirv);
-        if (!program) {
-            errors[i] = program.error();
-            return;
-        }
-        const InputSpace space = input_space_of(*program, family.domains);
-        Result<PrecisionReport> report = measure_precision(*program, space, options.points, options.seed);
-        if (report)
-            stages[i].report = std::move(*report);
-        else
-            errors[i] = report.error();
+        reports[i] = [&]() -> Result<PrecisionReport> {
+            GOBO_TRY(const evaluate::Program program, evaluate::decode(validated.stages[i].spirv));
+            return measure_precision(program, input_space_of(program, family.domains), options.points,
+                                     options.seed);
+        }();
     });
-    for (Diagnostics& error : errors)
-        if (!error.empty()) return tl::unexpected(std::move(error));
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        GOBO_TRY(stages[i].report, std::move(reports[i]));
+    }
     return stages;
 }
 
@@ -313,7 +290,8 @@ std::string precision_text(const std::vector<StagePrecision>& stages) {
                                    "output", "most of it from", "keys");
     for (const auto& [stage, loss] : sorted_lines(stages))
         text += fmt::format("{:<10.3g} {:<14.8g} {:<14.8g} {:<18} {:<52} {}\n", loss->error, loss->fp32,
-                            loss->fp64, component_text(*loss), place_text(*loss), keys_text(*stage));
+                            loss->fp64, fmt::format("{}[{}]", loss->output, loss->component),
+                            place_text(*loss), keys_text(*stage));
     std::uint64_t points = 0;
     std::uint64_t otherwise = 0;
     for (const StagePrecision& stage : stages) {

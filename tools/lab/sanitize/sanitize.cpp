@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
-#include <memory>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -12,53 +13,107 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/evaluate/functions.hpp"
-#include "lab/sanitize/search.hpp"
+#include "lab/sanitize/guide.hpp"
+#include "lab/sanitize/shrink.hpp"
 #include "lab/verify/random_points.hpp"
 
 namespace gobo::sanitize {
 namespace {
 
-/// What one stage gives.
-struct StageReport {
-    std::unique_ptr<StageSearch> search;  ///< null where the stage cannot be evaluated
-    Diagnostics diagnostics;
-};
+/// What makes two findings the same: file, line, message.
+using Signature = std::tuple<std::string, int, std::string>;
 
-StageReport open_stage(const Family& family, const Composition& composition, const Validated& validated,
-                       std::size_t stage, const SanitizeOptions& options) {
-    StageReport report;
-    Result<evaluate::Program> program = evaluate::decode(validated.stages[stage].spirv);
-    if (!program) {
-        report.diagnostics = program.error();
-        return report;
+Signature signature_of(const Finding& finding) {
+    return {finding.place.file, finding.place.line, finding.message};
+}
+
+/// Points are made and run in portions, so that they stay in the cache and their rows are not mapped anew
+/// each time.
+constexpr std::size_t kPortion = 256;
+
+/// One stage, searched portion by portion as long as nothing fails.
+class StageSearch {
+  public:
+    /// `key` is any of those that share the stage.
+    StageSearch(const Family& family, const Key& key, StageKind kind, Result<evaluate::Program> program,
+                DepthPromise promise, const SanitizeOptions& options)
+        : kind_(kind), options_(options) {
+        if (!program) {
+            diagnostics_ = program.error();
+            return;
+        }
+        program_ = std::move(*program);
+        space_ = input_space_of(program_, family.domains);
+        bounds_.emplace(family, key, kind, program_, space_, promise);
+        if (options.guided > 0 || options.minutes > 0) guide_.emplace(program_, space_, options.seed);
     }
-    const DepthPromise promise = depth_promise_of(validated.stages[stage].spirv);
-    const std::vector<std::size_t> permutations = permutations_of(composition, stage);
-    const Key key = permutations.empty() ? Key{} : composition.permutations[permutations.front()].key;
-    report.search = std::make_unique<StageSearch>(family, key, composition.stages[stage].kind,
-                                                  std::move(*program), promise, options.machines);
-    if (options.guided > 0 || options.minutes > 0) report.search->guide_from(options.seed);
-    return report;
-}
+    StageSearch(const StageSearch&) = delete;
+    StageSearch& operator=(const StageSearch&) = delete;
 
-/// Hard points of each stage.
-std::size_t points_of_stage(const SanitizeOptions& options, std::size_t stages) {
-    if (options.total == 0 || stages == 0) return options.points;
-    return (options.total + stages - 1) / stages;
-}
+    void run_hard(std::size_t count) {
+        run(count, [&](std::size_t first, std::size_t portion) {
+            return hard_points(space_, portion, options_.seed + first / kPortion);
+        });
+    }
+    /// At points made of what earlier ones reached.
+    void run_guided(std::size_t count) {
+        run(count, [&](std::size_t, std::size_t portion) { return guide_->next(portion); });
+    }
 
-/// Runs so many points, portion after portion, as long as nothing fails.
-void search(StageReport& report, std::size_t points,
-            const std::function<Result<void>(StageSearch&, std::size_t first, std::size_t count)>& run) {
-    for (std::size_t done = 0; done < points && report.search && report.diagnostics.empty(); done += kPortion)
-        if (const auto ran = run(*report.search, done, std::min(kPortion, points - done)); !ran)
-            report.diagnostics = ran.error();
-}
+    /// A finding of this stage at an input made simple.
+    [[nodiscard]] Finding simplified(const Finding& finding) {
+        return sanitize::simplified(program_, space_, *bounds_, finding);
+    }
+    [[nodiscard]] const std::map<Signature, Finding>& findings() const { return findings_; }
+    [[nodiscard]] std::uint64_t points() const { return points_; }
+    [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
 
-void search_guided(StageReport& report, std::size_t points) {
-    search(report, points,
-           [](StageSearch& stage, std::size_t, std::size_t count) { return stage.run_guided(count); });
-}
+  private:
+    template <class Make>
+    void run(std::size_t count, const Make& make) {
+        for (std::size_t done = 0; done < count && diagnostics_.empty(); done += kPortion)
+            if (const auto ran = run(make(done, std::min(kPortion, count - done))); !ran)
+                diagnostics_ = ran.error();
+    }
+
+    /// Runs the points on every machine, and keeps what is found.
+    Result<void> run(const PointSet& points) {
+        const evaluate::Invocations invocations = invocations_of(space_, points);
+        const std::vector<Interval> bounds = bounds_->at(points);
+        std::map<Signature, Finding> all;
+        for (const Machine machine : options_.machines) {
+            GOBO_TRY(auto found,
+                     find_traps(program_, invocations, machine, bounds, guide_ ? &*guide_ : nullptr));
+            if (guide_) guide_->learn(points);
+            std::map<Signature, std::uint64_t> on_this_machine;
+            for (Finding& finding : found) {
+                on_this_machine[signature_of(finding)] += finding.points;
+                finding.stage = kind_;
+                all.try_emplace(signature_of(finding), std::move(finding));
+            }
+            // A point that traps on several machines is still one.
+            for (const auto& [signature, count] : on_this_machine)
+                all[signature].points = std::max(all[signature].points, count);
+        }
+        for (const auto& [signature, finding] : all) {
+            const auto [known, is_new] =
+                findings_.try_emplace(signature, finding);  // the first example is kept
+            if (!is_new) known->second.points += finding.points;
+        }
+        points_ += points.count;
+        return {};
+    }
+
+    StageKind kind_;
+    const SanitizeOptions& options_;
+    evaluate::Program program_;
+    InputSpace space_;
+    std::optional<OutputBounds> bounds_;
+    std::optional<Guide> guide_;  ///< nothing where nothing is to be learnt
+    std::map<Signature, Finding> findings_;
+    std::uint64_t points_ = 0;
+    Diagnostics diagnostics_;  ///< why the stage could not be evaluated
+};
 
 /// What stages share is reported once.
 void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
@@ -78,27 +133,6 @@ void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
     }
 }
 
-/// Every stage once, and again with points made of what was reached as long as there is time.
-std::vector<StageReport> sanitize_stages(const Family& family, const Composition& composition,
-                                         const Validated& validated, const SanitizeOptions& options) {
-    using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
-    std::vector<StageReport> stages(composition.stages.size());
-    parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
-        stages[i] = open_stage(family, composition, validated, i, options);
-        search(stages[i], points_of_stage(options, stages.size()),
-               [&](StageSearch& stage, std::size_t first, std::size_t count) {
-                   return stage.run(hard_points(stage.space(), count, options.seed + first / kPortion));
-               });
-        search_guided(stages[i], options.guided);
-    });
-    while (Clock::now() < end)
-        parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
-            if (Clock::now() < end) search_guided(stages[i], kPortion);
-        });
-    return stages;
-}
-
 }  // namespace
 
 std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage) {
@@ -113,21 +147,39 @@ std::vector<std::size_t> permutations_of(const Composition& composition, std::si
 
 SanitizeReport sanitize(const Family& family, const Composition& composition, const Validated& validated,
                         const SanitizeOptions& options) {
-    std::vector<StageReport> stages = sanitize_stages(family, composition, validated, options);
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double, std::ratio<60>>(options.minutes);
+    std::vector<std::optional<StageSearch>> stages(composition.stages.size());
+    const bool shares_total = options.total > 0 && !stages.empty();
+    const std::size_t points =
+        shares_total ? (options.total + stages.size() - 1) / stages.size() : options.points;
+    parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
+        const std::vector<std::size_t> permutations = permutations_of(composition, i);
+        const Key key = permutations.empty() ? Key{} : composition.permutations[permutations.front()].key;
+        const SpirvModule& spirv = validated.stages[i].spirv;
+        stages[i].emplace(family, key, composition.stages[i].kind, evaluate::decode(spirv),
+                          depth_promise_of(spirv), options);
+        stages[i]->run_hard(points);
+        stages[i]->run_guided(options.guided);
+    });
+    while (Clock::now() < end)
+        parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
+            if (Clock::now() < end) stages[i]->run_guided(kPortion);
+        });
     SanitizeReport report;
     report.stages = stages.size();
     for (std::size_t i = 0; i < stages.size(); ++i) {
         const std::vector<std::size_t> permutations = permutations_of(composition, i);
-        for (Diagnostic error : stages[i].diagnostics) {
+        for (Diagnostic error : stages[i]->diagnostics()) {
             if (!permutations.empty())
                 error.subject = key_text(family, composition.permutations[permutations.front()].key);
             report.diagnostics.push_back(std::move(error));
         }
-        if (stages[i].search) add(report, *stages[i].search, i, permutations);
+        add(report, *stages[i], i, permutations);
     }
     parallel_for(options.jobs, stages.size(), [&](std::size_t stage) {
         for (SharedFinding& shared : report.findings)
-            if (shared.stage == stage) shared.finding = stages[stage].search->simplified(shared.finding);
+            if (shared.stage == stage) shared.finding = stages[stage]->simplified(shared.finding);
     });
     std::sort(report.findings.begin(), report.findings.end(),
               [](const SharedFinding& a, const SharedFinding& b) {
