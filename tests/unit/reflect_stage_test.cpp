@@ -42,9 +42,9 @@ constexpr Text texts[] = {
      "stages: fragment\n"
      "\n"
      "uniforms:\n"
-     "  bool     enabled      location 20  fragment\n"
-     "  mat4x3   map[2][3]    location 21  fragment\n"
-     "  Surface  surfaces[2]  location 3   fragment\n"
+     "  bool     enabled      location 20  fragment  unused\n"
+     "  mat4x3   map[2][3]    location 21  fragment  unused\n"
+     "  Surface  surfaces[2]  location 3   fragment  unused\n"
      "    vec4     tint\n"
      "    float    w[2]\n"
      "    mat3     basis\n"
@@ -54,22 +54,23 @@ constexpr Text texts[] = {
      "stages: fragment\n"
      "\n"
      "uniforms:\n"
-     "  Map                map      location 7  fragment\n"
-     "    sampler2DShadow    depth\n"
-     "    float              bias\n"},
+     "  float  map.bias  location 8  fragment  unused\n"
+     "\n"
+     "samplers:\n"
+     "  sampler2DShadow  map.depth  fragment  unused\n"},
     {"specialised_extents",
      "layout(constant_id = 1) const int COUNT = 5;\nconst int MORE = 2 * COUNT - 1;\n"
      "layout(binding = 3) uniform Weights { float w[COUNT]; float m[MORE]; };",
      "stages: fragment\n"
      "\n"
-     "block Weights: binding 3, 224 bytes, fragment\n"
+     "block Weights: binding 3, 224 bytes, fragment, unused\n"
      "      0  float  w[5]  array stride 16\n"
      "     80  float  m[9]  array stride 16\n"},
     {"counters", "layout(binding = 0, offset = 4) uniform atomic_uint hits;",
      "stages: fragment\n"
      "\n"
      "uniforms:\n"
-     "  atomic_uint  hits  fragment\n"},
+     "  atomic_uint  hits  fragment  unused\n"},
     {"varyings",
      "layout(location = 1) in Surface { vec3 normal; mat3 basis; flat ivec2 ids[2]; vec2 uv; } surface;\n"
      "struct Ray { dvec3 origin; vec3 direction; };\nlayout(location = 8) flat in Ray rays[2];\n"
@@ -77,17 +78,17 @@ constexpr Text texts[] = {
      "stages: fragment\n"
      "\n"
      "inputs:\n"
-     "  mat3   Surface.basis      location 2\n"
-     "  ivec2  Surface.ids[2]     location 5\n"
-     "  vec3   Surface.normal     location 1\n"
-     "  vec2   Surface.uv         location 7\n"
-     "  vec3   rays[0].direction  location 10\n"
-     "  dvec3  rays[0].origin     location 8\n"
-     "  vec3   rays[1].direction  location 13\n"
-     "  dvec3  rays[1].origin     location 11\n"
+     "  mat3   Surface.basis      location 2   unused\n"
+     "  ivec2  Surface.ids[2]     location 5   unused\n"
+     "  vec3   Surface.normal     location 1   unused\n"
+     "  vec2   Surface.uv         location 7   unused\n"
+     "  vec3   rays[0].direction  location 10  unused\n"
+     "  dvec3  rays[0].origin     location 8   unused\n"
+     "  vec3   rays[1].direction  location 13  unused\n"
+     "  dvec3  rays[1].origin     location 11  unused\n"
      "\n"
      "outputs:\n"
-     "  vec4  color[2]  location 0\n"},
+     "  vec4  color[2]  location 0  unused\n"},
 };
 
 class Written : public ::testing::TestWithParam<Text> {};
@@ -116,11 +117,11 @@ layout(location = 0) out vec4 color[2];)");
 "blocks": [{"name": "Lights", "binding": 1, "size": 80, "stages": ["fragment"], "members": [
   {"name": "frame", "type": "mat2x3", "offset": 0, "array": [], "array_stride": 0, "matrix_stride": 16, "row_major": true, "members": []},
   {"name": "lights", "type": "Light", "offset": 48, "array": [2], "array_stride": 16, "matrix_stride": 0, "row_major": false, "members": [
-    {"name": "color", "type": "vec3", "offset": 0, "array": [], "array_stride": 0, "matrix_stride": 0, "row_major": false, "members": []}]}]}],
-"uniforms": [{"name": "exposure", "type": "float", "location": 3, "array": [2], "members": []}],
-"samplers": [{"name": "map", "type": "sampler2D", "binding": 4, "array": []}],
-"inputs": [{"name": "uv", "type": "vec2", "location": 0}],
-"outputs": [{"name": "color", "type": "vec4", "location": 0, "array": [2]}]})");
+    {"name": "color", "type": "vec3", "offset": 0, "array": [], "array_stride": 0, "matrix_stride": 0, "row_major": false, "members": []}]}], "unused": true}],
+"uniforms": [{"name": "exposure", "type": "float", "location": 3, "array": [2], "members": [], "unused": true}],
+"samplers": [{"name": "map", "type": "sampler2D", "binding": 4, "array": [], "unused": true}],
+"inputs": [{"name": "uv", "type": "vec2", "location": 0, "unused": true}],
+"outputs": [{"name": "color", "type": "vec4", "location": 0, "array": [2], "unused": true}]})");
     EXPECT_EQ(to_json(*interface).dump(1), expected.dump(1));
 }
 
@@ -135,11 +136,11 @@ layout(binding = 1) uniform Fog { bool enabled; uvec2 size; };)");
     EXPECT_EQ(to_text(interface),
               "stages: fragment\n"
               "\n"
-              "block Fog: binding 1, 16 bytes, fragment\n"
+              "block Fog: binding 1, 16 bytes, fragment, unused\n"
               "      0  bool   enabled\n"
               "      8  uvec2  size\n"
               "\n"
-              "block Lights: binding 2, 400 bytes, fragment\n"
+              "block Lights: binding 2, 400 bytes, fragment, unused\n"
               "      0    Light    lights[2][3]   array stride 192\n"
               "        0    vec3     color\n"
               "       12    bool     on\n"

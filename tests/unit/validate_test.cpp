@@ -94,8 +94,8 @@ TEST_F(Validate, RefusesToReadWhatIsNotWritten) {
         "layout(location = 0) in vec3 normal;\nlayout(location = 0) out vec4 color;\n"
         "void main() { color = vec4(normal, 1.0); }\n";
     EXPECT_THAT(messages(),
-                ElementsAre("tiny.frag: error: the fragment stage reads 'vec3 normal', which the vertex "
-                            "stage does not write [default]\n"
+                ElementsAre("tiny.frag:1: error: the fragment stage reads 'vec3 normal', which the vertex "
+                            "stage does not write [default]\n    layout(location = 0) in vec3 normal;\n"
                             "  help: declare and write it as an output of the vertex stage\n"));
 }
 
@@ -111,8 +111,9 @@ TEST_F(Validate, AFailedLinkLeavesOtherPairsAlone) {
     files["fog/linear.glsl"] = "layout(location = 0) in vec2 normal;\nvec4 seen() { return normal.xxyy; }\n";
     EXPECT_THAT(
         messages(),
-        ElementsAre("tiny.frag: error: Linking vertex and fragment stages: Types must match: vertex stage: "
-                    "\" vec2 normal\" fragment stage: \" vec3 normal\" [default]\n"));
+        ElementsAre("fog/none.glsl:1: error: 'normal' is vec3 here, but vec2 in tiny.vert:1 [default]\n"
+                    "    layout(location = 0) in vec3 normal;\n"
+                    "  help: declare it alike in both stages\n"));
 }
 
 struct LimitRow {

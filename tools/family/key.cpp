@@ -111,8 +111,32 @@ const Rule* forbidding_rule(const Family& family, const Key& key, std::string_vi
     return nullptr;
 }
 
+namespace {
+
+/// The text with a '#' for each number outside quotes: a cause that has another size in each key is one
+/// cause.
+std::string without_numbers(std::string_view text) {
+    std::string result;
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        is_quoted = is_quoted != (text[i] == '\'');
+        const bool is_digit = text[i] >= '0' && text[i] <= '9';
+        const bool begins = i == 0 || !is_identifier_part(text[i - 1]);
+        if (is_quoted || !is_digit || !begins) {
+            result += text[i];
+            continue;
+        }
+        while (i + 1 < text.size() && text[i + 1] >= '0' && text[i + 1] <= '9') ++i;
+        result += '#';
+    }
+    return result;
+}
+
+}  // namespace
+
 void DiagnosticGroups::add(const Diagnostic& diagnostic, const Key& key) {
-    const auto identity = std::tuple(diagnostic.place.file, diagnostic.place.line, diagnostic.message);
+    const auto identity =
+        std::tuple(diagnostic.place.file, diagnostic.place.line, without_numbers(diagnostic.message));
     const auto [position, is_new] = positions_.try_emplace(identity, groups_.size());
     if (is_new) groups_.push_back({diagnostic, &key, nullptr, 0});
     Group& group = groups_[position->second];

@@ -63,6 +63,7 @@ void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more,
             add_stages(place->stages, other.stages);
             other.stages = place->stages;
         }
+        place->usage.unused = place->usage.unused && other.usage.unused;
         if (*place != other) conflicts.push_back(contested(*place, other));
     }
 }
@@ -101,6 +102,10 @@ void restore(Member& member, const std::string& block, const std::string& path, 
 
 }  // namespace
 
+std::string_view root_of(std::string_view name) {
+    return name.substr(0, name.find_first_of(".["));
+}
+
 std::string without_indices(std::string_view name) {
     std::string result;
     bool is_inside = false;
@@ -137,6 +142,7 @@ Result<Interface> unite(const std::vector<Interface>& programs) {
                     fmt::format("'{}' is declared differently in different permutations", conflicts.front()),
                     "give it one declaration in a piece that every user includes, or two names");
     }
+    std::erase_if(sum.samplers, [](const Sampler& sampler) { return sampler.usage.unused; });
     return sum;
 }
 

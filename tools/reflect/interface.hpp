@@ -11,6 +11,26 @@
 
 namespace gobo {
 
+/// How stages declare and use an entry. Programs may differ in it, so it never makes two entries unequal.
+struct Usage {
+    bool unused = false;     ///< no stage reads it; an output: the stage never writes it
+    bool anonymous = false;  ///< of a block: it has no instance, so its members are names of their own
+    bool relaxed = false;    ///< mediump or lowp
+
+    friend bool operator==(const Usage&, const Usage&) { return true; }
+};
+
+/// How a value is carried from the vertices to a fragment; without any of these smoothly.
+struct Interpolation {
+    bool flat = false;
+    bool noperspective = false;
+    bool centroid = false;
+    bool sample = false;
+    bool invariant = false;
+
+    friend bool operator==(const Interpolation&, const Interpolation&) = default;
+};
+
 /// A member of a uniform block or struct. Offsets, sizes and strides are in bytes.
 struct Member {
     std::string name;
@@ -32,11 +52,12 @@ struct Block {
     int size = 0;                     ///< bytes, as OpenGL reports UNIFORM_BLOCK_DATA_SIZE
     std::vector<std::string> stages;  ///< "vertex", "fragment", sorted as the pipeline runs
     std::vector<Member> members;
+    Usage usage = {};
 
     friend bool operator==(const Block&, const Block&) = default;
 };
 
-/// A uniform outside any block.
+/// A uniform outside any block. A struct that holds samplers is listed member by member, as OpenGL does.
 struct Uniform {
     std::string name;
     std::string type;
@@ -44,16 +65,18 @@ struct Uniform {
     std::vector<int> array;
     std::vector<Member> members;  ///< of a struct (offsets are meaningless and 0)
     std::vector<std::string> stages;
+    Usage usage = {};
 
     friend bool operator==(const Uniform&, const Uniform&) = default;
 };
 
 struct Sampler {
-    std::string name;
+    std::string name;  ///< in a struct the path, as OpenGL has it: "surfaces[1].albedo"
     std::string type;  ///< "sampler2DArrayShadow"
     int binding = -1;
     std::vector<int> array;
     std::vector<std::string> stages;
+    Usage usage = {};
 
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
@@ -64,6 +87,9 @@ struct Variable {
     std::string type;
     int location = -1;
     std::vector<int> array;
+    int component = 0;  ///< the first it takes of its location
+    Interpolation interpolation = {};
+    Usage usage = {};
 
     friend bool operator==(const Variable&, const Variable&) = default;
 };
@@ -94,6 +120,9 @@ template <class Entry>
         return entry.location;
 }
 
+/// "Lights" of "Lights.lights[0].on" and of "Lights[2]": what the source declares.
+[[nodiscard]] std::string_view root_of(std::string_view name);
+
 /// "Lights.lights[0].on" as "Lights.lights.on".
 [[nodiscard]] std::string without_indices(std::string_view name);
 
@@ -104,7 +133,8 @@ template <class Entry>
 
 /// The interface that serves every one of several programs, the permutations of a family: lists united by
 /// name. A block whose last member is an array may differ in that array's outermost extent: the largest is
-/// kept. Where two programs disagree in any other way about a name: an error (Fault::input) that names it.
+/// kept. Samplers that no program reads are left out: they take no texture unit. Where two programs disagree
+/// in any other way about a name: an error (Fault::input) that names it.
 [[nodiscard]] Result<Interface> unite(const std::vector<Interface>& programs);
 
 /// OpenGL's type enumerants (0x8B56 is GL_BOOL) by flattened name, as glslang's reflection and OpenGL's

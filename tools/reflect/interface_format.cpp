@@ -31,11 +31,13 @@ Json json_of(const Member& member) {
 }
 
 Json json_of(const Block& block) {
-    return {{"name", block.name},
-            {"binding", block.binding},
-            {"size", block.size},
-            {"stages", block.stages},
-            {"members", array_of(block.members)}};
+    Json json = {{"name", block.name},
+                 {"binding", block.binding},
+                 {"size", block.size},
+                 {"stages", block.stages},
+                 {"members", array_of(block.members)}};
+    if (block.usage.unused) json["unused"] = true;
+    return json;
 }
 
 /// A uniform, sampler, input or output.
@@ -44,6 +46,7 @@ Json json_of(const Entry& entry) {
     Json json = {{"name", entry.name}, {"type", entry.type}, {kPlaceName<Entry>, place_of(entry)}};
     if (!std::is_same_v<Entry, Variable> || !entry.array.empty()) json["array"] = entry.array;
     if constexpr (std::is_same_v<Entry, Uniform>) json["members"] = array_of(entry.members);
+    if (entry.usage.unused) json["unused"] = true;
     return json;
 }
 
@@ -114,7 +117,7 @@ std::string blocks_text(std::string_view kind, const std::vector<Block>& blocks)
     std::vector<std::string> texts;
     for (const Block& block : blocks) {
         std::vector<std::string> facts = {stated_place(block), fmt::format("{} bytes", block.size),
-                                          join(block.stages, ", ")};
+                                          join(block.stages, ", "), block.usage.unused ? "unused" : ""};
         std::erase(facts, "");
         std::vector<Row> rows;
         add_members(rows, block.members, 0, true);
@@ -130,6 +133,7 @@ std::string entries_text(std::string_view kind, const std::vector<Entry>& entrie
     for (const Entry& entry : entries) {
         Row row{entry.type, with_extents(entry.name, entry.array), stated_place(entry)};
         if constexpr (requires { entry.stages; }) row.push_back(join(entry.stages, ", "));
+        if (entry.usage.unused) row.emplace_back("unused");
         rows.push_back(std::move(row));
         if constexpr (requires { entry.members; }) add_members(rows, entry.members, 1, false);
     }

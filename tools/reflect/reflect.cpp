@@ -159,7 +159,7 @@ std::vector<Block> elements_of(const Block& block, const std::vector<int>& exten
 /// Reads one stage; what it finds is added to an Interface.
 class Reflection {
   public:
-    explicit Reflection(const Module& module) : module_(module) {}
+    Reflection(const Module& module, const spirv::Usage& usage) : module_(module), used_(usage) {}
 
     Result<Interface> run() {
         if (module_.entry_points.empty())
@@ -170,15 +170,24 @@ class Reflection {
         interface_.stages = {std::string(kStages[model])};
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
-        if (!problem_.empty()) return fail(Fault::internal, problem_);
+        if (!problem_.empty()) return fail(fault_, problem_);
         sort(interface_.blocks, interface_.storage_blocks, interface_.uniforms, interface_.samplers,
              interface_.inputs, interface_.outputs);
         return std::move(interface_);
     }
 
   private:
-    void stop(fmt::format_string<const std::string&> problem, const std::string& name) {
+    void stop(fmt::format_string<const std::string&> problem, const std::string& name,
+              Fault fault = Fault::input) {
         problem_ = fmt::format(problem, name);
+        fault_ = fault;
+    }
+
+    [[nodiscard]] Usage usage_of(Id variable) const {
+        Usage usage;
+        usage.unused = !used_.reads(variable) && !used_.writes(variable);
+        usage.relaxed = module_.decoration(variable, spv::DecorationRelaxedPrecision).has_value();
+        return usage;
     }
 
     void add(const spirv::Variable& variable) {
@@ -204,7 +213,7 @@ class Reflection {
         Block block;
         block.name = interface_name(module_, variable);
         if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
-            return stop("block '{}' of the SPIR-V module has no layout", block.name);
+            return stop("block '{}' of the SPIR-V module has no layout", block.name, Fault::internal);
         block.members = members_of(module_, structure);
         const std::int64_t size = block_size(block.members);
         if (size > kLargest) return stop("block '{}' takes more than 2 GiB", block.name);
@@ -214,6 +223,8 @@ class Reflection {
         block.binding = stated(module_, spv::DecorationBinding, variable.id);
         block.size = static_cast<int>(size);
         block.stages = interface_.stages;
+        block.usage = usage_of(variable.id);
+        block.usage.anonymous = module_.name(variable.id).empty();
         const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
                                 module_.decoration(structure, spv::DecorationBufferBlock);
         std::vector<Block>& blocks = is_storage ? interface_.storage_blocks : interface_.blocks;
@@ -225,14 +236,53 @@ class Reflection {
         const std::string name = module_.name(variable.id);
         const std::vector<int> array = array_extents(module_, variable.type);
         std::string type = type_name(module_, element);
-        if (module_.type(element).is_image() || module_.type(element).opcode == spv::OpTypeSampler) {
-            interface_.samplers.push_back(
-                {name, type, stated(module_, spv::DecorationBinding, variable.id), array, interface_.stages});
+        const Usage usage = usage_of(variable.id);
+        if (is_opaque(element)) {
+            interface_.samplers.push_back({name, type, stated(module_, spv::DecorationBinding, variable.id),
+                                           array, interface_.stages, usage});
             return;
+        }
+        if (holds_opaque(element)) {
+            int location = stated(module_, spv::DecorationLocation, variable.id);
+            return add_parts(name, variable.type, location, usage);
         }
         if (variable.storage == spv::StorageClassAtomicCounter) type = "atomic_uint";
         interface_.uniforms.push_back({name, type, stated(module_, spv::DecorationLocation, variable.id),
-                                       array, members_of(module_, element), interface_.stages});
+                                       array, members_of(module_, element), interface_.stages, usage});
+    }
+
+    [[nodiscard]] bool is_opaque(Id type) const {
+        return module_.type(type).is_image() || module_.type(type).opcode == spv::OpTypeSampler;
+    }
+
+    [[nodiscard]] bool holds_opaque(Id structure) const {
+        return std::ranges::any_of(module_.type(structure).members, [&](Id member) {
+            const Id element = array_element(module_, member);
+            return is_opaque(element) || holds_opaque(element);
+        });
+    }
+
+    /// The members of a struct that holds samplers, each a uniform or a sampler of its own. Moves on a stated
+    /// location.
+    void add_parts(const std::string& path, Id id, int& location, const Usage& usage) {
+        const Type& type = module_.type(id);
+        const Id element = array_element(module_, id);
+        if (is_structure(module_, element) && type.is_array()) {
+            for (std::uint32_t i = 0; i < type.count; ++i)
+                add_parts(fmt::format("{}[{}]", path, i), type.element, location, usage);
+        } else if (is_structure(module_, element)) {
+            for_each_member(module_, id, [&](int index, Id member) {
+                add_parts(path + "." + module_.name(id, index), member, location, usage);
+            });
+        } else {
+            const std::vector<int> array = array_extents(module_, id);
+            const std::string name = type_name(module_, element);
+            if (is_opaque(element))
+                interface_.samplers.push_back({path, name, -1, array, interface_.stages, usage});
+            else
+                interface_.uniforms.push_back({path, name, location, array, {}, interface_.stages, usage});
+            if (location >= 0) location += element_count(array);
+        }
     }
 
     void add_variables(const spirv::Variable& variable, std::vector<gobo::Variable>& list) {
@@ -242,7 +292,25 @@ class Reflection {
         if (locations_of(module_, variable.type, is_attribute) > kMostPlaces)
             return stop("variable '{}' takes too many locations", name);
         int location = stated(module_, spv::DecorationLocation, variable.id);
+        const std::size_t first = list.size();
         add_paths(name, variable.type, location, is_attribute, list);
+        const bool is_input = variable.storage == spv::StorageClassInput;
+        for (std::size_t i = first; i < list.size(); ++i) {
+            list[i].component = decorated(module_, spv::DecorationComponent, variable.id);
+            list[i].usage.unused = is_input ? !used_.reads(variable.id) : !used_.writes(variable.id);
+            add_interpolation(list[i].interpolation, variable.id, kWhole);
+        }
+    }
+
+    void add_interpolation(Interpolation& interpolation, Id id, int member) const {
+        const auto has = [&](spv::Decoration kind) {
+            return module_.decoration(id, kind, member).has_value();
+        };
+        interpolation.flat |= has(spv::DecorationFlat);
+        interpolation.noperspective |= has(spv::DecorationNoPerspective);
+        interpolation.centroid |= has(spv::DecorationCentroid);
+        interpolation.sample |= has(spv::DecorationSample);
+        interpolation.invariant |= has(spv::DecorationInvariant);
     }
 
     /// Structs and blocks between stages are listed member by member, as OpenGL's queries do. Moves on a
@@ -261,7 +329,10 @@ class Reflection {
             for_each_member(module_, id, [&](int index, Id member) {
                 const int own = stated(module_, spv::DecorationLocation, id, index);
                 if (own >= 0) location = own;
+                const std::size_t first = list.size();
                 add_paths(path + "." + module_.name(id, index), member, location, is_attribute, list);
+                for (std::size_t i = first; i < list.size(); ++i)
+                    add_interpolation(list[i].interpolation, id, index);
             });
         }
     }
@@ -272,8 +343,10 @@ class Reflection {
     }
 
     const Module& module_;
+    const spirv::Usage& used_;
     Interface interface_;
     std::string problem_;
+    Fault fault_ = Fault::input;
 };
 
 }  // namespace
@@ -294,7 +367,11 @@ std::string interface_name(const Module& module, const spirv::Variable& variable
 
 Result<Interface> reflect_stage(std::span<const std::uint32_t> words) {
     GOBO_TRY(const Module module, spirv::read_module(words));
-    return Reflection(module).run();
+    return reflect_stage(module, spirv::usage_of(module));
+}
+
+Result<Interface> reflect_stage(const Module& module, const spirv::Usage& usage) {
+    return Reflection(module, usage).run();
 }
 
 }  // namespace gobo

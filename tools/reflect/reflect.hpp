@@ -7,14 +7,17 @@
 
 #include "reflect/interface.hpp"
 #include "spirv/module.hpp"
+#include "spirv/usage.hpp"
 
 namespace gobo {
 
 /// The interface of one stage: the first entry point of the module. Offsets and strides are those that the
 /// module's decorations state; names are those of the source. gl_PerVertex and other built-in variables are
-/// left out. Members of type `bool` in blocks read "uint" (see restore_bools()). Errors (Fault::internal): a
-/// malformed module, none or an unknown kind of entry point, a block without layout.
+/// left out. Members of type `bool` in blocks read "uint" (see restore_bools()). Errors
+/// (Fault::internal): a malformed module, none or an unknown kind of entry point, a block without layout;
+/// (Fault::input): structs nested too deeply, blocks and variables beyond what any device holds.
 [[nodiscard]] Result<Interface> reflect_stage(std::span<const std::uint32_t> words);
+[[nodiscard]] Result<Interface> reflect_stage(const spirv::Module& module, const spirv::Usage& usage);
 
 /// The variable is one of OpenGL's own: gl_Position, gl_PerVertex, gl_DepthRange.
 [[nodiscard]] bool is_built_in(const spirv::Module& module, const spirv::Variable& variable);

@@ -223,7 +223,11 @@ class Reader {
             set_element(type, instruction.id(3), 0);
             type.storage = instruction.as<spv::StorageClass>(2);
         }
-        if (type.depth > kDeepest || type.parts > kMostParts) stop("types nested without end");
+        if (type.depth > kDeepest || type.parts > kMostParts)
+            throw fail(Fault::input,
+                       fmt::format("types are nested more than {} deep, or hold more than {} members",
+                                   kDeepest, kMostParts))
+                .value();
         module_.types.emplace(instruction.result, std::move(type));
     }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <optional>
+#include <regex>
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
@@ -11,6 +13,9 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "reflect/reflect.hpp"
+#include "spirv/glsl_type.hpp"
+#include "validate/declaration.hpp"
+#include "validate/stage_rules.hpp"
 
 namespace gobo {
 namespace {
@@ -63,6 +68,24 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
     }
 }
 
+/// Adds what glslang leaves out: which extension, which numbers.
+void explain(Diagnostic& diagnostic) {
+    if (diagnostic.message.starts_with("'depth layout qualifier' : not supported for this version"))
+        diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
+    if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
+        diagnostic.help = "OpenGL ES has it by GL_EXT_conservative_depth only, which glslang does not know";
+    // The alignment of an array, a struct or a matrix is left to the reader.
+    static const std::regex member(R"(\boffset\s*=\s*(\d{1,9})\s*\)\s*(\w+)\s+\w+\s*;)");
+    std::smatch match;
+    if (!diagnostic.message.starts_with("'offset' : must be a multiple of") ||
+        !std::regex_search(diagnostic.quoted_line, match, member))
+        return;
+    const std::optional<GlslType> type = glsl_type(match[2].str());
+    if (type && !type->is_matrix())
+        diagnostic.message += fmt::format(": {} is not a multiple of {}, to which a {} is aligned",
+                                          match[1].str(), type->column_alignment(), match[2].str());
+}
+
 /// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
 /// with the line quoted; the rest (those of linking) stand at `otherwise`.
 Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
@@ -90,6 +113,7 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
             diagnostics.back().message += fmt::format(" {}", line);
         }
     }
+    for (Diagnostic& diagnostic : diagnostics) explain(diagnostic);
     return diagnostics;
 }
 
@@ -102,16 +126,17 @@ bool has_errors(const Diagnostics& diagnostics) {
 }
 
 /// Bindings that the source states, by name; unstated ones are -1. Asked of glslang before it assigns the
-/// others.
-std::map<std::string, int> stated_bindings(const glslang::TProgram& program) {
-    std::map<std::string, int> bindings;
+/// others. It does not list what no function reads.
+std::map<std::string, int, std::less<>> stated_bindings(const glslang::TProgram& program) {
+    std::map<std::string, int, std::less<>> bindings;
+    const auto add = [&](const std::string& name, int binding) {
+        bindings.try_emplace(std::string(root_of(name)), binding);
+    };
     for (int i = 0; i < program.getNumUniformBlocks(); ++i)
-        bindings[program.getUniformBlock(i).name] = program.getUniformBlock(i).getBinding();
-    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
-        const glslang::TObjectReflection& uniform = program.getUniform(i);
-        const std::string name = uniform.name.substr(0, uniform.name.find('['));
-        if (uniform.index < 0) bindings[name] = uniform.getBinding();
-    }
+        add(program.getUniformBlock(i).name, program.getUniformBlock(i).getBinding());
+    for (int i = 0; i < program.getNumUniformVariables(); ++i)
+        if (program.getUniform(i).index < 0)
+            add(program.getUniform(i).name, program.getUniform(i).getBinding());
     return bindings;
 }
 
@@ -119,13 +144,23 @@ GlTypes gl_types(const glslang::TProgram& program) {
     GlTypes types;
     for (int i = 0; i < program.getNumUniformVariables(); ++i)
         types[program.getUniform(i).name] = program.getUniform(i).glDefineType;
+    for (int i = 0; i < program.getNumBufferVariables(); ++i)
+        types[program.getBufferVariable(i).name] = program.getBufferVariable(i).glDefineType;
     return types;
 }
 
+/// Takes away the bindings that the source does not state: glslang gives those as 0.
 template <class Bound>
-void forget_assigned(std::vector<Bound>& list, const std::map<std::string, int>& stated) {
+void forget_assigned(std::vector<Bound>& list, const std::map<std::string, int, std::less<>>& stated,
+                     const std::vector<const Piece*>& pieces) {
     for (Bound& bound : list) {
-        if (const auto found = stated.find(bound.name); found != stated.end()) bound.binding = found->second;
+        const std::string_view root = root_of(bound.name);
+        const auto found = stated.find(root);
+        // What is neither 0 nor counted on from 0 is stated.
+        if (found != stated.end() ? found->second < 0
+                                  : bound.usage.unused && (bound.binding == 0 || root != bound.name) &&
+                                        !declaration_of(root, "binding", pieces).mentions_hint)
+            bound.binding = -1;
     }
 }
 
@@ -160,8 +195,21 @@ Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     return diagnostics;
 }
 
+/// Whether a sampler is bound to 0, which may be glslang's word for nothing stated; of a block it says so.
+bool may_lack_bindings(const Interface& interface) {
+    return std::ranges::any_of(interface.samplers,
+                               [](const Sampler& sampler) { return sampler.binding == 0; });
+}
+
 tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
     return fail(Fault::internal, fmt::format("glslang refuses a stage that it parsed: {}", log));
+}
+
+/// The faults of the input with the file that holds them.
+tl::unexpected<Diagnostics> at_file(Diagnostics found, const std::string& file) {
+    for (Diagnostic& diagnostic : found)
+        if (diagnostic.fault == Fault::input) diagnostic.place.file = file;
+    return tl::unexpected(std::move(found));
 }
 
 }  // namespace
@@ -224,20 +272,32 @@ Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {
 Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
-    if (!program.link(kSpirvRules)) return glslang_fault(program.getInfoLog());
+    if (!program.link(kSpirvRules)) {  // no main(), recursion
+        Diagnostics found = diagnostics_of_log(program.getInfoLog(), {}, {pieces_.back()->path, 0, 0});
+        if (has_errors(found)) return tl::unexpected(std::move(found));
+        return glslang_fault(program.getInfoLog());
+    }
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
-    GOBO_TRY(stage.interface, reflect_stage(stage.spirv));
-    if (bindings_mapped_ || may_hold_bools(stage.interface)) {
+    Result<spirv::Module> read = spirv::read_module(stage.spirv);
+    if (!read) return at_file(std::move(read).error(), pieces_.back()->path);
+    const spirv::Module& module = *read;
+    const spirv::Usage usage = spirv::usage_of(module);
+    Result<Interface> interface = reflect_stage(module, usage);
+    if (!interface) return at_file(std::move(interface).error(), pieces_.back()->path);
+    stage.interface = *std::move(interface);
+    stage.diagnostics = check_stage(module, usage, pieces_);
+    const bool asks_for_bindings = bindings_mapped_ || may_lack_bindings(stage.interface);
+    if (asks_for_bindings || may_hold_bools(stage.interface)) {
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |
                                 EShReflectionSeparateBuffers);
         stage.interface = restore_bools(std::move(stage.interface), gl_types(program));
     }
-    if (bindings_mapped_) {
-        const std::map<std::string, int> stated = stated_bindings(program);
-        forget_assigned(stage.interface.blocks, stated);
-        forget_assigned(stage.interface.samplers, stated);
+    if (asks_for_bindings) {
+        const auto stated = stated_bindings(program);
+        forget_assigned(stage.interface.blocks, stated, pieces_);
+        forget_assigned(stage.interface.samplers, stated, pieces_);
     }
     if (bindings_mapped_ || lacks_locations(stage.interface)) {
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());

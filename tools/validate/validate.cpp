@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,8 +15,8 @@
 #include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "reflect/interface.hpp"
-#include "spirv/glsl_type.hpp"
 #include "validate/glslang_stage.hpp"
+#include "validate/link_rules.hpp"
 
 namespace gobo {
 namespace {
@@ -60,77 +61,6 @@ Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
     return found;
 }
 
-/// What a program needs beyond the least that every driver of the dialect offers (OpenGL 4.5 core,
-/// tables 23.53 to 23.64; OpenGL 3.3 core, table 6.40 ff.; OpenGL ES 3.0, tables 6.29 to 6.33), one error
-/// each.
-Diagnostics beyond_limits(const Interface& vertex, const Interface& fragment, Dialect dialect,
-                          const Place& place) {
-    constexpr int kBlockBytes = 16384;
-    constexpr int kBlocksOfStage = 12;
-    constexpr int kSamplersOfStage = 16;
-    constexpr int kVaryingComponents = 60;
-    constexpr int kVaryingVectors = 15;  // locations of four components each
-    constexpr int kAttributes = 16;
-    const int bindings = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
-
-    Diagnostics found;
-    const auto at_most = [&](int limit, int needed, const std::string& what, std::string_view constant) {
-        if (needed > limit)
-            append(found,
-                   fail(place, "",
-                        fmt::format("{} {}, OpenGL guarantees only {} ({})", what, needed, limit, constant),
-                        "use fewer, or forbid the combination by a rule of the family")
-                       .value());
-    };
-    for (const auto& [interface, name] : {std::pair(&vertex, "vertex"), std::pair(&fragment, "fragment")}) {
-        at_most(kBlocksOfStage, static_cast<int>(interface->blocks.size()),
-                fmt::format("uniform blocks in the {} stage:", name),
-                "MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS");
-        int samplers = 0;
-        for (const Sampler& sampler : interface->samplers) samplers += element_count(sampler.array);
-        at_most(kSamplersOfStage, samplers, fmt::format("samplers in the {} stage:", name),
-                "MAX_TEXTURE_IMAGE_UNITS");
-        for (const Block& block : interface->blocks) {
-            at_most(kBlockBytes, block.size, fmt::format("bytes of the uniform block '{}':", block.name),
-                    "MAX_UNIFORM_BLOCK_SIZE");
-            at_most(bindings, block.binding + 1,
-                    fmt::format("uniform buffer bindings up to that of '{}':", block.name),
-                    "MAX_UNIFORM_BUFFER_BINDINGS");
-        }
-    }
-    int components = 0;
-    int vectors = 0;
-    for (const Variable& input : fragment.inputs) {
-        components += glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
-        vectors += location_count(input.type, input.array);
-    }
-    at_most(kVaryingComponents, components, "varying components:", "MAX_VARYING_COMPONENTS");
-    if (components <= kVaryingComponents)
-        at_most(kVaryingVectors, vectors, "varying vectors:", "MAX_VARYING_VECTORS");
-    at_most(kAttributes, static_cast<int>(vertex.inputs.size()), "vertex attributes:", "MAX_VERTEX_ATTRIBS");
-    return found;
-}
-
-/// What the fragment stage reads that the vertex stage does not write, matched by location where both state
-/// one, otherwise by name: OpenGL refuses to link it.
-Diagnostics unwritten_inputs(const Interface& vertex, const Interface& fragment, const Place& place) {
-    Diagnostics found;
-    for (const Variable& input : fragment.inputs) {
-        const auto writes = [&](const Variable& output) {
-            return input.location >= 0 && output.location >= 0 ? input.location == output.location
-                                                               : input.name == output.name;
-        };
-        if (std::ranges::any_of(vertex.outputs, writes)) continue;
-        append(found,
-               fail(place, "",
-                    fmt::format("the fragment stage reads '{} {}', which the vertex stage does not write",
-                                input.type, input.name),
-                    "declare and write it as an output of the vertex stage")
-                   .value());
-    }
-    return found;
-}
-
 class Validator {
   public:
     Validator(const Composition& composition, const ValidateOptions& options)
@@ -152,6 +82,7 @@ class Validator {
             validate_pair(0);  // alone: it builds glslang's tables for the version, once
             parallel_for(options_.jobs, pairs_.size() - 1, [&](std::size_t i) { validate_pair(i + 1); });
         }
+        parallel_for(options_.jobs, pairs_.size(), [&](std::size_t i) { check_pair(i); });
         DiagnosticGroups groups(family);
         for (const Permutation& permutation : composition_.permutations)
             for (const Diagnostic& diagnostic : diagnostics_of(permutation))
@@ -163,21 +94,37 @@ class Validator {
   private:
     Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
 
-    /// What glslang said of a permutation's stages and of the pair, and what lies beyond the dialect's
-    /// limits.
+    /// What is wrong with a permutation's stages, or else with the pair.
     [[nodiscard]] Diagnostics diagnostics_of(const Permutation& permutation) {
         const auto [vertex, fragment] = Pair(permutation.vertex, permutation.fragment);
         Diagnostics all;
         if (vertex >= 0) append(all, job(vertex).diagnostics);
         if (fragment >= 0) append(all, job(fragment).diagnostics);
-        append(all, of_pairs_[numbers_.at({vertex, fragment})]);
-        if (exit_status(all) != 0) return all;
-        const Interface of_vertex = stage_interface(validated_, vertex);
-        const Interface of_fragment = stage_interface(validated_, fragment);
-        const Place place = template_of(fragment >= 0 ? fragment : vertex);
-        append(all, beyond_limits(of_vertex, of_fragment, composition_.dialect, place));
-        if (vertex >= 0 && fragment >= 0) append(all, unwritten_inputs(of_vertex, of_fragment, place));
+        if (exit_status(all) == 0) append(all, of_pairs_[numbers_.at({vertex, fragment})]);
         return all;
+    }
+
+    /// The rules that glslang forgets. Where they find why a pair does not link they say it with both places,
+    /// so what glslang said goes.
+    void check_pair(std::size_t index) {
+        const auto [vertex, fragment] = pairs_[index];
+        const auto is_fine = [&](int stage) { return stage < 0 || job(stage).is_fine; };
+        if (!is_fine(vertex) || !is_fine(fragment)) return;
+        const auto view = [&](int stage) {
+            return stage < 0 ? std::nullopt
+                             : std::optional(StageView{validated_.stage(stage).interface, pieces_of(stage)});
+        };
+        const std::optional<StageView> of_vertex = view(vertex);
+        const std::optional<StageView> of_fragment = view(fragment);
+        Diagnostics& all = of_pairs_[index];
+        if (of_vertex && of_fragment) {
+            const Diagnostics found = check_link(*of_vertex, *of_fragment);
+            if (exit_status(found) != 0) all.clear();
+            append(all, found);
+        }
+        if (exit_status(all) == 0)
+            append(all, check_limits(of_vertex ? &*of_vertex : nullptr, of_fragment ? &*of_fragment : nullptr,
+                                     composition_.dialect));
     }
 
     [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
@@ -230,6 +177,7 @@ class Validator {
             at.is_fine = false;
             return;
         }
+        append(at.diagnostics, generated->diagnostics);
         if (options_.spirv_val) append(at.diagnostics, spirv_val(generated->spirv, template_of(stage)));
         if (!options_.keep_spirv) generated->spirv = {};
         const auto state = [&](auto& list) {

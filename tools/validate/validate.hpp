@@ -19,6 +19,7 @@ using SpirvModule = std::vector<std::uint32_t>;
 struct ValidatedStage {
     SpirvModule spirv;    ///< empty unless asked for
     Interface interface;  ///< of this stage alone; a location or binding that the source does not state is -1
+    Diagnostics diagnostics;  ///< what glslang lets pass within this stage: warnings
 };
 
 /// The stages in the order of Composition::stages.

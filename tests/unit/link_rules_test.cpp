@@ -1,0 +1,678 @@
+// The rules that glslang forgets: what gobo says of a pair, and whether Mesa links it.
+#include <set>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#define GOBO_GL_NO_LOADER
+#include <gobo/gl.hpp>
+
+#include "compose/compose.hpp"
+#include "emit/sections.hpp"
+#include "family/key.hpp"
+#include "family/selection.hpp"
+#include "lab/render/program.hpp"
+#include "small_families.hpp"
+#include "spirv/glsl_type.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+using testing::HasSubstr;
+
+/// What Mesa makes of the pair.
+enum class Mesa {
+    links,
+    refuses,
+    is_lax,  ///< links, though the specification or a guaranteed limit is offended
+};
+
+struct Row {
+    const char* name;
+    const char* version;
+    const char* vertex;
+    const char* fragment;
+    Mesa mesa;
+    std::vector<const char*> messages;  ///< each that gobo gives, in part
+};
+
+void PrintTo(const Row& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+Diagnostics checked(const std::string& vertex, const std::string& fragment) {
+    const std::map<std::string, std::string, std::less<>> files = {{"tiny.vert", vertex},
+                                                                   {"tiny.frag", fragment}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("");
+    const Composition composition = compose(family, {{}}, search, Dialect::own).value();
+    return validate(family, composition, {}).diagnostics;
+}
+
+class LinkRule : public testing::TestWithParam<Row> {};
+
+TEST_P(LinkRule, IsToldAndAgreesWithMesa) {
+    const Row& row = GetParam();
+    const std::string head = std::string("#version ") + row.version + "\n";
+    const bool is_es = head.ends_with("es\n");
+    const std::string vertex = head + row.vertex;
+    const std::string fragment = head + (is_es ? "precision highp float;\n" : "") + row.fragment;
+    const Diagnostics found = checked(vertex, fragment);
+    std::string all;
+    for (const Diagnostic& diagnostic : found) all += to_text(diagnostic);
+    ASSERT_EQ(found.size(), row.messages.size()) << all;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << all;
+    EXPECT_EQ(exit_status(found), row.mesa == Mesa::links ? 0 : 1) << all;
+
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context.has_value());
+    const Result<Program> program =
+        link_program(*context, {stage_text(StageKind::vertex, "tiny.vert", vertex),
+                                stage_text(StageKind::fragment, "tiny.frag", fragment)});
+    EXPECT_EQ(program.has_value(), row.mesa != Mesa::refuses)
+        << (program ? "it links" : to_text(program.error().front()));
+}
+
+constexpr const char* plain = "void main() { gl_Position = vec4(0.0); }\n";
+constexpr const char* color = "out vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+
+const Row varyings[] = {
+    {"flat_meets_smooth_330",
+     "330 core",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "flat in vec3 s;\nout vec4 c;\nvoid main() { c = vec4(s, 1.0); }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 's' is flat here, but smooth in tiny.vert:2: before GLSL 4.40"}},
+    {"flat_meets_smooth_450",
+     "450",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "flat in vec3 s;\nout vec4 c;\nvoid main() { c = vec4(s, 1.0); }\n",
+     Mesa::links,
+     {}},
+    {"flat_meets_smooth_es300",
+     "300 es",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "flat in vec3 s;\nout vec4 c;\nvoid main() { c = vec4(s, 1.0); }\n",
+     Mesa::refuses,
+     {"tiny.frag:3: error: 's' is flat here, but smooth in tiny.vert:2: OpenGL ES"}},
+    {"noperspective_meets_smooth_330",
+     "330 core",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "noperspective in vec3 s;\nout vec4 c;\nvoid main() { c = vec4(s, 1.0); }\n",
+     Mesa::refuses,
+     {"'s' is noperspective here, but smooth in tiny.vert:2"}},
+    {"types_by_name",
+     "450",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "in vec4 s;\nout vec4 c;\nvoid main() { c = s; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 's' is vec4 here, but vec3 in tiny.vert:2 [default]\n    in vec4 s;\n"}},
+    {"types_by_location",
+     "450",
+     "layout(location = 1) out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "layout(location = 1) in vec2 t;\nout vec4 c;\nvoid main() { c = t.xyxy; }\n",
+     Mesa::refuses,
+     {"'t' (location 1, 's' in the vertex stage) is vec2 here, but vec3 in tiny.vert:2"}},
+    {"extents_by_location",
+     "450",
+     "layout(location = 1) out vec3 s[2];\nvoid main() { s[0] = s[1] = vec3(1.0); gl_Position = vec4(0.0); "
+     "}\n",
+     "layout(location = 1) in vec3 s[3];\nout vec4 c;\nvoid main() { c = s[2].xyzx; }\n",
+     Mesa::refuses,
+     {"'s' is vec3[3] here, but vec3[2] in tiny.vert:2"}},
+    {"located_in_one_stage",
+     "450",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "layout(location = 1) in vec3 s;\nout vec4 c;\nvoid main() { c = s.xyzx; }\n",
+     Mesa::refuses,
+     {"it has location 1 here, and no location in tiny.vert:2"}},
+    {"unread_and_undeclared",
+     "330 core",
+     plain,
+     "in vec2 gone;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"unread_and_undeclared_located",
+     "450",
+     plain,
+     "layout(location = 3) in vec2 gone;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"read_and_undeclared_located",
+     "450",
+     plain,
+     "layout(location = 3) in vec2 gone;\nout vec4 c;\nvoid main() { c = gone.xyxy; }\n",
+     Mesa::refuses,
+     {"the fragment stage reads 'vec2 gone', which the vertex stage does not write"}},
+    {"read_and_undeclared",
+     "330 core",
+     plain,
+     "in vec2 gone;\nout vec4 c;\nvoid main() { c = gone.xyxy; }\n",
+     Mesa::is_lax,
+     {"tiny.frag:2: error: the fragment stage reads 'vec2 gone', which the vertex stage"}},
+    {"read_and_never_stored",
+     "450",
+     "out vec3 s;\nvoid main() { gl_Position = vec4(0.0); }\n",
+     "in vec3 s;\nout vec4 c;\nvoid main() { c = s.xyzx; }\n",
+     Mesa::links,
+     {"tiny.frag:2: warning: the fragment stage reads 's', which the vertex stage declares in tiny.vert:2 "
+      "and "
+      "never writes"}},
+    {"sample_in_one_stage",
+     "450",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); gl_Position = vec4(0.0); }\n",
+     "sample in vec3 s;\nout vec4 c;\nvoid main() { c = s.xyzx; }\n",
+     Mesa::refuses,
+     {"'s' is sample here, but neither in tiny.vert:2"}},
+    {"member_of_a_block_between_stages",
+     "330 core",
+     "out Surface { vec3 normal; vec2 uv; } o;\n"
+     "void main() { o.normal = vec3(1.0); o.uv = vec2(0.0); gl_Position = vec4(0.0); }\n",
+     "in Surface { flat vec3 normal; vec2 uv; } i;\nout vec4 c;\nvoid main() { c = i.normal.xyzx + "
+     "i.uv.xyxy; }\n",
+     Mesa::refuses,
+     {"'Surface.normal' is flat here, but smooth in tiny.vert:2"}},
+};
+
+const Row names[] = {
+    {"anonymous_member_and_uniform",
+     "450",
+     "layout(std140, binding = 0) uniform Frame { vec4 tint; };\nvoid main() { gl_Position = tint; }\n",
+     "uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'tint' is a uniform here, but a member of the block 'Frame' in tiny.vert:2"}},
+    {"anonymous_members_of_two_blocks",
+     "450",
+     "layout(std140, binding = 0) uniform Frame { vec4 tint; };\nvoid main() { gl_Position = tint; }\n",
+     "layout(std140, binding = 1) uniform Surface { vec4 tint; };\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is a member of the block 'Surface' here, but a member of the block 'Frame' in tiny.vert:2"}},
+    {"anonymous_member_of_lines",
+     "450",
+     "layout(std140, binding = 0) uniform Frame {\n    mat4 m;\n    vec4 tint;\n};\n"
+     "void main() { gl_Position = tint; }\n",
+     "#ifdef NEVER\nlayout(std140, binding = 1) uniform Surface { vec4 tint; };\n#else\nuniform vec4 tint;\n"
+     "#endif\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:5: error: 'tint' is a uniform here, but a member of the block 'Frame' in tiny.vert:4"}},
+    {"types_of_a_uniform",
+     "330 core",
+     "uniform vec3 tint;\nvoid main() { gl_Position = tint.xyzx; }\n",
+     "uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'tint' is vec4 here, but vec3 in tiny.vert:2"}},
+    {"uniform_and_sampler",
+     "330 core",
+     "uniform vec3 tint;\nvoid main() { gl_Position = tint.xyzx; }\n",
+     "uniform sampler2D tint;\nout vec4 c;\nvoid main() { c = texture(tint, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'tint' is sampler2D here, but vec3 in tiny.vert:2"}},
+    {"locations_of_a_uniform",
+     "450",
+     "layout(location = 1) uniform vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "layout(location = 2) uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is at location 2 here, but at 1 in tiny.vert:2"}},
+    {"locations_of_two_uniforms",
+     "450",
+     "layout(location = 1) uniform vec4 tint[3];\nvoid main() { gl_Position = tint[2]; }\n",
+     "layout(location = 3) uniform vec4 tone;\nout vec4 c;\nvoid main() { c = tone; }\n",
+     Mesa::refuses,
+     {"the uniforms 'tone' and 'tint' (tiny.vert:2) share location 3"}},
+    {"bindings_of_a_sampler",
+     "450",
+     "layout(binding = 1) uniform sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",
+     "layout(binding = 2) uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture(map, vec2(0.0)); "
+     "}\n",
+     Mesa::refuses,
+     {"'map' is at binding 2 here, but at 1 in tiny.vert:2"}},
+    {"precision_es300",
+     "300 es",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform highp vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is highp here, but mediump or lowp in tiny.vert:2"}},
+    {"precision_of_a_sampler_es300",
+     "300 es",
+     "uniform highp sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",
+     "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture(map, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'map' is mediump or lowp here, but highp in tiny.vert:2"}},
+    {"members_of_a_block",
+     "450",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; vec4 eye; } camera;\n"
+     "void main() { gl_Position = camera.m * camera.eye; }\n",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; vec3 eye; } camera;\nout vec4 c;\n"
+     "void main() { c = camera.eye.xyzx; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the block 'Camera' has 'vec3 eye' at offset 64 here, but 'vec4 eye' at offset 64 "
+      "in "
+      "tiny.vert:2"}},
+    {"instance_of_a_block",
+     "450",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; } camera;\n"
+     "void main() { gl_Position = camera.m[0]; }\n",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; };\nout vec4 c;\nvoid main() { c = m[1]; }\n",
+     Mesa::refuses,
+     {"the block 'Camera' has no instance name here, but one in tiny.vert:2"}},
+};
+
+const Row places[] = {
+    {"blocks_at_one_binding",
+     "450",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; } camera;\nvoid main() { gl_Position = "
+     "camera.m[0]; }\n",
+     "layout(std140, binding = 0) uniform Light { vec4 tint; } light;\nout vec4 c;\nvoid main() { c = "
+     "light.tint; }\n",
+     Mesa::links,
+     {"tiny.frag:2: warning: the blocks 'Light' and 'Camera' (tiny.vert:2) share binding 0"}},
+    {"block_on_an_element",
+     "450",
+     plain,
+     "layout(std140, binding = 1) uniform Lamp { vec4 tint; } lamps[3];\n"
+     "layout(std140, binding = 2) uniform Sky { vec4 tint; } sky;\nout vec4 c;\n"
+     "void main() { c = lamps[1].tint + sky.tint; }\n",
+     Mesa::links,
+     {"tiny.frag:3: warning: the blocks 'Sky' and 'Lamp[1]' (tiny.frag:2) share binding 2"}},
+    {"sampler_on_an_element",
+     "450",
+     plain,
+     "layout(binding = 0) uniform sampler2D maps[4];\nlayout(binding = 2) uniform sampler2D mask;\nout vec4 "
+     "c;\n"
+     "void main() { c = texture(maps[3], vec2(0.0)) + texture(mask, vec2(0.0)); }\n",
+     Mesa::links,
+     {"'sampler2D mask' and 'sampler2D maps' (tiny.frag:2) share texture unit 2"}},
+    {"two_types_on_one_unit",
+     "450",
+     plain,
+     "layout(binding = 1) uniform sampler2D map;\nlayout(binding = 1) uniform samplerCube sky;\nout vec4 c;\n"
+     "void main() { c = texture(map, vec2(0.0)) + texture(sky, vec3(1.0)); }\n",
+     Mesa::is_lax,
+     {"share texture unit 1: OpenGL refuses to draw (INVALID_OPERATION)"}},
+    {"unread_on_one_unit",
+     "450",
+     plain,
+     "layout(binding = 1) uniform sampler2D map;\nlayout(binding = 1) uniform samplerCube sky;\nout vec4 c;\n"
+     "void main() { c = texture(map, vec2(0.0)); }\n",
+     Mesa::links,
+     {}},
+};
+
+const Row limits[] = {
+    {"varying_location_14",
+     "450",
+     "layout(location = 14) out vec4 s;\nvoid main() { s = vec4(1.0); gl_Position = s; }\n",
+     "layout(location = 14) in vec4 s;\nout vec4 c;\nvoid main() { c = s; }\n",
+     Mesa::links,
+     {}},
+    {"varying_location_20",
+     "450",
+     "layout(location = 20) out vec4 s;\nvoid main() { s = vec4(1.0); gl_Position = s; }\n",
+     "layout(location = 20) in vec4 s;\nout vec4 c;\nvoid main() { c = s; }\n",
+     Mesa::is_lax,
+     {"tiny.vert:2: error: locations of varyings up to the last of 's': 21, OpenGL guarantees only 15"}},
+    {"attributes_of_matrices_located",
+     "450",
+     "layout(location = 0) in mat4 a;\nlayout(location = 13) in mat4 b;\nvoid main() { gl_Position = a[0] + "
+     "b[3]; }\n",
+     color,
+     Mesa::refuses,
+     {"tiny.vert:3: error: vertex attribute locations up to the last of 'b': 17, OpenGL guarantees only 16"}},
+    {"attributes_of_matrices",
+     "330 core",
+     "in mat4 a, b, d, e, f;\nvoid main() { gl_Position = a[0] + b[0] + d[0] + e[0] + f[3]; }\n",
+     color,
+     Mesa::refuses,
+     {"vertex attribute locations: 20, OpenGL guarantees only 16 (MAX_VERTEX_ATTRIBS)"}},
+    {"unread_attributes",
+     "330 core",
+     "in mat4 a, b, d, e, f;\nvoid main() { gl_Position = a[0]; }\n",
+     color,
+     Mesa::links,
+     {}},
+    {"output_location_8",
+     "450",
+     plain,
+     "layout(location = 0) out vec4 c;\nlayout(location = 8) out vec4 d;\nvoid main() { c = d = vec4(1.0); "
+     "}\n",
+     Mesa::refuses,
+     {"tiny.frag:3: error: fragment output locations up to the last of 'd': 9"}},
+    {"plain_uniforms",
+     "450",
+     plain,
+     "uniform vec4 big[257];\nout vec4 c;\nvoid main() { c = big[256]; }\n",
+     Mesa::links,
+     {"tiny.frag:2: warning: components of plain uniforms in the fragment stage: 1028, OpenGL guarantees "
+      "only "
+      "1024"}},
+    {"unread_uniforms",
+     "450",
+     plain,
+     "uniform vec4 big[2000];\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"unread_samplers",
+     "330 core",
+     plain,
+     "uniform sampler2D maps[30];\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"varyings_packed_es300",
+     "300 es",
+     "out vec2 a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q;\n"
+     "void main() { a = b = d = e = f = g = h = i = j = k = l = m = n = o = p = q = vec2(1.0); "
+     "gl_Position = vec4(0.0); }\n",
+     "in vec2 a, b, d, e, f, g, h, i, j, k, l, m, n, o, p, q;\nout vec4 c;\n"
+     "void main() { c = (a + b + d + e + f + g + h + i + j + k + l + m + n + o + p + q).xyxy; }\n",
+     Mesa::links,
+     {}},
+    {"varyings_beyond_rows_es300",
+     "300 es",
+     "out vec3 v[16];\nvoid main() { for (int i = 0; i < 16; ++i) v[i] = vec3(1.0); gl_Position = vec4(0.0); "
+     "}\n",
+     "in vec3 v[16];\nout vec4 c;\nvoid main() { c = v[15].xyzx; }\n",
+     Mesa::is_lax,
+     {"varying vectors: 16, OpenGL guarantees only 15 (MAX_VARYING_VECTORS)"}},
+};
+
+const Row outputs[] = {
+    {"output_never_written",
+     "450",
+     plain,
+     "layout(location = 0) out vec4 c;\nvoid main() {}\n",
+     Mesa::links,
+     {"tiny.frag:2: warning: the fragment stage never writes its output 'c'"}},
+    {"output_written_on_one_path",
+     "450",
+     "out float s;\nvoid main() { s = 1.0; gl_Position = vec4(0.0); }\n",
+     "in float s;\nout vec4 c;\nvoid main() {\n    if (s > 0.5) c = vec4(1.0);\n}\n",
+     Mesa::links,
+     {"tiny.frag:3: warning: some paths through main() do not write 'c'"}},
+    {"output_written_or_discarded",
+     "450",
+     "out float s;\nvoid main() { s = 1.0; gl_Position = vec4(0.0); }\n",
+     "in float s;\nout vec4 c;\nvoid main() {\n    if (s > 0.5) discard;\n    c.rgb = vec3(1.0);\n}\n",
+     Mesa::links,
+     {}},
+    {"output_written_in_both_branches",
+     "450",
+     "out float s;\nvoid main() { s = 1.0; gl_Position = vec4(0.0); }\n",
+     "in float s;\nout vec4 c;\nvoid set(float x) { c = vec4(x); }\nvoid main() {\n"
+     "    if (s > 0.5) { set(1.0); return; }\n    for (int i = 0; i < 3; ++i) if (s > float(i)) break;\n"
+     "    switch (int(s)) { case 0: c = vec4(0.0); break; default: set(0.5); }\n}\n",
+     Mesa::links,
+     {}},
+    {"position_never_written",
+     "450",
+     "out vec3 s;\nvoid main() { s = vec3(1.0); }\n",
+     "in vec3 s;\nout vec4 c;\nvoid main() { c = s.xyzx; }\n",
+     Mesa::links,
+     {"tiny.vert: warning: the vertex stage never writes gl_Position"}},
+    {"position_on_one_path",
+     "450",
+     "in float s;\nvoid main() { if (s > 0.0) gl_Position = vec4(0.0); }\n",
+     color,
+     Mesa::links,
+     {"tiny.vert:3: warning: some paths through main() do not write gl_Position"}},
+    {"early_tests_and_depth",
+     "450",
+     plain,
+     "layout(early_fragment_tests) in;\nout vec4 c;\nvoid main() {\n    c = vec4(1.0);\n    gl_FragDepth = "
+     "0.5;\n}\n",
+     Mesa::links,
+     {"tiny.frag:6: warning: what is written to gl_FragDepth is ignored: tiny.frag:2 states "
+      "early_fragment_tests"}},
+    {"early_tests_and_discard",
+     "450",
+     "out float s;\nvoid main() { s = 1.0; gl_Position = vec4(0.0); }\n",
+     "layout(early_fragment_tests) in;\nin float s;\nout vec4 c;\nvoid main() {\n    if (s > 0.0) discard;\n"
+     "    c = vec4(1.0);\n}\n",
+     Mesa::links,
+     {"tiny.frag:6: warning: discard comes too late for the depth buffer: tiny.frag:2 states"}},
+    {"depth_less_without_its_extension",
+     "330 core",
+     plain,
+     "layout(depth_less) out float gl_FragDepth;\nout vec4 c;\nvoid main() { c = vec4(1.0); gl_FragDepth = "
+     "0.0; }\n",
+     Mesa::refuses,
+     {"GL_ARB_conservative_depth"}},
+};
+
+constexpr auto name_of_row = [](const auto& row) { return std::string(row.param.name); };
+INSTANTIATE_TEST_SUITE_P(Varyings, LinkRule, testing::ValuesIn(varyings), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Names, LinkRule, testing::ValuesIn(names), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Places, LinkRule, testing::ValuesIn(places), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Limits, LinkRule, testing::ValuesIn(limits), name_of_row);
+INSTANTIATE_TEST_SUITE_P(Outputs, LinkRule, testing::ValuesIn(outputs), name_of_row);
+
+/// The tables of a generated header, filled at run time.
+struct Tables {
+    static inline std::vector<runtime::BlockBinding> blocks;
+    static inline std::vector<runtime::SamplerBinding> samplers;
+};
+
+struct UnitsRow {
+    const char* name;
+    const char* features;
+    const char* fragment;
+    std::vector<const char*> in_table;  ///< the samplers of the header, whatever their units
+};
+
+void PrintTo(const UnitsRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+/// Which texture unit OpenGL has for each active sampler once the header's tables are applied.
+std::vector<std::pair<std::string, int>> units_of(const GladGLContext& gl, unsigned program) {
+    std::vector<std::pair<std::string, int>> units;
+    int count = 0;
+    gl.GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (int i = 0; i < count; ++i) {
+        char name[100];
+        int elements = 0;
+        GLenum type = 0;
+        gl.GetActiveUniform(program, static_cast<GLuint>(i), sizeof name, nullptr, &elements, &type, name);
+        if (type != GL_SAMPLER_2D && type != GL_SAMPLER_CUBE) continue;
+        std::string root = name;
+        if (root.ends_with("[0]")) root.resize(root.size() - 3);
+        for (int element = 0; element < elements; ++element) {
+            const std::string part = elements > 1 ? root + "[" + std::to_string(element) + "]" : name;
+            int unit = -1;
+            gl.GetUniformiv(program, gl.GetUniformLocation(program, part.c_str()), &unit);
+            units.emplace_back(part, unit);
+        }
+    }
+    return units;
+}
+
+class SamplerUnits : public testing::TestWithParam<std::tuple<UnitsRow, const char*>> {};
+
+TEST_P(SamplerUnits, AreNeverShared) {
+    const auto& [row, version] = GetParam();
+    const std::string head = std::string("#version ") + version + "\n";
+    const std::map<std::string, std::string, std::less<>> files = {
+        {"tiny.vert", head + plain}, {"tiny.frag", head + "precision highp float;\n" + row.fragment}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of(row.features);
+    Selection selection;
+    selection.all = true;
+    const Composition composition =
+        compose(family, select(family, selection, "450").value(), search, Dialect::own).value();
+    const Validated validated = validate(family, composition, {});
+    ASSERT_EQ(exit_status(validated.diagnostics), 0) << first_text(validated.diagnostics);
+    std::vector<Interface> programs;
+    for (const Permutation& permutation : composition.permutations)
+        programs.push_back(interface_of(validated, permutation));
+    const Interface family_interface = with_places(unite(programs).value());
+
+    Tables::samplers.clear();
+    std::vector<std::string> in_table;
+    for (const Sampler& sampler : family_interface.samplers) {
+        Tables::samplers.push_back(
+            {sampler.name, sampler.type, sampler.binding, element_count(sampler.array)});
+        in_table.push_back(sampler.name);
+    }
+    EXPECT_THAT(in_table, testing::ElementsAreArray(row.in_table));
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context.has_value());
+    for (const Permutation& permutation : composition.permutations) {
+        const Result<Program> program = link_program(*context, stages_of(composition, permutation));
+        ASSERT_TRUE(program.has_value()) << to_text(program.error().front());
+        gl::set_bindings<Tables>(program->id(), context->gl());
+        std::set<int> taken;
+        std::string all = key_text(family, permutation.key) + ":";
+        for (const auto& [name, unit] : units_of(context->gl(), program->id())) {
+            all += " " + name + "=" + std::to_string(unit);
+            EXPECT_TRUE(taken.insert(unit).second) << all;
+        }
+        EXPECT_FALSE(taken.empty());
+    }
+}
+
+const UnitsRow units_rows[] = {
+    {"unread_in_some_keys",
+     "[features]\ngloss = { define = \"GLOSS\" }\nbumps = { define = \"BUMPS\" }\n",
+     "uniform sampler2D albedo;\nuniform sampler2D bumps;\nuniform sampler2D gloss;\nuniform sampler2D "
+     "dead;\n"
+     "out vec4 c;\nvoid main() {\n    c = texture(albedo, vec2(0.0));\n#ifdef GLOSS\n"
+     "    c += texture(gloss, vec2(0.0));\n#endif\n#ifdef BUMPS\n    c += texture(bumps, "
+     "vec2(0.0));\n#endif\n}\n",
+     {"albedo", "bumps", "gloss"}},
+    {"unstated",
+     "",
+     "uniform sampler2D a;\nuniform sampler2D b;\nout vec4 c;\n"
+     "void main() { c = texture(a, vec2(0.0)) - texture(b, vec2(0.0)); }\n",
+     {"a", "b"}},
+    {"arrays",
+     "",
+     "uniform sampler2D a;\nuniform sampler2D maps[3];\nuniform samplerCube z;\nout vec4 c;\n"
+     "void main() { c = texture(a, vec2(0.0)) + texture(maps[0], vec2(0.0)) + texture(maps[2], vec2(0.0)) "
+     "+ texture(z, vec3(1.0)); }\n",
+     {"a", "maps", "z"}},
+    {"in_structs",
+     "",
+     "struct Surface { vec4 tint; sampler2D albedo; sampler2D bumps; };\nuniform Surface surfaces[2];\n"
+     "uniform sampler2D other;\nout vec4 c;\nvoid main() { c = surfaces[0].tint + texture(other, vec2(0.0))\n"
+     "    + texture(surfaces[0].albedo, vec2(0.0)) * texture(surfaces[1].albedo, vec2(0.0))\n"
+     "    * texture(surfaces[1].bumps, vec2(0.0)); }\n",
+     {"other", "surfaces[0].albedo", "surfaces[0].bumps", "surfaces[1].albedo", "surfaces[1].bumps"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Rows, SamplerUnits,
+                         testing::Combine(testing::ValuesIn(units_rows),
+                                          testing::Values("330 core", "450", "300 es")),
+                         [](const auto& row) {
+                             std::string name = std::get<0>(row.param).name;
+                             return name + "_" + std::string(std::get<1>(row.param)).substr(0, 3);
+                         });
+
+/// One is stated: the others keep away from it.
+TEST(SamplerUnit, KeepsAwayFromAStatedOne) {
+    const std::map<std::string, std::string, std::less<>> files = {
+        {"tiny.vert", std::string("#version 450\n") + plain},
+        {"tiny.frag",
+         "#version 450\nlayout(binding = 0) uniform sampler2D mask;\nuniform sampler2D albedo;\n"
+         "uniform sampler2D normals[2];\nlayout(binding = 0) uniform sampler2D dead;\nout vec4 c;\n"
+         "void main() { c = texture(mask, vec2(0.0)) + texture(albedo, vec2(0.0)) "
+         "+ texture(normals[1], vec2(0.0)); }\n"}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("");
+    const Composition composition = compose(family, {{}}, search, Dialect::own).value();
+    const Validated validated = validate(family, composition, {});
+    const Interface interface =
+        with_places(unite({interface_of(validated, composition.permutations.front())}).value());
+    std::vector<std::string> units;
+    for (const Sampler& sampler : interface.samplers)
+        units.push_back(sampler.name + " " + std::to_string(sampler.binding));
+    EXPECT_THAT(units, testing::ElementsAre("albedo 1", "mask 0", "normals 2"));
+}
+
+/// Faults of the input that used to count as gobo's own.
+struct FaultRow {
+    const char* name;
+    const char* fragment;
+    const char* message;
+};
+
+void PrintTo(const FaultRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class FaultOfTheInput : public testing::TestWithParam<FaultRow> {};
+
+TEST_P(FaultOfTheInput, EndsWithStatusOne) {
+    const Diagnostics found = checked(plain, GetParam().fragment);
+    EXPECT_EQ(exit_status(found), 1);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_THAT(to_text(found.front()), HasSubstr(GetParam().message));
+}
+
+std::string nested_structs() {
+    std::string text = "struct S0 { float x; };\n";
+    for (int i = 1; i < 300; ++i) text += fmt::format("struct S{} {{ S{} s; }};\n", i, i - 1);
+    return text + "uniform S299 s;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+}
+const std::string deep = nested_structs();
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, FaultOfTheInput,
+    testing::Values(FaultRow{"recursion",
+                             "out vec4 c;\nfloat f(float x) { return x < 0.0 ? 0.0 : f(x - 1.0); }\n"
+                             "void main() { c = vec4(f(1.0)); }\n",
+                             "tiny.frag: error: Linking fragment stage: Recursion detected"},
+                    FaultRow{"no_main", "float f() { return 1.0; }\n",
+                             "tiny.frag: error: Linking fragment stage: Missing entry"},
+                    FaultRow{"empty", "\n", "Missing entry point"},
+                    FaultRow{"block_too_large",
+                             "layout(std140, binding = 0) uniform B { vec4 q[134217728]; };\nout vec4 c;\n"
+                             "void main() { c = q[1]; }\n",
+                             "tiny.frag: error: block 'B' takes more than 2 GiB"},
+                    FaultRow{
+                        "too_many_blocks",
+                        "layout(std140, binding = 0) uniform B { float x; } b[2000000000];\nout vec4 c;\n"
+                        "void main() { c = vec4(b[1].x); }\n",
+                        "tiny.frag: error: block 'B' is an array of too many blocks"},
+                    FaultRow{"too_many_inputs",
+                             "layout(location = 0) in float q[2000000000];\nout vec4 c;\n"
+                             "void main() { c = vec4(q[0]); }\n",
+                             "tiny.frag: error: variable 'q' takes too many locations"},
+                    FaultRow{"structs_nested_too_deeply", deep.c_str(),
+                             "tiny.frag: error: types are nested more than 255 deep"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+/// One cause is one message, whatever its number in each key.
+TEST(ManyKeys, AreOneMessage) {
+    const std::map<std::string, std::string, std::less<>> files = {
+        {"tiny.vert", plain},
+        {"tiny.frag",
+         "#if LAMPS > 0\nlayout(std140, binding = 0) uniform Lamps { vec4 lamps[LAMPS * 300]; };\n"
+         "#endif\nout vec4 c;\nvoid main() {\n#if LAMPS > 0\n    c = lamps[0];\n#else\n"
+         "    c = vec4(0.0);\n#endif\n}\n"}};
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("[features]\nlamps = { count = [0, 9], constant = \"LAMPS\" }\n");
+    Selection selection;
+    selection.all = true;
+    const Composition composition =
+        compose(family, select(family, selection, "450").value(), search, Dialect::own).value();
+    const Diagnostics found = validate(family, composition, {}).diagnostics;
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(to_text(found.front()),
+              "tiny.frag:2: error: bytes of the uniform block 'Lamps': 19200, OpenGL guarantees only 16384 "
+              "(MAX_UNIFORM_BLOCK_SIZE) [lamps=4, and 5 more keys]\n"
+              "    layout(std140, binding = 0) uniform Lamps { vec4 lamps[LAMPS * 300]; };\n"
+              "  help: use fewer, or forbid the combination by a rule of the family\n");
+}
+
+}  // namespace
+}  // namespace gobo

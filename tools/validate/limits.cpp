@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "spirv/glsl_type.hpp"
+#include "validate/declaration.hpp"
+#include "validate/link_rules.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr int kRowsOfVaryings = 15;
+constexpr int kVaryingComponents = 60;  // 15 vectors of four
+
+/// Rows of four components that varyings take by the packing of OpenGL ES 3.00 (chapter 11): the widest
+/// first, each in the rows where it fits beside others. Columns are numbered from 0.
+int packed_rows(const std::vector<Variable>& inputs) {
+    struct Strip {
+        int width;
+        int height;
+    };
+    std::vector<Strip> strips;
+    for (const Variable& input : inputs) {
+        const GlslType type = glsl_type(input.type).value_or(GlslType{});
+        if (!input.usage.unused)
+            strips.push_back({type.rows, std::max(type.columns * element_count(input.array), 1)});
+    }
+    std::ranges::stable_sort(strips, [](const Strip& one, const Strip& other) {
+        return std::pair(one.width, one.height) > std::pair(other.width, other.height);
+    });
+    std::vector<int> used;  // components taken of each row, from the left: the widest come first
+    for (const Strip& strip : strips) {
+        std::size_t first = 0;
+        const auto fits = [&](std::size_t row) { return row >= used.size() || used[row] + strip.width <= 4; };
+        for (std::size_t row = 0; row < first + static_cast<std::size_t>(strip.height); ++row)
+            if (!fits(row)) first = row + 1;
+        used.resize(std::max(used.size(), first + static_cast<std::size_t>(strip.height)), 0);
+        for (std::size_t row = first; row < first + static_cast<std::size_t>(strip.height); ++row)
+            used[row] += strip.width;
+    }
+    return static_cast<int>(used.size());
+}
+
+int component_count(const std::string& type, const std::vector<int>& array,
+                    const std::vector<Member>& members) {
+    int components = members.empty() ? glsl_type(type).value_or(GlslType{}).components() : 0;
+    for (const Member& member : members)
+        components += component_count(member.type, member.array, member.members);
+    // An array of two thousand million vectors is beyond every limit, whatever its exact number.
+    const std::int64_t all = std::int64_t{components} * std::max(element_count(array), 1);
+    return static_cast<int>(std::min<std::int64_t>(all, 1 << 30));
+}
+
+class LimitCheck {
+  public:
+    LimitCheck(const StageView* vertex, const StageView* fragment, Dialect dialect)
+        : vertex_(vertex), fragment_(fragment) {
+        const GlslVersion version = version_of((vertex != nullptr ? vertex : fragment)->pieces.front()->text);
+        is_es_ = version.es;
+        block_bindings_ = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
+        units_ = is_es_ ? 32 : version.number < 400 ? 48 : 80;
+    }
+
+    Diagnostics run() {
+        if (vertex_ != nullptr) check_stage(*vertex_, "vertex");
+        if (fragment_ != nullptr) check_stage(*fragment_, "fragment");
+        if (fragment_ != nullptr) check_varyings();
+        if (vertex_ != nullptr)
+            check_locations(*vertex_, vertex_->interface.inputs, 16, "vertex attribute",
+                            "MAX_VERTEX_ATTRIBS");
+        if (fragment_ != nullptr)
+            check_locations(*fragment_, fragment_->interface.outputs, is_es_ ? 4 : 8, "fragment output",
+                            "MAX_DRAW_BUFFERS");
+        return std::move(found_);
+    }
+
+  private:
+    void at_most(int limit, int needed, const StageView& stage, const std::string& name,
+                 const std::string& what, std::string_view constant, Severity severity = Severity::error) {
+        if (needed <= limit) return;
+        const Declaration at = name.empty() ? Declaration{{stage.pieces.back()->path, 0, 0}, "", false}
+                                            : declaration_of(name, "", stage.pieces);
+        found_.push_back(diagnostic_at(
+            at, severity, fmt::format("{} {}, OpenGL guarantees only {} ({})", what, needed, limit, constant),
+            "use fewer, or forbid the combination by a rule of the family"));
+    }
+
+    void check_stage(const StageView& stage, std::string_view name) {
+        constexpr int kBlockBytes = 16384;
+        constexpr int kBlocksOfStage = 12;
+        constexpr int kSamplersOfStage = 16;
+        const Interface& interface = stage.interface;
+        at_most(kBlocksOfStage, static_cast<int>(interface.blocks.size()), stage, "",
+                fmt::format("uniform blocks in the {} stage:", name),
+                "MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS");
+        int samplers = 0;
+        for (const Sampler& sampler : interface.samplers) {
+            if (sampler.usage.unused) continue;
+            samplers += element_count(sampler.array);
+            if (sampler.type.find("sampler") != std::string::npos && sampler.binding >= 0)
+                at_most(units_, sampler.binding + element_count(sampler.array), stage, sampler.name,
+                        fmt::format("texture units up to that of '{}':", sampler.name),
+                        "MAX_COMBINED_TEXTURE_IMAGE_UNITS");
+        }
+        at_most(kSamplersOfStage, samplers, stage, "", fmt::format("samplers in the {} stage:", name),
+                "MAX_TEXTURE_IMAGE_UNITS");
+        for (const Block& block : interface.blocks) {
+            at_most(kBlockBytes, block.size, stage, block.name,
+                    fmt::format("bytes of the uniform block '{}':", block.name), "MAX_UNIFORM_BLOCK_SIZE");
+            at_most(block_bindings_, block.binding + 1, stage, block.name,
+                    fmt::format("uniform buffer bindings up to that of '{}':", block.name),
+                    "MAX_UNIFORM_BUFFER_BINDINGS");
+        }
+        int components = 0;
+        std::string largest;
+        int most = 0;
+        for (const Uniform& uniform : interface.uniforms) {
+            if (uniform.usage.unused) continue;
+            const int own = component_count(uniform.type, uniform.array, uniform.members);
+            components = std::min(components + own, 1 << 30);
+            if (own > most) largest = uniform.name;
+            most = std::max(most, own);
+        }
+        const bool is_vertex = name == "vertex";
+        at_most(is_es_ && !is_vertex ? 896 : 1024, components, stage, largest,
+                fmt::format("components of plain uniforms in the {} stage:", name),
+                is_vertex ? "MAX_VERTEX_UNIFORM_COMPONENTS" : "MAX_FRAGMENT_UNIFORM_COMPONENTS",
+                Severity::warning);  // most offer 4096, and the bones of animated models need them
+    }
+
+    void check_varyings() {
+        const std::vector<Variable>& inputs = fragment_->interface.inputs;
+        int components = 0;
+        for (const Variable& input : inputs)
+            if (!input.usage.unused)
+                components +=
+                    glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
+        at_most(kVaryingComponents, components, *fragment_, "",
+                "varying components:", "MAX_VARYING_COMPONENTS");
+        const std::size_t before = found_.size();
+        if (components <= kVaryingComponents) {
+            if (vertex_ != nullptr) check_varying_locations(*vertex_, vertex_->interface.outputs);
+            if (found_.size() == before) check_varying_locations(*fragment_, inputs);
+        }
+        if (is_es_ && found_.size() == before && components <= kVaryingComponents)
+            at_most(kRowsOfVaryings, packed_rows(inputs), *fragment_, "",
+                    "varying vectors:", "MAX_VARYING_VECTORS");
+    }
+
+    /// Stated locations are four components each, whether or not the variable takes them all. The varyings of
+    /// a family file get theirs from the composer, which leaves gaps: their
+    /// number counts.
+    void check_varying_locations(const StageView& stage, const std::vector<Variable>& list) {
+        int needed = 0;
+        for (const Variable& variable : list) {
+            if (variable.location < 0) continue;
+            const int count = location_count(variable.type, variable.array);
+            if (!variable.usage.unused && variable.component == 0) needed += count;
+            if (variable.location + count <= kRowsOfVaryings) continue;
+            if (declaration_of(variable.name, variable.type, stage.pieces).place.file.ends_with(".toml"))
+                continue;
+            at_most(kRowsOfVaryings, variable.location + count, stage, variable.name,
+                    fmt::format("locations of varyings up to the last of '{}':", variable.name),
+                    "MAX_VARYING_COMPONENTS / 4");
+            return;
+        }
+        at_most(kRowsOfVaryings, needed, stage, "", "varying vectors:", "MAX_VARYING_VECTORS");
+    }
+
+    /// Attributes or fragment outputs: each column of a matrix and each element of an array takes a location.
+    void check_locations(const StageView& stage, const std::vector<Variable>& list, int limit,
+                         std::string_view what, std::string_view constant) {
+        int needed = 0;
+        for (const Variable& variable : list) {
+            const int count = location_count(variable.type, variable.array);
+            if (variable.location >= 0 && variable.location + count > limit)
+                return at_most(limit, variable.location + count, stage, variable.name,
+                               fmt::format("{} locations up to the last of '{}':", what, variable.name),
+                               constant);
+            if (!variable.usage.unused && variable.component == 0) needed += count;
+        }
+        at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
+    }
+
+    const StageView* vertex_;
+    const StageView* fragment_;
+    bool is_es_ = false;
+    int block_bindings_ = 0;
+    int units_ = 0;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_limits(const StageView* vertex, const StageView* fragment, Dialect dialect) {
+    return LimitCheck(vertex, fragment, dialect).run();
+}
+
+}  // namespace gobo

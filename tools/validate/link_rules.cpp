@@ -1,0 +1,373 @@
+#include "validate/link_rules.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "core/text.hpp"
+#include "spirv/glsl_type.hpp"
+#include "validate/declaration.hpp"
+
+namespace gobo {
+namespace {
+
+std::string with_extents(std::string text, const std::vector<int>& array) {
+    for (const int extent : array) text += extent == 0 ? "[]" : fmt::format("[{}]", extent);
+    return text;
+}
+
+/// "flat", "noperspective" or "smooth".
+std::string_view shading_of(const Interpolation& interpolation) {
+    return interpolation.flat ? "flat" : interpolation.noperspective ? "noperspective" : "smooth";
+}
+
+std::string_view sampling_of(const Interpolation& interpolation) {
+    return interpolation.sample ? "sample" : interpolation.centroid ? "centroid" : "neither";
+}
+
+/// A name of the program's one name space for uniforms, as one stage declares it.
+struct GlobalName {
+    std::string name;
+    std::string type;   ///< what OpenGL compares
+    std::string block;  ///< that it is a member of, or empty
+    std::string kind;   ///< "a uniform", "a sampler", "a member of block 'Frame'"
+    const Usage* usage = nullptr;
+    int location = -1;
+    int binding = -1;
+};
+
+std::string type_text(const std::string& type, const std::vector<int>& array,
+                      const std::vector<Member>& members) {
+    std::vector<std::string> parts;
+    for (const Member& member : members)
+        parts.push_back(type_text(member.type, member.array, member.members) + " " + member.name);
+    const std::string inner = parts.empty() ? "" : fmt::format(" {{ {} }}", join(parts, "; "));
+    return with_extents(type, array) + inner;
+}
+
+std::vector<GlobalName> global_names(const Interface& interface) {
+    std::vector<GlobalName> names;
+    for (const Uniform& uniform : interface.uniforms)
+        names.push_back({uniform.name, type_text(uniform.type, uniform.array, uniform.members), "",
+                         "a uniform", &uniform.usage, uniform.location});
+    for (const Sampler& sampler : interface.samplers)
+        names.push_back({sampler.name, with_extents(sampler.type, sampler.array), "", "a sampler",
+                         &sampler.usage, -1, sampler.binding});
+    for (const auto* const blocks : {&interface.blocks, &interface.storage_blocks})
+        for (const Block& block : *blocks) {
+            if (!block.usage.anonymous) continue;
+            for (const Member& member : block.members)
+                names.push_back({member.name, type_text(member.type, member.array, member.members),
+                                 block.name, fmt::format("a member of the block '{}'", block.name),
+                                 &block.usage});
+        }
+    return names;
+}
+
+class LinkCheck {
+  public:
+    LinkCheck(const StageView& vertex, const StageView& fragment)
+        : vertex_(vertex), fragment_(fragment), version_(version_of(vertex.pieces.front()->text)) {}
+
+    Diagnostics run() {
+        check_varyings();
+        check_names();
+        check_blocks(vertex_.interface.blocks, fragment_.interface.blocks);
+        check_blocks(vertex_.interface.storage_blocks, fragment_.interface.storage_blocks);
+        check_shared_bindings();
+        check_shared_units();
+        check_uniform_locations();
+        return std::move(found_);
+    }
+
+  private:
+    void add(const Declaration& at, Severity severity, std::string message, std::string help) {
+        found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
+    }
+
+    [[nodiscard]] Declaration in_vertex(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, vertex_.pieces);
+    }
+    [[nodiscard]] Declaration in_fragment(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, fragment_.pieces);
+    }
+
+    [[nodiscard]] bool is_before(int desktop, int es) const {
+        return version_.number < (version_.es ? es : desktop);
+    }
+
+    // ---- from the vertex stage to the fragment stage
+
+    /// By location where both state one, by name where neither does (GLSL 4.50, 4.4.1).
+    [[nodiscard]] static bool match(const Variable& input, const Variable& output) {
+        if (input.location < 0 || output.location < 0)
+            return input.location < 0 && output.location < 0 && input.name == output.name;
+        return input.location == output.location && input.component == output.component;
+    }
+
+    void check_varyings() {
+        std::set<std::string_view> told;  // of a struct or block one member will do
+        for (const Variable& input : fragment_.interface.inputs) {
+            const auto output = std::ranges::find_if(vertex_.interface.outputs,
+                                                     [&](const Variable& one) { return match(input, one); });
+            const std::size_t before = found_.size();
+            if (told.contains(root_of(input.name))) continue;
+            if (output != vertex_.interface.outputs.end())
+                check_varying(input, *output);
+            else if (!input.usage.unused)
+                check_missing(input);
+            if (found_.size() > before) told.insert(root_of(input.name));
+        }
+    }
+
+    void check_missing(const Variable& input) {
+        std::string message =
+            fmt::format("the fragment stage reads '{}', which the vertex stage does not write",
+                        with_extents(input.type + " " + input.name, input.array));
+        std::string help = "declare and write it as an output of the vertex stage";
+        for (const Variable& output : vertex_.interface.outputs) {
+            if (output.name != input.name) continue;
+            const auto located = [](int location) {
+                return location < 0 ? std::string("no location") : fmt::format("location {}", location);
+            };
+            message += fmt::format(": it has {} here, and {} in {}", located(input.location),
+                                   located(output.location), in_vertex(output.name, output.type).text());
+            help = "state the same location in both stages, or none in both";
+        }
+        add(in_fragment(input.name, input.type), Severity::error, message, help);
+    }
+
+    void check_varying(const Variable& input, const Variable& output) {
+        const std::string what = input.name == output.name
+                                     ? fmt::format("'{}'", input.name)
+                                     : fmt::format("'{}' (location {}, '{}' in the vertex stage)", input.name,
+                                                   input.location, output.name);
+        const auto differ = [&](Severity severity, std::string_view mine, std::string_view theirs,
+                                std::string_view rule, std::string help) {
+            add(in_fragment(input.name, input.type), severity,
+                fmt::format("{} is {} here, but {} in {}{}", what, mine, theirs,
+                            in_vertex(output.name, output.type).text(), rule),
+                std::move(help));
+        };
+        if (input.type != output.type || input.array != output.array)
+            return differ(Severity::error, with_extents(input.type, input.array),
+                          with_extents(output.type, output.array), "", "declare it alike in both stages");
+        if (interpolation_differs(input, output))
+            return differ(Severity::error, shading_of(input.interpolation), shading_of(output.interpolation),
+                          version_.es ? ": OpenGL ES wants the same interpolation in both stages"
+                                      : ": before GLSL 4.40 both stages must interpolate alike",
+                          "write the same qualifier in both stages");
+        if (input.interpolation.sample != output.interpolation.sample)
+            return differ(Severity::error, sampling_of(input.interpolation),
+                          sampling_of(output.interpolation), "", "write sample in both stages");
+        if (invariance_differs(input, output))
+            return differ(Severity::error, input.interpolation.invariant ? "invariant" : "not invariant",
+                          output.interpolation.invariant ? "invariant" : "not",
+                          ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
+        if (centroid_differs(input, output))
+            return differ(Severity::warning, input.interpolation.centroid ? "centroid" : "not centroid",
+                          output.interpolation.centroid ? "centroid" : "not",
+                          ": some drivers refuse to link it", "write centroid in both stages");
+        if (!input.usage.unused && output.usage.unused)
+            add(in_fragment(input.name, input.type), Severity::warning,
+                fmt::format(
+                    "the fragment stage reads {}, which the vertex stage declares in {} and never writes",
+                    what, in_vertex(output.name, output.type).text()),
+                "write it in the vertex stage: its value is undefined");
+    }
+
+    [[nodiscard]] bool interpolation_differs(const Variable& input, const Variable& output) const {
+        return (version_.es || version_.number < 440) &&
+               shading_of(input.interpolation) != shading_of(output.interpolation);
+    }
+    [[nodiscard]] bool invariance_differs(const Variable& input, const Variable& output) const {
+        return is_before(420, 300) && input.interpolation.invariant != output.interpolation.invariant;
+    }
+    [[nodiscard]] bool centroid_differs(const Variable& input, const Variable& output) const {
+        return is_before(430, 310) && input.interpolation.centroid != output.interpolation.centroid;
+    }
+
+    // ---- names that both stages declare
+
+    void check_names() {
+        std::map<std::string_view, const GlobalName*> of_vertex;
+        const std::vector<GlobalName> vertex = global_names(vertex_.interface);
+        for (const GlobalName& name : vertex) of_vertex.emplace(name.name, &name);
+        for (const GlobalName& name : global_names(fragment_.interface))
+            if (const auto other = of_vertex.find(name.name); other != of_vertex.end())
+                check_name(name, *other->second);
+    }
+
+    void check_name(const GlobalName& here, const GlobalName& there) {
+        if (!here.block.empty() && here.block == there.block) return;  // check_blocks() compares them
+        const auto declared = [](const GlobalName& name, const std::vector<const Piece*>& pieces) {
+            const std::string type = name.type.substr(0, name.type.find_first_of("[ "));
+            return name.block.empty() ? declaration_of(name.name, type, pieces)
+                                      : declaration_of_member(name.block, name.name, pieces);
+        };
+        const auto differ = [&](const std::string& mine, const std::string& theirs, std::string help) {
+            add(declared(here, fragment_.pieces), Severity::error,
+                fmt::format("'{}' is {} here, but {} in {}", here.name, mine, theirs,
+                            declared(there, vertex_.pieces).text()),
+                std::move(help));
+        };
+        if (!here.block.empty() || !there.block.empty())
+            differ(here.kind, there.kind, "rename one of them, or give the block an instance name");
+        else if (here.type != there.type)
+            differ(here.type, there.type, "declare it alike in both stages, or give it two names");
+        else if (here.location >= 0 && there.location >= 0 && here.location != there.location)
+            differ(fmt::format("at location {}", here.location), fmt::format("at {}", there.location),
+                   "state one location in both stages");
+        else if (here.binding >= 0 && there.binding >= 0 && here.binding != there.binding)
+            differ(fmt::format("at binding {}", here.binding), fmt::format("at {}", there.binding),
+                   "state one binding in both stages");
+        else if (version_.es && here.usage->relaxed != there.usage->relaxed &&
+                 (version_.number >= 300 || (!here.usage->unused && !there.usage->unused)))
+            differ(here.usage->relaxed ? "mediump or lowp" : "highp",
+                   there.usage->relaxed ? "mediump or lowp" : "highp",
+                   "write its precision in both stages: OpenGL ES wants the same");
+    }
+
+    // ---- blocks
+
+    void check_blocks(const std::vector<Block>& of_vertex, const std::vector<Block>& of_fragment) {
+        std::string_view last;
+        for (const Block& here : of_fragment) {
+            if (root_of(here.name) == last) continue;  // of an array of blocks one will do
+            const auto there = std::ranges::find(of_vertex, here.name, &Block::name);
+            if (there == of_vertex.end()) continue;
+            const std::size_t before = found_.size();
+            check_block(here, *there);
+            if (found_.size() > before) last = root_of(here.name);
+        }
+    }
+
+    void check_block(const Block& here, const Block& there) {
+        const auto differ = [&](const std::string& mine, const std::string& theirs, std::string help) {
+            add(in_fragment(here.name, ""), Severity::error,
+                fmt::format("the block '{}' has {} here, but {} in {}", root_of(here.name), mine, theirs,
+                            in_vertex(there.name, "").text()),
+                std::move(help));
+        };
+        const std::string once = "declare the block once, in a piece that both stages include";
+        const auto [mine, theirs] = std::ranges::mismatch(here.members, there.members);
+        const auto member_text = [](const std::vector<Member>& members, auto at) {
+            return at == members.end() ? std::string("no such member")
+                                       : fmt::format("'{} {}' at offset {}", at->type,
+                                                     with_extents(at->name, at->array), at->offset);
+        };
+        if (mine != here.members.end() || theirs != there.members.end()) {
+            std::string text = member_text(here.members, mine);
+            std::string other = member_text(there.members, theirs);
+            if (text == other) text += " (of other members or strides)";
+            differ(text, other, once);
+        } else if (here.usage.anonymous != there.usage.anonymous) {
+            differ(here.usage.anonymous ? "no instance name" : "an instance name",
+                   there.usage.anonymous ? "none" : "one", once);
+        } else if (here.binding >= 0 && there.binding >= 0 && here.binding != there.binding) {
+            differ(fmt::format("binding {}", here.binding), fmt::format("binding {}", there.binding), once);
+        }
+    }
+
+    // ---- places that two names share
+
+    /// A binding or unit range that one name takes in one of the stages.
+    struct Taken {
+        std::string_view name;
+        std::string type;
+        int first;
+        int count;
+        const StageView* stage;
+    };
+
+    template <class Say>
+    void for_each_overlap(const std::vector<Taken>& places, const Say& say) {
+        std::set<std::pair<std::string_view, std::string_view>> told;
+        for (auto one = places.begin(); one != places.end(); ++one)
+            for (auto other = places.begin(); other != one; ++other) {
+                if (one->first >= other->first + other->count || other->first >= one->first + one->count)
+                    continue;
+                if (one->name == other->name) continue;
+                if (told.emplace(root_of(one->name), root_of(other->name)).second)
+                    say(*one, *other, std::max(one->first, other->first));
+            }
+    }
+
+    [[nodiscard]] static Declaration declared(const Taken& taken) {
+        return declaration_of(taken.name, taken.type, taken.stage->pieces);
+    }
+
+    void check_shared_bindings() {
+        for (const auto blocks : {&Interface::blocks, &Interface::storage_blocks}) {
+            std::vector<Taken> places;
+            for (const StageView* const stage : {&vertex_, &fragment_})
+                for (const Block& block : stage->interface.*blocks)
+                    if (block.binding >= 0 && !block.usage.unused)
+                        places.push_back({block.name, "", block.binding, 1, stage});
+            for_each_overlap(places, [&](const Taken& one, const Taken& other, int binding) {
+                if (root_of(one.name) == root_of(other.name)) return;
+                add(declared(one), Severity::warning,
+                    fmt::format("the blocks '{}' and '{}' ({}) share binding {}: both read the same buffer",
+                                one.name, other.name, declared(other).text(), binding),
+                    "give each a binding of its own");
+            });
+        }
+    }
+
+    void check_shared_units() {
+        std::vector<Taken> places;
+        for (const StageView* const stage : {&vertex_, &fragment_})
+            for (const Sampler& sampler : stage->interface.samplers)
+                if (sampler.binding >= 0 && !sampler.usage.unused &&
+                    sampler.type.find("sampler") != std::string::npos)
+                    places.push_back(
+                        {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), stage});
+        for_each_overlap(places, [&](const Taken& one, const Taken& other, int unit) {
+            const bool is_refused = one.type != other.type;
+            add(declared(one), is_refused ? Severity::error : Severity::warning,
+                fmt::format("'{} {}' and '{} {}' ({}) share texture unit {}{}", one.type, one.name,
+                            other.type, other.name, declared(other).text(), unit,
+                            is_refused ? ": OpenGL refuses to draw (INVALID_OPERATION)"
+                                       : ": both read the same texture"),
+                "give each a unit of its own");
+        });
+    }
+
+    /// Each element of an array and each member of a struct has a location of its own.
+    [[nodiscard]] static int locations_of(const std::vector<int>& array, const std::vector<Member>& members) {
+        int inner = members.empty() ? 1 : 0;
+        for (const Member& member : members) inner += locations_of(member.array, member.members);
+        return inner * element_count(array);
+    }
+
+    void check_uniform_locations() {
+        std::vector<Taken> places;
+        for (const StageView* const stage : {&vertex_, &fragment_})
+            for (const Uniform& uniform : stage->interface.uniforms)
+                if (uniform.location >= 0)
+                    places.push_back({uniform.name, uniform.type, uniform.location,
+                                      locations_of(uniform.array, uniform.members), stage});
+        for_each_overlap(places, [&](const Taken& one, const Taken& other, int location) {
+            add(declared(one), Severity::error,
+                fmt::format("the uniforms '{}' and '{}' ({}) share location {}", one.name, other.name,
+                            declared(other).text(), location),
+                "an array takes a location for each element: count on behind it");
+        });
+    }
+
+    const StageView& vertex_;
+    const StageView& fragment_;
+    GlslVersion version_;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_link(const StageView& vertex, const StageView& fragment) {
+    return LinkCheck(vertex, fragment).run();
+}
+
+}  // namespace gobo

@@ -1,0 +1,113 @@
+#include "validate/stage_rules.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "reflect/reflect.hpp"
+#include "validate/declaration.hpp"
+
+namespace gobo {
+namespace {
+
+using spirv::Id;
+using spirv::kWhole;
+using spirv::Part;
+
+class StageCheck {
+  public:
+    StageCheck(const spirv::Module& module, const spirv::Usage& usage,
+               const std::vector<const Piece*>& pieces)
+        : module_(module), usage_(usage), pieces_(pieces) {}
+
+    Diagnostics run() {
+        const bool is_fragment = module_.entry_points.front().model == spv::ExecutionModelFragment;
+        if (module_.entry_points.front().model == spv::ExecutionModelVertex) check_position();
+        if (is_fragment) {
+            for (const spirv::Variable& variable : module_.variables)
+                if (variable.storage == spv::StorageClassOutput) check_output(variable);
+            check_early_tests();
+        }
+        return std::move(found_);
+    }
+
+  private:
+    void warn(const Declaration& at, std::string message, std::string help) {
+        found_.push_back(diagnostic_at(at, Severity::warning, std::move(message), std::move(help)));
+    }
+
+    [[nodiscard]] Declaration declared(const std::string& name) const {
+        return declaration_of(name, "", pieces_);
+    }
+
+    void check_position() {
+        const Part position = spirv::built_in_output(module_, spv::BuiltInPosition);
+        if (position.first == Id::none || !usage_.written.contains(position))
+            warn({{pieces_.back()->path, 0, 0}, "", false}, "the vertex stage never writes gl_Position",
+                 "write it in main(): where the vertex is drawn is undefined");
+        else if (!usage_.always_written.contains(position))
+            warn(use_of("gl_Position", pieces_), "some paths through main() do not write gl_Position",
+                 "write it on all of them: where the vertex is drawn is undefined");
+    }
+
+    void check_output(const spirv::Variable& variable) {
+        const std::string name = module_.name(variable.id);
+        const bool is_written = usage_.writes(variable.id);
+        if (is_built_in(module_, variable) && !is_written) return;  // OpenGL's own value stands
+        const std::string help = "give it a value at the start of main(): it is undefined there";
+        if (!is_written)
+            warn(declared(name), fmt::format("the fragment stage never writes its output '{}'", name),
+                 "write it in main(), or take the declaration out");
+        else if (!is_always_written(variable.id))
+            warn(is_built_in(module_, variable) ? use_of(name, pieces_) : declared(name),
+                 fmt::format("some paths through main() do not write '{}'", name), help);
+    }
+
+    [[nodiscard]] bool is_always_written(Id variable) const {
+        return std::ranges::any_of(usage_.always_written,
+                                   [&](const Part& part) { return part.first == variable; });
+    }
+
+    [[nodiscard]] bool has_mode(auto... modes) const {
+        for (const spirv::Instruction& instruction : module_.instructions) {
+            if (instruction.opcode == spv::OpFunction) break;
+            if (instruction.opcode != spv::OpExecutionMode) continue;
+            const auto mode = instruction.as<spv::ExecutionMode>(2);
+            if (((mode == modes) || ...)) return true;
+        }
+        return false;
+    }
+
+    void check_early_tests() {
+        if (!has_mode(spv::ExecutionModeEarlyFragmentTests)) return;
+        const std::string early = declared("early_fragment_tests").text();
+        const Part depth = spirv::built_in_output(module_, spv::BuiltInFragDepth);
+        if (depth.first != Id::none && usage_.written.contains(depth))
+            warn(use_of("gl_FragDepth", pieces_),
+                 fmt::format("what is written to gl_FragDepth is ignored: {} states early_fragment_tests",
+                             early),
+                 "drop one of the two");
+        if (usage_.discards)
+            warn(
+                use_of("discard", pieces_),
+                fmt::format("discard comes too late for the depth buffer: {} states early_fragment_tests, so "
+                            "the depth of a discarded fragment is stored",
+                            early),
+                "drop one of the two");
+    }
+
+    const spirv::Module& module_;
+    const spirv::Usage& usage_;
+    const std::vector<const Piece*>& pieces_;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
+                        const std::vector<const Piece*>& pieces) {
+    return StageCheck(module, usage, pieces).run();
+}
+
+}  // namespace gobo

@@ -1,0 +1,18 @@
+// What glslang lets pass within one stage.
+#pragma once
+
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
+#include "spirv/usage.hpp"
+
+namespace gobo {
+
+/// Outputs that no path or only some paths through main() write, gl_Position that is never written, and
+/// depths and discards that early_fragment_tests makes useless, as warnings; depth_* without its extension
+/// is an error.
+[[nodiscard]] Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
+                                      const std::vector<const Piece*>& pieces);
+
+}  // namespace gobo
