@@ -24,7 +24,7 @@ void merge_into(toml::table& base, toml::table& over, const std::vector<std::str
                 element.visit([&](auto& value) { present->as_array()->push_back(std::move(value)); });
             }
         } else {
-            node.visit([&](auto& value) { base.insert_or_assign(key, std::move(value)); });
+            node.visit([&, at = key](auto& value) { base.insert_or_assign(at, std::move(value)); });
         }
     }
 }
