@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "lab/evaluate/images.hpp"
 #include "lab/render/mesh.hpp"
 

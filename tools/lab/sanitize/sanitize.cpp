@@ -120,9 +120,10 @@ void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
          const std::vector<std::size_t>& permutations) {
     report.points += search.points();
     for (const auto& [signature, finding] : search.findings()) {
-        const auto shared = std::find_if(
-            report.findings.begin(), report.findings.end(),
-            [&](const SharedFinding& other) { return signature_of(other.finding) == signature; });
+        const auto shared = std::find_if(report.findings.begin(), report.findings.end(),
+                                         [&, known = signature](const SharedFinding& other) {
+                                             return signature_of(other.finding) == known;
+                                         });
         if (shared == report.findings.end()) {
             report.findings.push_back({finding, stage, permutations});
             continue;

@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "lab/evaluate/images.hpp"
 #include "lab/verify/random_points.hpp"
 #include "lab/verify/sample_members.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "compose/dialect.hpp"
 #include "core/parallel.hpp"
 #include "family/key.hpp"
