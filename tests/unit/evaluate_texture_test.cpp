@@ -48,7 +48,7 @@ TEST_P(WrittenTexture, ReadsBackTheSame) {
     invocations.values["a"] = {0.3, -0.2, 0.9, 1};
     invocations.images["tex"] = image_of(row.content, program.images.front().type);
     const EvalPoint point = point_of(program, invocations, 0);
-    const std::string file = eval_file("fragment", point, "# a point\n", Digits::all);
+    const std::string file = eval_file("fragment", point, {"a point"}, Digits::all);
     EXPECT_EQ(file, std::string("# a point\nstage = \"fragment\"\n\n[inputs]\n\"a\" = [0.3, -0.2, 0.9, 1]\n"
                                 "\n[samplers]\n") +
                         row.samplers);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+
 namespace gobo {
 namespace {
 
@@ -17,15 +19,16 @@ constexpr std::array kStatuses = {1, 2, 3, 3, 4};
 
 std::string place_text(const Place& place) {
     if (place.file.empty()) return "gobo";
-    if (place.line <= 0) return place.file;
-    const std::string text = fmt::format("{}:{}", place.file, place.line);
+    const std::string file = one_line(place.file);
+    if (place.line <= 0) return file;
+    const std::string text = fmt::format("{}:{}", file, place.line);
     return place.column > 0 ? fmt::format("{}:{}", text, place.column) : text;
 }
 
 /// The quoted line and, where the column is known, a caret below it; tabs are kept so that the caret stands
 /// right.
 std::string quotation(const Diagnostic& diagnostic) {
-    std::string text = fmt::format("    {}\n", diagnostic.quoted_line);
+    std::string text = fmt::format("    {}\n", one_line(diagnostic.quoted_line));
     const auto column = static_cast<std::size_t>(std::max(diagnostic.place.column, 0));
     if (column == 0 || column > diagnostic.quoted_line.size() + 1) return text;
     text += "    ";
@@ -55,11 +58,11 @@ std::string to_text(const Diagnostic& diagnostic, bool color) {
     const auto severity = static_cast<std::size_t>(diagnostic.severity);
     std::string text =
         fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place), color ? kColors[severity] : "",
-                    kNames[severity], color ? "\033[0m" : "", diagnostic.message);
-    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", diagnostic.subject);
+                    kNames[severity], color ? "\033[0m" : "", printable(diagnostic.message));
+    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", one_line(diagnostic.subject));
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
-    if (!diagnostic.help.empty()) text += fmt::format("  help: {}\n", diagnostic.help);
+    if (!diagnostic.help.empty()) text += fmt::format("  help: {}\n", printable(diagnostic.help));
     return text;
 }
 

@@ -88,6 +88,26 @@ std::string folder_of(std::string_view path) {
                                            : std::string(path.substr(0, std::max(slash, std::size_t{1})));
 }
 
+std::string printable(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        // U+0080 to U+009F, in UTF-8, are control characters too.
+        const bool is_long =
+            byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+        const bool is_control = is_long || byte == 0x7F || (byte < ' ' && byte != '\t' && byte != '\n');
+        result += is_control ? '?' : text[i];
+        if (is_long) ++i;
+    }
+    return result;
+}
+
+std::string one_line(std::string_view text) {
+    std::string line = printable(text);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    return line;
+}
+
 std::string short_number(double number) {
     if (number != 0 && (std::abs(number) < 1e-3 || std::abs(number) >= 1e6))
         return fmt::format("{:.1e}", number);

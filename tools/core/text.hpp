@@ -33,6 +33,11 @@ namespace gobo {
 /// The folder of a path, without the slash at its end ("/" alone keeps it); empty where it names none.
 [[nodiscard]] std::string folder_of(std::string_view path);
 
+/// The text with '?' for control characters other than tabs and line ends: a terminal would obey them.
+[[nodiscard]] std::string printable(std::string_view text);
+/// The same on one line, for comments that a line end closes.
+[[nodiscard]] std::string one_line(std::string_view text);
+
 /// A number for readers: three significant digits, and all of those before the point; no exponent where it
 /// can do without.
 [[nodiscard]] std::string short_number(double number);

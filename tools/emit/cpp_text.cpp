@@ -71,6 +71,16 @@ std::string cpp_literal(std::string_view text) {
     return fits_raw_literal(text) ? raw_literal(text) : escaped_literal(text);
 }
 
+std::string cpp_comment(std::string_view text) {
+    std::string result(text);
+    // To a compiler that knows trigraphs, "??/" is a '\\'.
+    const auto is_unsafe = [](char character) {
+        return !is_plain(character) || character == '\n' || character == '\\' || character == '?';
+    };
+    std::ranges::replace_if(result, is_unsafe, '_');
+    return result;
+}
+
 std::string cpp_list(const std::vector<std::string>& items) {
     if (items.empty()) return {};
     std::string text = "{";

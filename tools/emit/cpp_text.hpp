@@ -12,6 +12,10 @@ namespace gobo {
 /// printable ASCII, tabs and line ends, otherwise one with escapes.
 [[nodiscard]] std::string cpp_literal(std::string_view text);
 
+/// `text` for a `//` comment, whatever its bytes: `_` for line ends, for what joins lines, and for all that is
+/// not printable ASCII.
+[[nodiscard]] std::string cpp_comment(std::string_view text);
+
 /// The items within braces, some to a line; nothing where there are none (std::array of 0 takes no inner
 /// braces).
 [[nodiscard]] std::string cpp_list(const std::vector<std::string>& items);

@@ -41,7 +41,7 @@ Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std
 std::string version_of(const Composition& composition) {
     if (composition.dialect != Dialect::own) return std::string(name_of(composition.dialect));
     for (const Piece& piece : composition.pieces) {
-        if (piece.text.find("#version ") == std::string::npos) continue;
+        if (piece.name != "prologue" || piece.text.find("#version ") == std::string::npos) continue;
         const GlslVersion version = version_of(piece.text);
         if (version.es && version.number == 300) return "es300";
         const bool has_profile = !version.profile.empty() && version.profile != "core";
@@ -58,9 +58,9 @@ void add_table(TemplateValues& values, const std::string& name, const std::vecto
 Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
     const Family& family = input.family;
     TemplateValues values;
-    values["family"] = family.name;
+    values["family"] = cpp_comment(family.name);
     GOBO_TRY(values["namespace"], namespace_of(input));
-    values["dialect"] = version_of(input.composition);
+    values["dialect"] = cpp_comment(version_of(input.composition));
 
     const std::vector<std::string> taken = split(kHeaderNames, ' ');
     CppScope scope({taken.begin(), taken.end()});

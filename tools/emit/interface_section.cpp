@@ -39,7 +39,7 @@ std::string constants_of(const std::vector<Item>& items, const std::vector<Domai
     for (const Item& item : items) {
         const std::string domain = domain_text(domains, item.name);
         text += fmt::format("inline constexpr int {} = {};  ///< {}{}{}\n",
-                            scope.claim(cpp_identifier(item.name)), place_of(item), item.type,
+                            scope.claim(cpp_identifier(item.name)), place_of(item), cpp_comment(item.type),
                             domain.empty() ? "" : ", ", domain);
     }
     return text;

@@ -44,7 +44,7 @@ std::string enum_text(const CppFeature& named) {
             feature.default_place == 0 ? ", most accurate first" : ", most accurate first behind the default";
     // A quarter thousand values fit in a byte; nobody has more, but an enum must not depend on that.
     const std::string_view type = feature.values.size() < 256 ? "std::uint8_t" : "std::uint16_t";
-    return fmt::format("/// {} ({}{}).\nenum class {} : {} {{ {} }};\n\n", feature.name,
+    return fmt::format("/// {} ({}{}).\nenum class {} : {} {{ {} }};\n\n", cpp_comment(feature.name),
                        name_of(feature.role), order, named.type, type, fmt::join(named.enumerators, ", "));
 }
 

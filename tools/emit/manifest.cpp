@@ -84,11 +84,13 @@ std::string indented(const std::string& text) {
     return result;
 }
 
-/// As GCC writes names: a blank or '#' takes a backslash, and backslashes just before one are doubled.
+/// As GCC writes names: a blank or '#' takes a backslash, and backslashes just before one are doubled. What
+/// cannot be written there, a line end, is '_': no file then has the name, and make builds anew.
 std::string escaped(std::string_view path) {
     std::string result;
     std::size_t backslashes = 0;
-    for (const char character : path) {
+    for (char character : path) {
+        if (character == '\n' || character == '\r') character = '_';
         if (character == ' ' || character == '\t' || character == '#') result.append(backslashes + 1, '\\');
         if (character == '$') result += '$';
         backslashes = character == '\\' ? backslashes + 1 : 0;

@@ -137,7 +137,7 @@ class StructWriter {
             block.binding, size);
         if (const Member* last = last_array(block)) {
             GOBO_TRY(const std::string bytes,
-                     fill(templates_.at("bytes"), {{"array", last->name},
+                     fill(templates_.at("bytes"), {{"array", cpp_comment(last->name)},
                                                    {"offset", std::to_string(last->offset)},
                                                    {"stride", std::to_string(last->array_stride)}}));
             constants += bytes;
@@ -198,7 +198,7 @@ class StructWriter {
     Result<void> append(const StructText& structure, const std::string& description,
                         const std::string& constants) {
         GOBO_TRY(const std::string text,
-                 fill(templates_.at("struct"), {{"description", description},
+                 fill(templates_.at("struct"), {{"description", cpp_comment(description)},
                                                 {"name", structure.name},
                                                 {"members", structure.members},
                                                 {"constants", constants},
@@ -272,8 +272,8 @@ Result<std::string> block_check(const Block& block, const StructText& structure,
         extent = fmt::format(", as far as the first `count` of `{}`", last->name);
         count = fmt::format(", [[maybe_unused]] int count = {}", last->array.front());
     }
-    return fill(check, {{"block", block.name},
-                        {"extent", extent},
+    return fill(check, {{"block", cpp_comment(block.name)},
+                        {"extent", cpp_comment(extent)},
                         {"unused", body.empty() ? "[[maybe_unused]] " : ""},
                         {"type", structure.name},
                         {"count", count},

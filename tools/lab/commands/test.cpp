@@ -96,13 +96,13 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
                              options.folder.empty() ? "; keep the worst point with -o DIR" : "");
     Diagnostics diagnostics = {std::move(error)};
     const auto keep = [&](const std::string& side_key, const evaluate::EvalPoint& point, const char* side) {
-        append(diagnostics,
-               keep_point(world, options,
-                          file_name(one, report.worst->stage,
-                                    fmt::format("relation_{}.{}", report.relation + 1, side)),
-                          evaluate::eval_file(name_of(report.worst->stage), point, "# " + side_key + "\n",
-                                              evaluate::Digits::all),
-                          fmt::format("gobo eval {} '{}' --inputs this file", options.family, side_key)));
+        append(
+            diagnostics,
+            keep_point(
+                world, options,
+                file_name(one, report.worst->stage, fmt::format("relation_{}.{}", report.relation + 1, side)),
+                evaluate::eval_file(name_of(report.worst->stage), point, {side_key}, evaluate::Digits::all),
+                fmt::format("gobo eval {} '{}' --inputs this file", options.family, side_key)));
     };
     if (!report.worst || options.folder.empty()) return diagnostics;
     keep(one, report.worst->one, "one");

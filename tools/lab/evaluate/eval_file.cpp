@@ -277,11 +277,13 @@ EvalPoint point_of(const Program& program, const Invocations& invocations, std::
     return point;
 }
 
-std::string eval_file(std::string_view stage, const EvalPoint& point, std::string_view comment,
+std::string eval_file(std::string_view stage, const EvalPoint& point, const std::vector<std::string>& comment,
                       Digits digits) {
-    return fmt::format("{}stage = \"{}\"\n{}{}{}", comment, stage, table_text("inputs", point.inputs, digits),
-                       table_text("uniforms", point.uniforms, digits),
-                       table_text("samplers", point.samplers, digits));
+    std::string text;
+    for (const std::string& line : comment) text += fmt::format("# {}\n", one_line(line));
+    return text + fmt::format("stage = \"{}\"\n{}{}{}", stage, table_text("inputs", point.inputs, digits),
+                              table_text("uniforms", point.uniforms, digits),
+                              table_text("samplers", point.samplers, digits));
 }
 
 }  // namespace gobo::evaluate

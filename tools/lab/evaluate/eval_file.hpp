@@ -64,7 +64,7 @@ enum class Digits {
 };
 
 /// The point as an input file: the lines of `comment`, `stage`, `[inputs]`, `[uniforms]` and `[samplers]`.
-[[nodiscard]] std::string eval_file(std::string_view stage, const EvalPoint& point, std::string_view comment,
-                                    Digits digits);
+[[nodiscard]] std::string eval_file(std::string_view stage, const EvalPoint& point,
+                                    const std::vector<std::string>& comment, Digits digits);
 
 }  // namespace gobo::evaluate

@@ -441,9 +441,9 @@ std::string to_text(const Finding& finding) {
 }
 
 std::string eval_input(const Finding& finding, const std::string& heading) {
-    const std::string comment =
-        fmt::format("# {}\n# {}:{}: {}\n", heading, finding.place.file, finding.place.line, to_text(finding));
-    return evaluate::eval_file(gobo::name_of(finding.stage), finding.point, comment,
+    const std::string place = fmt::format("{}:{}", finding.place.file, finding.place.line);
+    return evaluate::eval_file(gobo::name_of(finding.stage), finding.point,
+                               {heading, fmt::format("{}: {}", place, to_text(finding))},
                                evaluate::Digits::of_float);
 }
 

@@ -33,8 +33,8 @@ std::string html_escaped(std::string_view text) {
 }
 
 std::string html_script(std::string json) {
-    for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at))
-        json.replace(at, 2, "<\\/");
+    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
+        json.replace(at, 1, "\\u003c");
     return json;
 }
 

@@ -10,7 +10,7 @@ namespace gobo::study {
 /// `text` for use between tags and in attributes.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
-/// JSON within a <script> element: `</` would end it.
+/// JSON within a <script> element, which a `<` could end or comment out.
 [[nodiscard]] std::string html_script(std::string json);
 
 /// The bytes of a file as a data URL: "data:image/png;base64,...".

@@ -46,7 +46,7 @@ std::string to_text(const Failure& failure) {
 
 std::string eval_input(const Failure& failure, const std::string& key) {
     return evaluate::eval_file(gobo::name_of(failure.stage), failure.point,
-                               fmt::format("# {}: {}\n", key, to_text(failure)), evaluate::Digits::all);
+                               {fmt::format("{}: {}", key, to_text(failure))}, evaluate::Digits::all);
 }
 
 }  // namespace gobo::verify
