@@ -29,7 +29,7 @@ class Prologue : public testing::TestWithParam<PrologueRow> {};
 
 TEST_P(Prologue, IsExact) {
     const PrologueRow& row = GetParam();
-    EXPECT_EQ(dialect_prologue(row.dialect, row.stage, row.own_version, row.mentions), row.text);
+    EXPECT_EQ(dialect_prologue(row.dialect, row.stage, row.own_version, {}, row.mentions), row.text);
 }
 
 constexpr const char* modern =

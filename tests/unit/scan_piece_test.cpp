@@ -20,11 +20,11 @@ TEST(ScanPiece, BlanksDirectivesAndKeepsLines) {
     EXPECT_EQ(piece.code, "\n\n\n\n\nfloat f() { return 1.0; }\n");
     EXPECT_EQ(piece.version, "330 core");
     ASSERT_EQ(piece.includes.size(), 2u);
-    EXPECT_TRUE(piece.includes[0].of_feature);
+    EXPECT_TRUE(piece.includes[0].in_angles);
     EXPECT_EQ(piece.includes[0].target, "fog");
     EXPECT_EQ(piece.includes[0].place, (Place{"a.glsl", 3, 3}));
     EXPECT_EQ(piece.includes[0].line, "  # include  <fog>");
-    EXPECT_FALSE(piece.includes[1].of_feature);
+    EXPECT_FALSE(piece.includes[1].in_angles);
     EXPECT_EQ(piece.includes[1].target, "common/math.glsl");
 }
 
@@ -36,7 +36,7 @@ TEST(ScanPiece, SeesNothingInComments) {
                                    .value();
     EXPECT_TRUE(piece.includes.empty());
     EXPECT_TRUE(piece.version.empty());
-    EXPECT_THAT(piece.identifiers, testing::ElementsAre("int", "seen"));
+    EXPECT_THAT(identifiers_of(piece.code), testing::ElementsAre("int", "seen"));
 }
 
 struct CommentRow {
@@ -58,24 +58,114 @@ INSTANTIATE_TEST_SUITE_P(
         CommentRow{"between_tokens", "int/**/a = 1 /* b */ + 2;\n", "int    a = 1         + 2;\n"},
         CommentRow{"over_lines", "/* a\n * b\n */ int c;\n", "\n\n    int c;\n"},
         CommentRow{"behind_code_over_lines", "int a; /* b\n c */\n", "int a;\n\n"},
-        CommentRow{"amid_a_directive_over_lines", "#define A 1 /* b\n c */ + 2\n",
-                   "#define A 1 /*\n   */ + 2\n"},
-        CommentRow{"amid_a_joined_directive", "#define A \\\n/* b\n*/ 2\n", "#define A \\\n/*\n*/ 2\n"},
+        CommentRow{"amid_a_directive_over_lines", "#define A 1 /* b\n c */ + 2\nint d;\n",
+                   "#define A 1   + 2\n\nint d;\n"},
+        CommentRow{"amid_a_joined_directive", "#define A \\\n/* b\n*/ 2\nint d;\n",
+                   "#define A   2\n\n\nint d;\n"},
+        CommentRow{"twice_amid_a_line", "int a; /*\n*/ int /*\n*/ b;\nint c;\n",
+                   "int a;   int   b;\n\n\nint c;\n"},
+        CommentRow{"before_a_directive", "/* a\n*/ #define B\n", "\n   #define B\n"},
         CommentRow{"of_comments", "/**//*/ /* // */ int a; //* b\nint c; // /*\nint d;\n",
                    "                 int a;\nint c;\nint d;\n"},
         CommentRow{"at_the_end", "int a; // b", "int a;\n"},
         CommentRow{"with_windows_line_ends", "int a; // b\r\n/* c\r\n */\r\n#define A \\\r\n 1\r\n",
-                   "int a;\n\n\n#define A \\\n 1\n"},
-        CommentRow{"with_old_line_ends", "int a; // b\rint c;\n", "int a;     \rint c;\n"},
+                   "int a;\n\n\n#define A  1\n\n"},
+        CommentRow{"with_old_line_ends", "int a; // b\rint c;\r/* d\r*/\rint e;",
+                   "int a;\nint c;\n\n\nint e;\n"},
+        CommentRow{"with_line_ends_the_other_way", "int a; // b\n\rint c;\n\r", "int a;\nint c;\n"},
+        CommentRow{"with_a_form_feed", "int a;\f// b\v\nint\vc;\n", "int a;\nint c;\n"},
         CommentRow{"behind_a_backslash", "#define A \\ // b\nint a;\n#define B \\ \nint c;\n",
                    "#define A \\ \nint a;\n#define B \\ \nint c;\n"},
-        CommentRow{"that_may_go_on", "int a; // b \\\nint c; // d\n", "int a; // b \\\nint c; // d\n"},
-        CommentRow{"that_may_go_on_windows", "// b \\\r\nint c;\n", "// b \\\nint c;\n"},
-        CommentRow{"begun_on_two_lines", "int a; /\\\n/ b\n// c\n", "int a; /\\\n/ b\n// c\n"},
-        CommentRow{"ended_on_two_lines", "/* a *\\\n/ int b; /* */\n", "/* a *\\\n/ int b; /* */\n"},
-        CommentRow{"that_may_be_a_string", "#error \"see // a\" b\n", "#error \"see // a\" b\n"},
+        CommentRow{"that_takes_in_a_line", "int a; // b \\\nint c; // d\nint e;\n", "int a;\n\nint e;\n"},
+        CommentRow{"that_takes_in_a_line_of_windows", "// b \\\r\nint c;\r\nint d;", "\n\nint d;\n"},
+        CommentRow{"kept_to_a_line_by_a_blank", "// b \\ \nint c;\n", "\nint c;\n"},
+        CommentRow{"begun_on_two_lines", "int a; /\\\n/ b\n// c\nint d;\n", "int a;\n\n\nint d;\n"},
+        CommentRow{"ended_on_two_lines", "/* a *\\\n/ int b; /* */\nint c;\n", "        int b;\n\nint c;\n"},
+        CommentRow{"joined_at_the_end_of_the_file", "int a; \\", "int a;\n"},
+        CommentRow{"in_quotation_marks", "#error \"see // a\" b\nint c;\n", "#error  see\nint c;\n"},
+        CommentRow{"behind_quotation_marks", "#error \"see\" // a\n", "#error \"see\"\n"},
         CommentRow{"with_a_quote", "int a; // don't \"b\n", "int a;\n"}),
     [](const auto& row) { return row.param.name; });
+
+TEST(ScanPiece, KeepsCommentsThatNobodyCanMistake) {
+    const ScannedPiece piece = scan_piece(
+                                   "// a \\ \nint b; /* c\n d */\n#define E 1 /* f\n*/ + 2\n#error \"g // h\n"
+                                   "int i; // j \\\nint k;\n",
+                                   "a.glsl")
+                                   .value();
+    EXPECT_EQ(piece.text,
+              "// a \\ \nint b; /* c\n d */\n#define E 1   + 2\n\n#error  g\nint i; // j int k;\n\n");
+    EXPECT_EQ(piece.code, "\nint b;\n\n#define E 1   + 2\n\n#error  g\nint i;\n\n");
+    ASSERT_EQ(piece.warnings.size(), 1u);
+    EXPECT_EQ(to_text(piece.warnings.front()),
+              "a.glsl:7: warning: this comment takes in the next line, since it ends in '\\'\n"
+              "    int i; // j \\\n  help: write something behind the '\\'\n");
+}
+
+TEST(ScanPiece, MindsNoCommentThatTakesInNothing) {
+    for (const char* text : {"// a \\\n\nint b;\n", "// a \\\n  // b\nint c;\n", "// a \\ \nint b;\n"})
+        EXPECT_TRUE(scan_piece(text, "a.glsl").value().warnings.empty()) << text;
+}
+
+TEST(ScanPiece, TakesOutWhatTheComposerAnswers) {
+    const ScannedPiece piece = scan_piece(
+                                   "#pragma once\n# line 7 \"b\"\nint a;\n#line 3\n#extension GL_A : warn\n"
+                                   "#ifdef B\n#extension GL_B : require\n#endif\n#pragma optimize(off)\n"
+                                   "#extension GL_A:enable\n#extension odd\n#version 120\n#include <c>\n",
+                                   "a.glsl")
+                                   .value();
+    EXPECT_EQ(piece.code,
+              "\n\nint a;\n\n\n#ifdef B\n\n#endif\n#pragma optimize(off)\n\n#extension odd\n\n\n");
+    EXPECT_TRUE(piece.is_once);
+    EXPECT_EQ(piece.version, "120");
+    ASSERT_EQ(piece.extensions.size(), 1u);
+    EXPECT_EQ(piece.extensions.at("GL_A").behavior, "enable");
+    EXPECT_EQ(piece.extensions.at("GL_A").place, (Place{"a.glsl", 10, 1}));
+    std::vector<std::string> words;
+    for (const Directive& directive : piece.directives) words.push_back(directive.word);
+    EXPECT_THAT(words, testing::ElementsAre("ifdef", "extension", "endif", "include"));
+}
+
+TEST(ScanPiece, SeesGuardsAroundTheWholeFile) {
+    const auto guard_of = [](const char* text) { return scan_piece(text, "a.glsl").value().guard; };
+    EXPECT_EQ(guard_of("// a\n#ifndef A\n#define A\nint a;\n#ifdef B\n#else\n#endif\n#endif // A\n\n"), "A");
+    EXPECT_EQ(guard_of("#pragma once\n#version 330\n#ifndef A\n#define A\n#endif\n"), "A");
+    EXPECT_EQ(guard_of("#ifndef A\n#endif\nint a;\n"), "");
+    EXPECT_EQ(guard_of("int a;\n#ifndef A\n#endif\n"), "");
+    EXPECT_EQ(guard_of("#ifndef A\n#else\n#endif\n"), "");
+    EXPECT_EQ(guard_of("#ifndef A\n#endif\n#ifndef B\n#endif\n"), "");
+    EXPECT_EQ(guard_of("#include <b>\n#ifndef A\n#endif\n"), "");
+    EXPECT_EQ(guard_of("#ifdef A\n#endif\n"), "");
+}
+
+TEST(ScanPiece, WarnsOfUniformBlocksWithoutALayout) {
+    const std::pair<const char*, std::size_t> rows[] = {
+        {"uniform A { float a; };", 1},
+        {"layout(binding = 1) uniform A\n{ float a; };", 1},
+        {"layout(shared) uniform A { float a; }; uniform B { float b; };", 2},
+        {"layout(std140) uniform A { float a; };", 0},
+        {"layout(binding = 1) layout(row_major, std140) uniform A { float a; };", 0},
+        {"layout(std140) uniform; uniform A { float a; };", 0},
+        {"layout(std140) uniform A { float a; }; uniform B { float b; };", 1},
+        {"uniform float a; void f() { { } }", 0},
+    };
+    for (const auto& [text, count] : rows)
+        EXPECT_EQ(scan_piece(text, "a.glsl").value().warnings.size(), count) << text;
+    EXPECT_EQ(
+        to_text(scan_piece("int a;\nuniform // b\n A { float a; };", "a.glsl").value().warnings.front()),
+        "a.glsl:3: warning: the uniform block 'A' does not state std140: drivers lay it out as they like\n"
+        "     A { float a; };\n"
+        "  help: write layout(std140) before uniform, or ask the driver for every offset\n");
+}
+
+TEST(ScanPiece, TakesLongBlanks) {
+    const std::string blanks(300'000, ' ');
+    const std::string text = "layout(std140" + blanks + ") uniform /*" + blanks + "*/ A" + blanks +
+                             "{ float a; };" + "BLOCK(" + blanks + "1, B)\n";
+    const ScannedPiece piece = scan_piece(text, "a.glsl").value();
+    EXPECT_TRUE(piece.warnings.empty());
+    EXPECT_THAT(piece.bindings, testing::ElementsAre(testing::Pair("B", 1)));
+}
 
 TEST(ScanPiece, ReadsWindowsLineEndsAndByteOrderMarks) {
     const ScannedPiece piece =
@@ -115,21 +205,39 @@ TEST_P(BadPiece, IsRefusedExactly) {
 INSTANTIATE_TEST_SUITE_P(
     Rows, BadPiece,
     testing::Values(
-        BadPieceRow{"include_after_code", "int a;\n\t#include <fog>\n",
-                    "a.glsl:2:2: error: #include after code\n    \t#include <fog>\n    \t^\n"
-                    "  help: includes stand at the top of a piece, after comments only\n"},
-        BadPieceRow{"include_within_condition", "#if A\n#include <fog>\n#endif\n",
-                    "a.glsl:2:1: error: #include after code\n    #include <fog>\n    ^\n"
-                    "  help: includes stand at the top of a piece, after comments only\n"},
         BadPieceRow{"include_of_nothing", "#include\n",
                     "a.glsl:1:1: error: malformed #include\n    #include\n    ^\n"
                     "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
         BadPieceRow{"include_half_closed", "#include \"a.glsl>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include \"a.glsl>\n    ^\n"
                     "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
-        BadPieceRow{"include_of_no_feature", "#include <fog linear>\n",
-                    "a.glsl:1:1: error: malformed #include\n    #include <fog linear>\n    ^\n"
-                    "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
+        BadPieceRow{
+            "version_of_another_language", "#version 450\r#ifdef __cplusplus\r#version 1;system()//\r",
+            "a.glsl:3:1: error: GLSL has no #version '1;system()'\n    #version 1;system()//\n    ^\n"
+            "  help: write a number that GLSL has and the profile alone: 330 core, 450, 300 es\n"},
+        BadPieceRow{
+            "version_with_more", "#version 330 core int a;\n",
+            "a.glsl:1:1: error: GLSL has no #version '330 core int a;'\n    #version 330 core int a;\n    ^\n"
+            "  help: write a number that GLSL has and the profile alone: 330 core, 450, 300 es\n"},
+        BadPieceRow{"version_twice", "#version 330\nint a;\n#version 450\n",
+                    "a.glsl:3:1: error: a second #version beside 330\n    #version 450\n    ^\n"
+                    "  help: state the version once\n"},
+        BadPieceRow{"no_endif", "int a;\n#if A\n#ifdef B\n#endif\n",
+                    "a.glsl:2:1: error: missing #endif: nothing ends this #if\n    #if A\n    ^\n"
+                    "  help: write #endif in the same file, behind what the condition is for\n"},
+        BadPieceRow{"no_endif_within", "#if A\n # ifndef B\n#endif\n",
+                    "a.glsl:1:1: error: missing #endif: nothing ends this #if\n    #if A\n    ^\n"
+                    "  help: write #endif in the same file, behind what the condition is for\n"},
+        BadPieceRow{"no_if", "#if A\n#endif\n#endif\n",
+                    "a.glsl:3:1: error: #endif without #if\n    #endif\n    ^\n"
+                    "  help: begin and end a condition in the same file\n"},
+        BadPieceRow{"two_elses", "#if A\n#else\n#elif B\n#endif\n",
+                    "a.glsl:3:1: error: #elif behind the #else of line 2\n    #elif B\n    ^\n"
+                    "  help: end the condition with #endif first\n"},
+        BadPieceRow{"open_comment_on_a_joined_line", "int a; \\\n b /* c\nint d;\n",
+                    "a.glsl:2: error: a comment has no end\n     b /* c\n  help: close it with */\n"},
+        BadPieceRow{"open_comment_begun_in_quotation_marks", "#error \"/*\"\n",
+                    "a.glsl:1: error: a comment has no end\n    #error \"/*\"\n  help: close it with */\n"},
         BadPieceRow{
             "open_comment", "int a;\nint b; /* c */ /* d\n\n",
             "a.glsl:2: error: a comment has no end\n    int b; /* c */ /* d\n  help: close it with */\n"},
@@ -141,6 +249,16 @@ INSTANTIATE_TEST_SUITE_P(
                     "    {{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{\n"
                     "  help: split the expression or the function\n"}),
     [](const auto& row) { return row.param.name; });
+
+TEST(ScanPiece, TakesTheVersionsOfGlsl) {
+    for (const char* version : {"100", "110", "120", "130", "140", "150", "150 core", "150 compatibility",
+                                "330 core", "460", "300 es", "310   es", "320 es"})
+        EXPECT_EQ(scan_piece(std::string("#version ") + version, "a").value().version, version);
+    for (const char* version :
+         {"", "1", "0", "450a", "450 es", "300", "300 core", "140 core", "330 Core", "-330", "0x14A",
+          "330 core core", "450\x1b[31m", "450 \xE2\x80\xA8", "99999999999999999999", "4.5"})
+        EXPECT_FALSE(scan_piece(std::string("#version ") + version, "a")) << version;
+}
 
 TEST(ScanPiece, TakesDeepNestingThatIsClosedAgain) {
     std::string text;

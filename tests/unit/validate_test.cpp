@@ -181,12 +181,96 @@ INSTANTIATE_TEST_SUITE_P(
                  "uniform buffer bindings up to that of 'B': 37, OpenGL guarantees only 36"}),
     [](const auto& row) { return row.param.name; });
 
+/// What a template makes of a piece that lacks an end.
+struct EndRow {
+    const char* name;
+    const char* piece;
+    const char* message;  ///< with its place
+};
+
+class MissingEnd : public testing::TestWithParam<EndRow> {};
+
+TEST_P(MissingEnd, IsToldWhereItIsMissing) {
+    for (const char* template_text : {"#include \"a.glsl\"\n#include \"b.glsl\"\nlayout(location = 0) out "
+                                      "vec4 c;\nvoid main() { c = vec4(b()); }\n",
+                                      "layout(location = 0) out vec4 c;\n#include \"a.glsl\"\n#include "
+                                      "\"b.glsl\"\nvoid main() { c = vec4(b()); }\n"}) {
+        const MemoryFileSystem disk(Files{{"tiny.vert", plain_vertex},
+                                          {"tiny.frag", template_text},
+                                          {"a.glsl", GetParam().piece},
+                                          {"b.glsl", "uniform float u;\nfloat b() { return u; }\n"}});
+        SearchPath search;
+        search.add(disk, "", "", false);
+        const Family family = family_of("");
+        const Composition composition = compose(family, {{}}, search, Dialect::own).value();
+        const Diagnostics found = validate(family, composition, {}).diagnostics;
+        EXPECT_THAT(first_text(found), testing::StartsWith(GetParam().message));
+        if (std::string_view(GetParam().message).find("is missing") != std::string_view::npos) {
+            EXPECT_EQ(found.size(), 1u) << "one cause is one message";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, MissingEnd,
+    testing::Values(
+        EndRow{"semicolon", "const float a = 1.0 // one\n\n",
+               "a.glsl:1: error: a ';' is missing behind the last declaration"},
+        EndRow{"semicolon_of_a_prototype", "float a();\nfloat d()\n",
+               "a.glsl:2: error: a ';' is missing behind"},
+        EndRow{"semicolon_of_a_struct", "struct A {\n  float a;\n}\n",
+               "a.glsl:3: error: a ';' is missing behind"},
+        EndRow{"semicolon_of_a_block", "layout(std140, binding = 1) uniform A {\n  float a;\n}",
+               "a.glsl:3: error: a ';' is missing behind"},
+        EndRow{"semicolon_of_a_block_with_a_name", "layout(std140, binding = 1) uniform A {\n  float a;\n} a",
+               "a.glsl:3: error: a ';' is missing behind"},
+        EndRow{"semicolon_of_an_array", "const float a[2] = float[](1.0, 2.0)\n",
+               "a.glsl:1: error: a ';' is missing behind"},
+        EndRow{"brace", "float a() {\n  if (true) {\n    return 1.0;\n  }\n  return 0.0;\n// end\n",
+               "a.glsl:5: error: a '}' is missing: nothing closes the '{' of line 1 [default]\n      return "
+               "0.0;\n"},
+        EndRow{"brace_within", "float a() {\n  if (true) {\n    return 1.0;\n  return 0.0;\n}\n",
+               "a.glsl:5: error: a '}' is missing: nothing closes the '{' of line 1 [default]\n    }\n"},
+        EndRow{"parenthesis", "const float a = max(1.0, 2.0\n",
+               "a.glsl:1: error: a ')' is missing: nothing closes the '(' of line 1"},
+        EndRow{"bracket", "uniform float a[3\n",
+               "a.glsl:1: error: a ']' is missing: nothing closes the '[' of line 1"},
+        EndRow{"semicolon_within", "float a() { return 1.0 }\n", "a.glsl:1: error: '' :  syntax error"},
+        EndRow{"brace_too_many", "float a() { return 1.0; }\n}\n", "a.glsl:2: error: '' :  syntax error"},
+        EndRow{"brace_under_a_condition",
+               "#ifdef A\nfloat a() {\n#else\nfloat b2() {\n#endif\n return 1.0;\n", ""},
+        EndRow{"nothing", "float a() { return 1.0; }\n", ""},
+        EndRow{"nothing_but_another_mistake", "float a() { return oops; }\n", "a.glsl:1: error: 'oops'"},
+        EndRow{"nothing_in_a_macro", "#define BEGIN {\n#define END }\nfloat a() BEGIN return 1.0; END\n",
+               ""}),
+    [](const auto& row) { return row.param.name; });
+
+TEST_F(Validate, LetsNoPieceCloseAnothersBracket) {
+    files["tiny.frag"] =
+        "#include \"a.glsl\"\n#include \"b.glsl\"\nlayout(location = 0) out vec4 c;\nvoid main() { c = oops; "
+        "}\n";
+    files["a.glsl"] = "float a() {\n";
+    files["b.glsl"] = "return 1.0; }\n";
+    EXPECT_THAT(messages(),
+                ElementsAre(HasSubstr("tiny.frag:4: error: 'oops'"), HasSubstr("tiny.frag:4: error:")))
+        << "which GLSL allows";
+}
+
+TEST_F(Validate, WantsAMain) {
+    for (const char* text : {"", "\n", "float f() { return 1.0; }\n", "void Main() {}\n", "void main();\n",
+                             "#if 0\nvoid main() {}\n#endif\n"}) {
+        files["tiny.frag"] = text;
+        EXPECT_THAT(messages(), ElementsAre("tiny.frag: error: the fragment stage has no main() [default]\n"
+                                            "  help: write void main() in the template\n"))
+            << text;
+    }
+}
+
 /// Comments where they could mean something. Both shaders compile to the same module or to none.
 struct HostileRow {
     const char* name;
     const char* text;  ///< before main(), which reads A
-    bool compiles_in_330 = true;
-    bool compiles_in_450 = true;
+    bool compiles = true;
 };
 
 void PrintTo(const HostileRow& row, std::ostream* stream) {
@@ -215,8 +299,7 @@ TEST_P(HostileComment, MeansTheSameWhenItIsGone) {
         const auto fragment = static_cast<std::size_t>(composition.permutations.front().fragment);
         modules.push_back(validated.stages[fragment].spirv);
         sources.push_back(source_of(composition, composition.stages[fragment]));
-        EXPECT_EQ(exit_status(validated.diagnostics) == 0,
-                  dialect == Dialect::glsl330 ? row.compiles_in_330 : row.compiles_in_450)
+        EXPECT_EQ(exit_status(validated.diagnostics) == 0, row.compiles)
             << first_text(validated.diagnostics) << sources.back();
     }
     EXPECT_EQ(modules[0], modules[1]) << sources[1];
@@ -230,25 +313,22 @@ INSTANTIATE_TEST_SUITE_P(
         testing::Values(Dialect::glsl330, Dialect::glsl450),
         testing::Values(
             HostileRow{"between_tokens", "const/**/float A/* b */=/* c */1.0;// d"},
-            HostileRow{"within_a_number", "const float A = 1/**/.0;", false, false},
+            HostileRow{"within_a_number", "const float A = 1/**/.0;", false},
             HostileRow{"within_an_operator", "const float A = 1.0 +/**/+ 2.0;"},
             HostileRow{"before_a_parameter_list", "#define F/* a */(x) x\nconst float x = 1.0, A = F(x);",
-                       false, false},
+                       false},
             HostileRow{"before_an_object_like_body", "#define F/* a */(2.0)\nconst float A = F;"},
             HostileRow{"before_a_directive", "/* a\n */ #define A 1.0"},
             HostileRow{"within_a_directive", "# /* a */ define /* b */ A 1.0 // c"},
             HostileRow{"over_lines_within_a_directive", "#define A 1.0 /* a\n b */ + 2.0"},
             HostileRow{"over_lines_behind_a_directive", "#define A 1.0 /* a\n b */\nconst int b = 1;"},
-            HostileRow{"over_lines_before_a_number_sign", "const int b = 1; /* a\n */ #define A 1.0", false,
-                       false},
-            HostileRow{"in_a_joined_directive", "#define A 1.0 /* a */ \\\n + 2.0", false, true},
-            HostileRow{"over_lines_in_a_joined_directive", "#define A \\\n/* a\n */ 1.0", false, true},
+            HostileRow{"over_lines_before_a_number_sign", "const int b = 1; /* a\n */ #define A 1.0", false},
+            HostileRow{"in_a_joined_directive", "#define A 1.0 /* a */ \\\n + 2.0"},
+            HostileRow{"over_lines_in_a_joined_directive", "#define A \\\n/* a\n */ 1.0"},
             HostileRow{"behind_a_backslash", "#define A 1.0\n#if 0\n\\ // a\n#endif\nconst int b = 1;"},
-            HostileRow{"that_ends_in_a_backslash", "const int b = 1; // a \\\nconst float A = 1.0;", true,
-                       false},
-            HostileRow{"that_hides_a_line_in_450", "#define A 1.0\n// a \\\nconst float A = 2.0;\n", false,
-                       true},
-            HostileRow{"begun_on_two_lines", "#define A 1.0\n/\\\n/ a\n", false, true},
+            HostileRow{"that_ends_in_a_backslash", "const int b = 1; // a \\\nconst float A = 1.0;", false},
+            HostileRow{"that_hides_a_line", "#define A 1.0\n// a \\\nconst float A = 2.0;\n"},
+            HostileRow{"begun_on_two_lines", "#define A 1.0\n/\\\n/ a\n"},
             HostileRow{"in_a_skipped_group",
                        "#if 0\n/* don't\n#endif\n// \" */\n#endif\nconst float A = 1.0;"},
             HostileRow{"in_a_skipped_message", "#if 0\n#error \"http://a\"\n#endif\nconst float A = 1.0;"},

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "compose/conditions.hpp"
 #include "compose/dialect.hpp"
 #include "compose/scan_piece.hpp"
 #include "core/text.hpp"
@@ -17,9 +19,29 @@ namespace {
 
 /// Includes nested deeper than this are refused: a chain of that length is a mistake.
 constexpr std::size_t kDeepestInclude = 100;
+/// What a stage may hold: files that include others twice, each below its top, double at every step.
+constexpr std::size_t kMostIncludes = 10'000;
+constexpr std::size_t kMostBytes = 16'000'000;
 
 tl::unexpected<Diagnostics> fail_at(const Include& include, std::string message, std::string help) {
     return fail(include.place, include.line, std::move(message), std::move(help));
+}
+
+/// How many characters a text's first lines take.
+std::size_t size_of_lines(std::string_view text, int lines) {
+    std::size_t size = 0;
+    for (; lines > 0 && size < text.size(); --lines) size = text.find('\n', size) + 1;
+    return size;
+}
+
+/// "sub/../a.glsl" -> "a.glsl", of a path that stays inside.
+std::string without_dots(const std::string& path) {
+    std::vector<std::string> parts;
+    for (std::string& part : split(path, '/')) {
+        if (part == "..") parts.pop_back();
+        if (part != ".." && part != ".") parts.push_back(std::move(part));
+    }
+    return join(parts, "/");
 }
 
 template <class List, class Item>
@@ -27,17 +49,26 @@ bool has(const List& list, const Item& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
 }
 
+/// A file with what the composer asks of it again and again. Includes below its top part it into several
+/// pieces.
+struct Source {
+    std::string name;
+    std::string folder;  ///< of its include path
+    std::string root;    ///< of the folders searched the one that it was found in
+    std::vector<int> pieces;
+    std::string version;
+    std::vector<Include> includes;
+    std::vector<Directive> directives;
+    Extensions extensions;
+    bool is_once = false;
+    std::string guard;
+    bool is_fixed = true;  ///< whatever the macros are: one piece, its extensions under no condition
+};
+
 /// The pieces of a composition, each read and scanned once, and the resolution of includes to them. Whatever
 /// does not depend on the key is computed once.
 class PieceLibrary {
   public:
-    /// What the composer asks of a piece again and again.
-    struct Entry {
-        std::string version;
-        std::vector<Include> includes;
-        std::vector<char> mentions;  ///< per identifier of interest
-    };
-
     PieceLibrary(const Family& family, const SearchPath& search, Comments comments, Composition& composition)
         : family_(family), search_(search), comments_(comments), composition_(composition) {
         for (const Feature& feature : family.features)
@@ -45,33 +76,32 @@ class PieceLibrary {
         for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
     }
 
-    /// The piece that an include means: of a feature, the one for its value, nothing for a count of 0.
-    Result<std::optional<int>> find(const Include& include, const Key& key, StageKind stage) {
+    /// The file that an include means: of a feature, the one for its value, nothing for a count of 0.
+    /// `from` is the file that includes it; null: the family asks for it.
+    Result<std::optional<int>> find(const Include& include, const Key& key, StageKind stage,
+                                    const Source* from) {
         const std::string name = include.target.substr(0, include.target.find('/'));
-        const std::optional<int> index = include.of_feature ? family_.index_of(name) : std::nullopt;
-        if (include.of_feature && !index) {
-            std::vector<std::string> names = {"varyings"};
-            for (const Feature& feature : family_.features) names.push_back(feature.name);
-            return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, name),
-                           suggestion(name, names));
-        }
+        const std::optional<int> index =
+            include.in_angles && is_feature_or_part(include.target) ? family_.index_of(name) : std::nullopt;
         const auto at = static_cast<std::size_t>(index.value_or(0));
-        const auto choice = std::tuple(include.target, index ? key[at] : -1, stage);
+        const auto choice = std::tuple(index ? nullptr : from, include.target, index ? key[at] : -1, stage);
         if (const auto known = by_choice_.find(choice); known != by_choice_.end()) return known->second;
-        GOBO_TRY(
-            const std::optional<int> piece,
-            index ? find_value(include, family_.features[at], key[at], stage) : find_file(include, stage));
-        return by_choice_[choice] = piece;
+        GOBO_TRY(const std::optional<int> file,
+                 index ? find_value(include, family_.features[at], key[at], stage)
+                       : find_file(include, stage, from));
+        return by_choice_[choice] = file;
     }
 
     /// The number of a generated text; equal texts have equal numbers.
     int generated(Piece piece) {
         const auto [at, is_new] = by_generated_text_.try_emplace(piece.text, -1);
-        if (is_new) at->second = add(std::move(piece), {{}, {}, std::vector<char>(interest_.size(), 0)});
+        if (is_new) at->second = add(std::move(piece), {std::vector<char>(interest_.size(), 0), nullptr});
         return at->second;
     }
 
-    [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
+    [[nodiscard]] const Source& source(int file) const { return sources_[static_cast<std::size_t>(file)]; }
+    /// The file that a piece is of; null for a generated one.
+    [[nodiscard]] const Source* source_of(int piece) const { return entry(piece).source; }
 
     /// Whether one of the pieces mentions an identifier that the dialects' prologues or the family ask for.
     [[nodiscard]] bool mentions(const std::vector<int>& pieces, std::string_view identifier) const {
@@ -82,11 +112,26 @@ class PieceLibrary {
     }
 
   private:
+    /// What the composer asks of a piece.
+    struct Entry {
+        std::vector<char> mentions;  ///< per identifier of interest
+        const Source* source;
+    };
+
+    [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
+
     int add(Piece piece, Entry entry) {
         if (piece.on_disk) composition_.files.insert(piece.path);
         composition_.pieces.push_back(std::move(piece));
         entries_.push_back(std::move(entry));
         return static_cast<int>(entries_.size()) - 1;
+    }
+
+    /// "fog" or "guards/unit_vector".
+    static bool is_feature_or_part(std::string_view target) {
+        const auto slash = target.find('/');
+        return is_identifier(target.substr(0, slash)) &&
+               (slash == std::string_view::npos || is_identifier(target.substr(slash + 1)));
     }
 
     /// "surface/normal.glsl" -> "surface/normal.frag.glsl"
@@ -98,32 +143,92 @@ class PieceLibrary {
                            path.substr(dot));
     }
 
-    Result<std::optional<int>> load(const std::string& path) {
-        if (const auto known = by_path_.find(path); known != by_path_.end()) return known->second;
-        GOBO_TRY(std::optional<Piece> piece, search_.find(path));
-        if (!piece) return by_path_[path] = std::nullopt;
+    Result<std::optional<int>> load(const std::string& path, const std::string& root) {
+        const auto [known, is_new] = by_path_.try_emplace({root, path});
+        if (!is_new) return known->second;
+        GOBO_TRY(std::optional<Piece> piece, search_.find(path, root));
+        if (!piece) return std::nullopt;
+        const auto [found, is_unread] =
+            by_file_.try_emplace({piece->path, piece->name}, static_cast<int>(sources_.size()));
+        known->second = found->second;
+        if (!is_unread) return found->second;
         if (piece->file_text.empty()) piece->file_text = piece->text;
-        GOBO_TRY(ScannedPiece scanned, scan_piece(std::move(piece->text), piece->path));
-        piece->text = std::move(comments_ == Comments::keep ? scanned.text : scanned.code);
-        Entry entry{std::move(scanned.version), std::move(scanned.includes), {}};
-        for (const std::string& identifier : interest_)
-            entry.mentions.push_back(scanned.identifiers.contains(identifier) ? 1 : 0);
+        GOBO_TRY(ScannedPiece scanned, scan_piece(piece->text, piece->path));
         composition_.stated_bindings.merge(scanned.bindings);
         Diagnostics& warnings = composition_.warnings;
         warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
-        return by_path_[path] = add(std::move(*piece), std::move(entry));
+        Source& source = sources_.emplace_back();
+        source.name = piece->name;
+        source.folder = folder_of(path);
+        if (piece->path.ends_with("/" + path))
+            source.root = piece->path.substr(0, piece->path.size() - path.size() - 1);
+        add_pieces(source, *piece, scanned);
+        source.version = std::move(scanned.version);
+        source.includes = std::move(scanned.includes);
+        source.directives = std::move(scanned.directives);
+        source.extensions = std::move(scanned.extensions);
+        source.is_once = scanned.is_once;
+        source.guard = std::move(scanned.guard);
+        return found->second;
     }
 
-    /// A template or a fixed piece: PATH.STAGE.EXTENSION where there is one, else PATH.
-    Result<std::optional<int>> find_file(const Include& include, StageKind stage) {
-        const std::string& path = include.target;
-        if (!stays_inside(path))
+    /// Parts a file at the includes below its top. Each part begins with as many empty lines as stand before
+    /// it, so that lines have the file's numbers.
+    void add_pieces(Source& source, const Piece& file, const ScannedPiece& scanned) {
+        std::string_view text = comments_ == Comments::keep ? scanned.text : scanned.code;
+        std::string_view code = scanned.code;
+        int line = 1;  // the first of what is left
+        const auto add_up_to = [&](int last) {
+            Piece piece = file;
+            piece.text.assign(static_cast<std::size_t>(line - 1), '\n');
+            const std::size_t size = size_of_lines(text, last - line + 1);
+            const std::size_t code_size = size_of_lines(code, last - line + 1);
+            piece.text += text.substr(0, size);
+            const auto identifiers = identifiers_of(code.substr(0, code_size));
+            Entry entry{{}, &source};
+            for (const std::string& identifier : interest_)
+                entry.mentions.push_back(identifiers.contains(identifier) ? 1 : 0);
+            source.pieces.push_back(add(std::move(piece), std::move(entry)));
+            text.remove_prefix(size);
+            code.remove_prefix(code_size);
+            line = last + 1;
+        };
+        for (const Directive& directive : scanned.directives) {
+            if (directive.word == "include") add_up_to(directive.place.line);
+            if (directive.word == "include" || directive.word == "extension") source.is_fixed = false;
+        }
+        add_up_to(static_cast<int>(std::ranges::count(scanned.code, '\n')));
+    }
+
+    /// A template or a file: PATH.STAGE.EXTENSION where there is one, else PATH; beside the file that
+    /// includes it first, then from the folders searched.
+    Result<std::optional<int>> find_file(const Include& include, StageKind stage, const Source* from) {
+        std::vector<std::string> candidates;
+        for (const std::string& folder : {from == nullptr ? "" : from->folder, std::string()}) {
+            const std::string& target = include.target;
+            const std::string wanted = folder.empty() ? target : folder + "/" + target;
+            if (target.starts_with('/') || !stays_inside(wanted)) continue;
+            const std::string path = without_dots(wanted);
+            candidates.insert(candidates.end(), {with_infix(path, stage), path});
+            if (include.in_angles && target.find('.') == std::string::npos)
+                candidates.insert(candidates.end(), {with_infix(path + ".glsl", stage), path + ".glsl"});
+        }
+        if (candidates.empty())
             return fail_at(
-                include, fmt::format("the path '{}' leaves the folders searched", path),
+                include, fmt::format("the path '{}' leaves the folders searched", include.target),
                 "write a path relative to one of them, without '..' in front; name further folders with -I");
+        const std::string name = include.target.substr(0, include.target.find('/'));
+        if (include.in_angles && is_feature_or_part(include.target)) {
+            GOBO_TRY(const std::optional<int> file, first_of(candidates, from));
+            if (file) return file;
+            std::vector<std::string> names = {"varyings"};
+            for (const Feature& feature : family_.features) names.push_back(feature.name);
+            return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, name),
+                           suggestion(name, names));
+        }
         const bool is_template = include.place.line == 0;  // no line of a file includes it
-        return first_of({with_infix(path, stage), path}, path, include,
-                        fmt::format("no {} '{}'", is_template ? "template" : "piece", path));
+        return first_of(candidates, include.target, include, from,
+                        fmt::format("no {} '{}'", is_template ? "template" : "piece", include.target));
     }
 
     Result<std::optional<int>> find_value(const Include& include, const Feature& feature, int value,
@@ -136,19 +241,26 @@ class PieceLibrary {
         std::vector<std::string> candidates = {with_infix(path, stage), path};
         // `#include <feature/part>`: values without a file of their own share FEATURE/PART.glsl.
         if (include.target.find('/') != std::string::npos) candidates.push_back(include.target + ".glsl");
-        return first_of(candidates, path, include,
+        return first_of(candidates, path, include, nullptr,
                         is_count ? fmt::format("count '{}' has no piece '{}'", feature.name, path)
                                  : fmt::format("value '{}' of feature '{}' has no piece '{}'", value_name,
                                                feature.name, path));
     }
 
-    /// The first of the files that there is; otherwise an error that names the nearest to `wanted`.
-    Result<std::optional<int>> first_of(const std::vector<std::string>& paths, const std::string& wanted,
-                                        const Include& include, std::string message) {
+    /// The first of the files that there is.
+    Result<std::optional<int>> first_of(const std::vector<std::string>& paths, const Source* from) {
         for (const std::string& path : paths) {
-            GOBO_TRY(const std::optional<int> piece, load(path));
-            if (piece) return piece;
+            GOBO_TRY(const std::optional<int> file, load(path, from == nullptr ? "" : from->root));
+            if (file) return file;
         }
+        return std::nullopt;
+    }
+
+    /// The same; where there is none, an error that names the nearest to `wanted`.
+    Result<std::optional<int>> first_of(const std::vector<std::string>& paths, const std::string& wanted,
+                                        const Include& include, const Source* from, std::string message) {
+        GOBO_TRY(const std::optional<int> file, first_of(paths, from));
+        if (file) return file;
         std::string help = fmt::format("searched {}", join(search_.folders(), ", "));
         if (const auto near = nearest(wanted, search_.all_include_paths()))
             help += fmt::format("; nearest: '{}'", *near);
@@ -162,11 +274,15 @@ class PieceLibrary {
     /// What mentions() is asked for.
     std::vector<std::string> interest_ = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
                                           "SAMPLER", "DEPTH",   "early_fragment_tests"};
-    std::deque<Entry> entries_;  ///< not a vector: who holds an entry may load more of them
-    std::map<std::string, std::optional<int>, std::less<>> by_path_;  ///< also what is known to be absent
+    std::deque<Entry> entries_;   ///< of the pieces
+    std::deque<Source> sources_;  ///< not a vector: who holds one may load more of them
+    /// Root and path; also what is known to be absent.
+    std::map<std::pair<std::string, std::string>, std::optional<int>> by_path_;
+    std::map<std::pair<std::string, std::string>, int>
+        by_file_;  ///< path and name: two paths may lead to one
     std::map<std::string, int, std::less<>> by_generated_text_;
-    /// Target of the include, value (-1 where it names a file), stage.
-    std::map<std::tuple<std::string, int, StageKind>, std::optional<int>, std::less<>> by_choice_;
+    /// Of a file the one that includes it; target of the include, value (-1 of a file), stage.
+    std::map<std::tuple<const Source*, std::string, int, StageKind>, std::optional<int>> by_choice_;
 };
 
 /// A stage being put together: the pieces placed so far and the includes that lead to the one being placed.
@@ -175,8 +291,14 @@ struct Placement {
     StageKind stage;
     const std::vector<int>* varyings;  ///< to write, in the vertex stage
     std::vector<int> placed = {};
-    std::vector<int> open = {};   ///< pieces whose includes are being followed
+    std::vector<int> files = {};  ///< whose text is placed
+    std::vector<int> open = {};   ///< files whose includes are being followed
+    std::size_t bytes = 0;
     bool wants_varyings = false;  ///< an `#include <varyings>` was met
+    Extensions extensions = {};
+    std::string version = {};  ///< the template's, else the first that a file states
+    std::optional<Conditions> conditions = {};
+    std::size_t walked = 0;  ///< the pieces whose directives `conditions` has taken in
 };
 
 class Composer {
@@ -201,28 +323,94 @@ class Composer {
 
   private:
     Result<void> follow_template(Placement& placement, const std::string& path) {
-        return path.empty() ? Result<void>() : follow(placement, {false, path, {family_.path, 0, 0}, ""});
+        return path.empty() ? Result<void>()
+                            : follow(placement, {false, path, {family_.path, 0, 0}, ""}, nullptr);
     }
 
-    /// Places a piece after everything it includes, once.
-    Result<void> place(Placement& placement, int piece, const Include& from) {
-        if (has(placement.placed, piece)) return {};
-        if (has(placement.open, piece)) return cycle(placement, piece, from);
+    /// Places a file: what it includes at its top, then its text.
+    Result<void> place(Placement& placement, int file, const Include& include) {
+        const Source& source = library_.source(file);
+        if ((include.at_top || source.is_once) && has(placement.files, file)) return {};
+        if (!include.at_top && !source.guard.empty()) {
+            GOBO_TRY_DO(catch_up(placement));
+            if (placement.conditions->is_defined(source.guard).value_or(0) != 0) return {};
+        }
+        if (has(placement.open, file)) {
+            if (source.is_once) return {};
+            return cycle(placement, file, include);
+        }
         if (placement.open.size() > kDeepestInclude)
-            return fail_at(from, fmt::format("includes are nested more than {} deep", kDeepestInclude),
+            return fail_at(include, fmt::format("includes are nested more than {} deep", kDeepestInclude),
                            "include the piece from the template");
-        placement.open.push_back(piece);
-        for (const Include& include : library_.entry(piece).includes) GOBO_TRY_DO(follow(placement, include));
+        if (placement.files.size() > kMostIncludes || placement.bytes > kMostBytes)
+            return fail_at(
+                include,
+                fmt::format("the stage takes more than {} includes or {} bytes", kMostIncludes, kMostBytes),
+                "include files at the top, where each comes once, or put #pragma once into them");
+        if (placement.version.empty()) placement.version = source.version;
+        placement.open.push_back(file);
+        for (const Include& needed : source.includes) GOBO_TRY_DO(follow(placement, needed, &source));
+        GOBO_TRY_DO(place_text(placement, source));
         placement.open.pop_back();
-        placement.placed.push_back(piece);
+        placement.files.push_back(file);
         return {};
     }
 
-    Result<void> follow(Placement& placement, const Include& include) {
-        if (include.of_feature && include.target == "varyings" && !family_.index_of("varyings"))
+    void place_piece(Placement& placement, int piece) {
+        placement.placed.push_back(piece);
+        placement.bytes += composition_.piece(piece).text.size();
+    }
+
+    /// Places a file's pieces, with what it includes below its top between them.
+    Result<void> place_text(Placement& placement, const Source& source) {
+        for (const auto& [name, extension] : source.extensions)
+            add_extension(placement.extensions, name, extension);
+        if (source.is_fixed) {
+            place_piece(placement, source.pieces.front());
+            return {};
+        }
+        auto piece = source.pieces.begin();
+        for (const Directive& directive : source.directives) {
+            GOBO_TRY_DO(catch_up(placement));
+            Conditions& conditions = *placement.conditions;
+            if (directive.word == "include") {
+                place_piece(placement, *piece++);
+                placement.walked = placement.placed.size();
+                if (!conditions.is_active()) continue;
+                GOBO_TRY(Include include, read_include(directive));
+                include.at_top = false;
+                GOBO_TRY_DO(follow(placement, include, &source));
+            } else if (directive.word == "extension") {
+                if (conditions.is_active())
+                    add_extension(placement.extensions, directive, conditions.is_certain());
+            } else {
+                GOBO_TRY_DO(conditions.apply(directive));
+            }
+        }
+        GOBO_TRY_DO(catch_up(placement));
+        place_piece(placement, *piece);
+        placement.walked = placement.placed.size();
+        return {};
+    }
+
+    /// Lets the conditions take in the directives of all that is placed.
+    Result<void> catch_up(Placement& placement) {
+        if (!placement.conditions)
+            placement.conditions.emplace(prologue_text(placement, [](std::string_view) { return true; }));
+        for (; placement.walked < placement.placed.size(); ++placement.walked) {
+            const Source* source = library_.source_of(placement.placed[placement.walked]);
+            if (source == nullptr) continue;
+            for (const Directive& directive : source->directives)
+                GOBO_TRY_DO(placement.conditions->apply(directive));
+        }
+        return {};
+    }
+
+    Result<void> follow(Placement& placement, const Include& include, const Source* from) {
+        if (include.in_angles && include.target == "varyings" && !family_.index_of("varyings"))
             return follow_varyings(placement);
-        GOBO_TRY(const std::optional<int> piece, library_.find(include, placement.key, placement.stage));
-        return piece ? place(placement, *piece, include) : Result<void>{};
+        GOBO_TRY(const std::optional<int> file, library_.find(include, placement.key, placement.stage, from));
+        return file ? place(placement, *file, include) : Result<void>{};
     }
 
     /// `#include <varyings>` in the vertex stage: the pieces that the written varyings need, then their
@@ -233,18 +421,18 @@ class Composer {
         for (const int index : *placement.varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             if (!varying.piece.empty())  // the family file asks for it
-                GOBO_TRY_DO(follow(placement, {false, varying.piece, varying.place, ""}));
+                GOBO_TRY_DO(follow(placement, {false, varying.piece, varying.place, ""}, nullptr));
         }
         placement.placed.push_back(
             library_.generated(varyings_piece(*placement.varyings, placement.key, StageKind::vertex)));
         return {};
     }
 
-    tl::unexpected<Diagnostics> cycle(const Placement& placement, int piece, const Include& from) const {
+    tl::unexpected<Diagnostics> cycle(const Placement& placement, int file, const Include& from) const {
         std::string path;
-        for (auto at = std::ranges::find(placement.open, piece); at != placement.open.end(); ++at)
-            path += composition_.piece(*at).name + " -> ";
-        return fail_at(from, "include cycle: " + path + composition_.piece(piece).name,
+        for (auto at = std::ranges::find(placement.open, file); at != placement.open.end(); ++at)
+            path += library_.source(*at).name + " -> ";
+        return fail_at(from, "include cycle: " + path + library_.source(file).name,
                        "move what both need into a piece of its own");
     }
 
@@ -296,21 +484,18 @@ class Composer {
         return {fmt::format("{}[varyings]", family_.name), std::move(path), std::move(text), false};
     }
 
-    [[nodiscard]] Piece prologue(const Placement& placement, bool has_varyings) const {
-        const std::string& version = library_.entry(placement.placed.back()).version;
-        std::string text =
-            dialect_prologue(composition_.dialect, placement.stage, version, [&](std::string_view name) {
-                return (has_varyings && name == "VARYING") || library_.mentions(placement.placed, name);
-            });
+    [[nodiscard]] std::string prologue_text(const Placement& placement, const Mentions& mentions) const {
+        std::string text = dialect_prologue(composition_.dialect, placement.stage, placement.version,
+                                            placement.extensions, mentions);
         for (std::size_t i = 0; i < family_.features.size(); ++i) {
             const Feature& feature = family_.features[i];
             const int value = placement.key[i];
             const bool is_defined =
                 feature.kind == FeatureKind::count || (feature.kind == FeatureKind::define && value != 0);
-            if (is_defined && library_.mentions(placement.placed, feature.macro))
+            if (is_defined && mentions(feature.macro))
                 text += fmt::format("#define {} {}\n", feature.macro, value);
         }
-        return {"prologue", "prologue", std::move(text), false};
+        return text;
     }
 
     /// Puts the prologue in front and gives the stage its number; equal lists are the same stage.
@@ -318,7 +503,18 @@ class Composer {
         if (placement.placed.empty()) return -1;
         const bool is_fragment = placement.stage == StageKind::fragment;
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
-        Stage stage{placement.stage, {library_.generated(prologue(placement, declares))}};
+        const auto mentions = [&](std::string_view name) {
+            return (declares && name == "VARYING") || library_.mentions(placement.placed, name);
+        };
+        Piece prologue{"prologue", "prologue", prologue_text(placement, mentions), false};
+        for (const auto& [name, extension] : placement.extensions) {
+            const auto at =
+                prologue.text.begin() +
+                static_cast<std::ptrdiff_t>(prologue.text.find(fmt::format("#extension {} ", name)));
+            const auto line = static_cast<int>(1 + std::count(prologue.text.begin(), at, '\n'));
+            prologue.moved_lines[line] = {extension.place, extension.line};
+        }
+        Stage stage{placement.stage, {library_.generated(std::move(prologue))}};
         if (is_fragment && declares)
             stage.pieces.push_back(
                 library_.generated(varyings_piece(read, placement.key, StageKind::fragment)));
@@ -343,6 +539,13 @@ std::string_view name_of(StageKind kind) {
 
 std::string_view line_of(const Piece& piece, int number) {
     return line_of(piece.file_text.empty() ? piece.text : piece.file_text, number);
+}
+
+void put_at(Diagnostic& diagnostic, const Piece& piece, int line) {
+    const auto moved = piece.moved_lines.find(line);
+    const bool is_moved = moved != piece.moved_lines.end();
+    diagnostic.place = is_moved ? moved->second.first : Place{piece.path, line, 0};
+    diagnostic.quoted_line = is_moved ? moved->second.second : line_of(piece, line);
 }
 
 std::string source_of(const Composition& composition, const Stage& stage) {

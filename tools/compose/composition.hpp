@@ -35,12 +35,17 @@ struct Piece {
     bool on_disk = false;        ///< read from a file that a depfile must name
     std::string file_text = {};  ///< all that its file holds, for messages that quote a line; of a generated
                                  ///< piece empty
+    /// Of a prologue, by line: where an #extension stands, and that line.
+    std::map<int, std::pair<Place, std::string>> moved_lines = {};
 
     friend bool operator==(const Piece&, const Piece&) = default;
 };
 
 /// A line of a piece as its file has it.
 [[nodiscard]] std::string_view line_of(const Piece& piece, int number);
+
+/// Puts a message at a line of a piece, which it quotes; at the line of a file that was moved there, if so.
+void put_at(Diagnostic& diagnostic, const Piece& piece, int line);
 
 /// A stage is a list of pieces: the prologue first, then each piece once, depth first.
 struct Stage {

@@ -1,6 +1,7 @@
 #include "compose/dialect.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -55,12 +56,11 @@ const DialectRow& row_of(Dialect dialect) {
     return row == std::end(kDialects) ? kDialects[0] : *row;
 }
 
-/// What the DEPTH macro's qualifiers need before 4.2, where they became core.
+/// The extension that the DEPTH macro's qualifiers need before 4.2, where they became core.
 std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
     if (dialect == Dialect::glsl450 || !mentions("DEPTH")) return "";
-    if (mentions("early_fragment_tests")) return "#extension GL_ARB_shader_image_load_store : enable\n";
-    return dialect == Dialect::es300 ? "#extension GL_EXT_conservative_depth : enable\n"
-                                     : "#extension GL_ARB_conservative_depth : enable\n";
+    if (mentions("early_fragment_tests")) return "GL_ARB_shader_image_load_store";
+    return dialect == Dialect::es300 ? "GL_EXT_conservative_depth" : "GL_ARB_conservative_depth";
 }
 
 /// The dialect whose macros suit a version line: explicit bindings and locations came with 4.2.
@@ -95,12 +95,28 @@ GlslVersion version_of(std::string_view source) {
     return version;
 }
 
+bool add_extension(Extensions& extensions, const std::string& name, Extension extension) {
+    constexpr std::array<std::string_view, 4> by_strength = {"disable", "warn", "enable", "require"};
+    const auto strength_of = [&](const Extension& one) {
+        return std::ranges::find(by_strength, one.behavior);
+    };
+    if (strength_of(extension) == by_strength.end()) return false;
+    const auto [held, is_new] = extensions.try_emplace(name, extension);
+    if (strength_of(held->second) < strength_of(extension)) held->second = std::move(extension);
+    return true;
+}
+
 std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
-                             const Mentions& mentions) {
+                             Extensions extensions, const Mentions& mentions) {
     const bool is_own = dialect == Dialect::own && !own_version.empty();
     std::string text = fmt::format("#version {}\n", is_own ? own_version : row_of(dialect).version);
     const DialectRow& row = row_of(is_own ? spelling_of(text) : dialect);
-    text += depth_extension(row.dialect, mentions);
+    if (const std::string needed(depth_extension(row.dialect, mentions)); !needed.empty())
+        extensions.try_emplace(needed, Extension{"enable"});
+    const auto of_all = extensions.extract("all");  // it would undo those before it
+    if (of_all) text += fmt::format("#extension all : {}\n", of_all.mapped().behavior);
+    for (const auto& [name, extension] : extensions)
+        text += fmt::format("#extension {} : {}\n", name, extension.behavior);
     if (dialect == Dialect::es300) text += "precision highp float;\nprecision highp int;\n";
     for (const Macro& macro : kMacros)
         if (macro.stage.value_or(stage) == stage && mentions(macro.name))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,13 +26,25 @@ struct GlslVersion {
 /// The version that a source states.
 [[nodiscard]] GlslVersion version_of(std::string_view source);
 
+/// What `#extension` asks for.
+struct Extension {
+    std::string behavior;  ///< "require", "enable", "warn" or "disable"
+    Place place = {};
+    std::string line = {};  ///< as it stands in the file
+};
+using Extensions = std::map<std::string, Extension>;
+
+/// Of two behaviors for one name the stronger holds. False where GLSL has no such behavior.
+bool add_extension(Extensions& extensions, const std::string& name, Extension extension);
+
 /// Asks whether a stage mentions an identifier.
 using Mentions = std::function<bool(std::string_view)>;
 
-/// The head of a prologue: the version line, then of extensions and macros those that the stage mentions:
-/// BLOCK(binding, name), VARYING(location), ATTRIBUTE(location), OUTPUT(location), SAMPLER(binding, type),
-/// DEPTH(qualifier). `own_version` is the template's own #version, used where the dialect is Dialect::own.
+/// The head of a prologue: the version line, the extensions, sorted, then of the macros those that the stage
+/// mentions: BLOCK(binding, name), VARYING(location), ATTRIBUTE(location), OUTPUT(location),
+/// SAMPLER(binding, type), DEPTH(qualifier). `own_version` is the template's own #version, used where the
+/// dialect is Dialect::own.
 [[nodiscard]] std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
-                                           const Mentions& mentions);
+                                           Extensions extensions, const Mentions& mentions);
 
 }  // namespace gobo

@@ -1,11 +1,13 @@
 #include "compose/scan_piece.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <regex>
+#include <array>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "compose/clean_text.hpp"
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -15,223 +17,271 @@ namespace {
 /// near.
 constexpr int kDeepestNesting = 200;
 
+using Tokens = std::span<const std::string_view>;
+
 /// The line that a character of the text stands on.
-int line_at(std::string_view text, std::size_t at) {
-    return 1 +
-           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+int line_at(std::string_view text, const char* at) {
+    return 1 + static_cast<int>(std::count(text.data(), at, '\n'));
 }
 
-bool is_blank(std::string_view text) {
-    return text.find_first_not_of(" \t\r") == std::string_view::npos;
+Diagnostic warning(const Place& place, std::string_view quoted_line, std::string message, std::string help) {
+    Diagnostic diagnostic = fail(place, quoted_line, std::move(message), std::move(help)).value().front();
+    diagnostic.severity = Severity::warning;
+    return diagnostic;
 }
 
-/// Whether what stands before a place on its line, or on one that '\\' joins to it, is more than blanks.
-bool follows_code(std::string_view text, std::size_t at) {
-    const std::size_t start = text.substr(0, at).rfind('\n') + 1;
-    return !is_blank(text.substr(start, at - start)) || text.substr(0, start).ends_with("\\\n") ||
-           text.substr(0, start).ends_with("\\\r\n");
-}
-
-/// The text with blanks for the characters of comments, so that lines and columns stay true. `unclosed` is
-/// where a comment without an end starts.
-std::string without_comments(std::string_view text, std::size_t& unclosed) {
-    std::string bare(text);
-    unclosed = std::string::npos;
-    const auto blank = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (bare[i] != '\n') bare[i] = ' ';
-        return end;
-    };
-    for (std::size_t i = 0; i + 1 < bare.size();) {
-        if (bare[i] == '/' && bare[i + 1] == '/') {
-            i = blank(i, std::min(bare.find_first_of("\r\n", i), bare.size()));
-        } else if (bare[i] == '/' && bare[i + 1] == '*') {
-            const std::size_t close = bare.find("*/", i + 2);
-            if (close == std::string::npos) unclosed = i;
-            const std::size_t end = close == std::string::npos ? bare.size() : close + 2;
-            const std::string_view rest = std::string_view(bare).substr(end, bare.find('\n', end) - end);
-            // A directive goes on behind a comment that spans lines: without one it would end early.
-            const bool joins = bare.find('\n', i) < end && follows_code(bare, i) && !is_blank(rest);
-            i = joins ? blank(i + 2, end - 2) + 2 : blank(i, end);
-        } else {
-            ++i;
-        }
-    }
-    return bare;
-}
-
-/// Whether readers of GLSL may disagree on what is a comment: since 4.2 and ES 3.0 a '\\' joins two lines
-/// even there, and glslang takes what stands in double quotes for a string.
-bool are_disputed(std::string_view text, std::string_view bare) {
-    if (bare.find('"') != std::string_view::npos) return true;
-    for (std::size_t at = text.find('\\'); at < text.size(); at = text.find('\\', at + 1)) {
-        const bool joins = text.substr(at + 1).starts_with('\n') || text.substr(at + 1).starts_with("\r\n");
-        const bool parts = at > 0 && (text[at - 1] == '/' || text[at - 1] == '*');
-        if (joins && (parts || bare[at] != '\\')) return true;
-    }
-    return false;
-}
-
-std::set<std::string, std::less<>> identifiers_of(std::string_view bare) {
-    std::set<std::string, std::less<>> found;
-    for (auto at = bare.begin(); at != bare.end();) {
-        const auto start = std::find_if(at, bare.end(), is_identifier_part);
-        at = std::find_if_not(start, bare.end(), is_identifier_part);
-        if (start != at && is_identifier_start(*start)) found.emplace(start, at);
-    }
-    return found;
+/// Whether tokens follow one another from a place on; `name` and `number` stand for any.
+bool are(Tokens tokens, std::initializer_list<std::string_view> pattern) {
+    if (tokens.size() < pattern.size()) return false;
+    return std::ranges::equal(
+        tokens.first(pattern.size()), pattern, [](std::string_view token, std::string_view wanted) {
+            if (wanted == "name") return is_identifier(token);
+            if (wanted != "number") return token == wanted;
+            return token.size() <= 6 && token.find_first_not_of("0123456789") == std::string_view::npos;
+        });
 }
 
 /// The bindings stated by BLOCK(3, Fog) and SAMPLER(2, sampler2D) shadowMap.
-std::map<std::string, int> bindings_of(const std::string& bare) {
-    static const std::regex block(R"(\bBLOCK\s*\(\s*(\d{1,6})\s*,\s*(\w+)\s*\))");
-    static const std::regex sampler(R"(\bSAMPLER\s*\(\s*(\d{1,6})\s*,\s*\w+\s*\)\s*(\w+))");
+std::map<std::string, int> bindings_of(Tokens tokens) {
     std::map<std::string, int> bindings;
-    for (const std::regex* pattern : {&block, &sampler}) {
-        for (std::sregex_iterator at(bare.begin(), bare.end(), *pattern), end; at != end; ++at)
-            bindings[(*at)[2]] = std::stoi((*at)[1]);
+    for (; tokens.size() > 4; tokens = tokens.subspan(1)) {
+        std::string_view name;
+        if (are(tokens, {"BLOCK", "(", "number", ",", "name", ")"})) name = tokens[4];
+        if (are(tokens, {"SAMPLER", "(", "number", ",", "name", ")", "name"})) name = tokens[6];
+        if (!name.empty()) bindings[std::string(name)] = std::stoi(std::string(tokens[2]));
     }
     return bindings;
 }
 
 /// A warning for each uniform block that states no layout: drivers then choose one, and no offset known
 /// before holds.
-Diagnostics unstated_layouts(const std::string& bare, std::string_view text, const std::string& path) {
-    static const std::regex by_default(R"(layout\s*\([^)]*\bstd140\b[^)]*\)\s*uniform\s*;)");
-    static const std::regex block(R"((layout\s*\(([^)]*)\)\s*)?\buniform\s+(\w+)\s*\{)");
+Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_view text,
+                             const std::string& path) {
     Diagnostics warnings;
-    if (std::regex_search(bare, by_default)) return warnings;
-    for (std::sregex_iterator at(bare.begin(), bare.end(), block), end; at != end; ++at) {
-        if ((*at)[2].str().find("std140") != std::string::npos) continue;
-        const int line = line_at(bare, static_cast<std::size_t>(at->position(3)));
-        const auto warning =
-            fail({path, line, 0}, line_of(text, line),
-                 fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
-                             (*at)[3].str()),
-                 "write layout(std140) before uniform, or ask the driver for every offset");
-        warnings.push_back(warning.value().front());
-        warnings.back().severity = Severity::warning;
+    bool is_stated = false;  // in the declaration so far
+    for (; !tokens.empty(); tokens = tokens.subspan(1)) {
+        const std::string_view token = tokens.front();
+        if (token == "std140") is_stated = true;
+        if (are(tokens, {"uniform", ";"}) && is_stated) return {};  // for all blocks
+        if (are(tokens, {"uniform", "name", "{"}) && !is_stated) {
+            const int line = line_at(code, tokens[1].data());
+            warnings.push_back(warning(
+                {path, line, 0}, line_of(text, line),
+                fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
+                            tokens[1]),
+                "write layout(std140) before uniform, or ask the driver for every offset"));
+        }
+        if (token == ";" || token == "{" || token == "}" || token == "#") is_stated = false;
     }
     return warnings;
 }
 
-/// "fog" or "guards/unit_vector".
-bool is_feature_or_part(std::string_view target) {
-    const auto slash = target.find('/');
-    return is_identifier(target.substr(0, slash)) &&
-           (slash == std::string_view::npos || is_identifier(target.substr(slash + 1)));
+/// "330 core" where a #version line says what GLSL knows.
+bool is_version(std::string_view text) {
+    constexpr std::array<int, 17> numbers = {100, 110, 120, 130, 140, 150, 300, 310, 320,
+                                             330, 400, 410, 420, 430, 440, 450, 460};
+    const std::vector<std::string_view> tokens = tokens_of(text);
+    if (tokens.empty() || tokens.size() > 2 || !are(tokens, {"number"})) return false;
+    const int number = std::stoi(std::string(tokens[0]));
+    const std::string_view profile = tokens.size() == 2 ? tokens[1] : "";
+    if (std::ranges::find(numbers, number) == numbers.end()) return false;
+    if (number >= 300 && number < 330) return profile == "es";
+    return profile.empty() || (number >= 150 && (profile == "core" || profile == "compatibility"));
 }
 
-/// Blanks left where a comment or directive stood would only swell the header. Behind a '\\' one stays: it
-/// keeps the next line from being joined to this one.
-std::string without_trailing_blanks(std::string_view text) {
-    std::string result;
-    result.reserve(text.size() + 1);
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, end);
-        const std::string_view kept = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-        const std::string_view rest = line.substr(kept.size());
-        result += kept;
-        result += kept.ends_with('\\') && !rest.empty() && rest != "\r" ? " \n" : "\n";
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return result;
-}
-
-Result<Include> parse_include(std::string_view rest, const Place& place, std::string_view shown) {
-    const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
-    const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
-    const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
-    if (target.empty() || (angle && !is_feature_or_part(target)))
-        return fail(place, shown, "malformed #include",
-                    "write #include <feature> or #include \"folder/piece.glsl\"");
-    return Include{angle, target, place, std::string(shown)};
-}
+/// A condition that is open: its first directive, and where its #else stands.
+struct Condition {
+    Directive begin;
+    int else_line = 0;  ///< 0: none yet
+};
 
 /// Walks over the lines of one file, collecting into `result`.
 class Scanner {
   public:
-    Scanner(std::string text, const std::string& path)
-        : path_(path), bare_(without_comments(text, unclosed_)) {
-        result_.text = std::move(text);
-    }
+    Scanner(std::string_view file, const std::string& path, CleanText clean)
+        : file_(file), path_(path), clean_(std::move(clean)) {}
 
     Result<ScannedPiece> run() {
-        if (unclosed_ != std::string::npos) {
-            const int line = line_at(result_.text, unclosed_);
-            return fail({path_, line, 0}, line_of(result_.text, line), "a comment has no end",
-                        "close it with */");
-        }
-        std::size_t start = 0;
-        for (int number = 1; start < bare_.size(); ++number) {
-            const std::size_t end = std::min(bare_.find('\n', start), bare_.size());
-            GOBO_TRY_DO(scan_line(number, start, end));
+        for (std::size_t start = 0, number = 1; start < clean_.code.size(); ++number) {
+            const std::size_t end = clean_.code.find('\n', start);
+            GOBO_TRY_DO(scan_line(static_cast<int>(number), start, end));
             start = end + 1;
         }
-        result_.identifiers = identifiers_of(bare_);
-        if (bare_.find("BLOCK") != std::string::npos || bare_.find("SAMPLER") != std::string::npos)
-            result_.bindings = bindings_of(bare_);
-        result_.warnings = unstated_layouts(bare_, result_.text, path_);
-        result_.code = without_trailing_blanks(are_disputed(result_.text, bare_) ? result_.text : bare_);
-        result_.text = without_trailing_blanks(result_.text);
+        if (!open_.empty()) {
+            const Directive& begin = open_.back().begin;
+            return fail_at(begin, fmt::format("missing #endif: nothing ends this #{}", begin.word),
+                           "write #endif in the same file, behind what the condition is for");
+        }
+        if (!is_guarded_) result_.guard.clear();
+        const std::vector<std::string_view> tokens = tokens_of(clean_.code);
+        result_.bindings = bindings_of(tokens);
+        result_.warnings = unstated_layouts(tokens, clean_.code, file_, path_);
+        for (const int line : clean_.joined_comments)
+            result_.warnings.push_back(warning({path_, line, 0}, line_of(file_, line),
+                                               "this comment takes in the next line, since it ends in '\\'",
+                                               "write something behind the '\\'"));
+        result_.code = without_trailing_blanks(clean_.code);
+        result_.text = without_trailing_blanks(clean_.text);
         return std::move(result_);
     }
 
   private:
+    static tl::unexpected<Diagnostics> fail_at(const Directive& directive, std::string message,
+                                               std::string help) {
+        return fail(directive.place, directive.line, std::move(message), std::move(help));
+    }
+
     Result<void> scan_line(int number, std::size_t start, std::size_t end) {
-        const std::string_view bare = std::string_view(bare_).substr(start, end - start);
-        const std::string shown(line_of(std::string_view(result_.text).substr(start, end - start), 1));
-        const std::size_t first = std::min(bare.find_first_not_of(" \t"), bare.size());
-        const Place place{path_, number, static_cast<int>(first) + 1};
+        const std::string_view bare = std::string_view(clean_.code).substr(start, end - start);
         std::string_view rest = trim(bare);
-        std::string_view directive;  // the word after `#`
+        if (rest.empty()) return {};
+        const bool is_outside = open_.empty();
         if (rest.starts_with('#')) {
+            const int column = static_cast<int>(bare.find('#')) + 1;
             rest = trim(rest.substr(1));
-            directive = {rest.begin(), std::find_if_not(rest.begin(), rest.end(), is_identifier_part)};
-            rest = trim(rest.substr(directive.size()));
+            const std::string_view word = {rest.begin(), std::ranges::find_if_not(rest, is_identifier_part)};
+            GOBO_TRY(const bool is_taken, take({std::string(word),
+                                                std::string(trim(rest.substr(word.size()))),
+                                                {path_, number, column},
+                                                std::string(line_of(file_, number))}));
+            if (is_taken) return blank(start, end);
+            if (word == "error" || word == "pragma") close_quotation(start, end);
         }
+        if (is_outside && seen_code_) is_guarded_ = false;
+        seen_code_ = true;
         for (const char c : bare) {
             if (c == '(' || c == '[' || c == '{') ++depth_;
             if (c == ')' || c == ']' || c == '}') depth_ = std::max(0, depth_ - 1);
             if (depth_ <= kDeepestNesting) continue;
-            return fail({path_, number, 0}, shown.substr(0, 80),
+            return fail({path_, number, 0}, line_of(file_, number).substr(0, 80),
                         fmt::format("brackets are nested more than {} deep", kDeepestNesting),
                         "split the expression or the function");
-        }
-        if (directive == "version") result_.version = rest;
-        if (directive == "include") {
-            if (seen_code_)
-                return fail(place, shown, "#include after code",
-                            "includes stand at the top of a piece, after comments only");
-            GOBO_TRY(Include include, parse_include(rest, place, shown));
-            result_.includes.push_back(std::move(include));
-        }
-        if (directive == "version" || directive == "include") {
-            for (std::size_t i = start; i < end; ++i)
-                if (bare_[i] != ' ') result_.text[i] = bare_[i] = ' ';
-        } else if (!trim(bare).empty() && directive != "extension") {
-            seen_code_ = true;
         }
         return {};
     }
 
+    /// What the composer must know of a directive. Whether it takes the line out of the text.
+    Result<bool> take(Directive directive) {
+        const std::string& word = directive.word;
+        if (word == "line") return true;  // lines are the file's own
+        if (word == "version") return take_version(directive);
+        if (word == "pragma") {
+            const bool is_once = directive.rest == "once";
+            result_.is_once = result_.is_once || is_once;
+            return is_once;
+        }
+        if (word == "include" && !seen_code_) {
+            GOBO_TRY(Include include, read_include(directive));
+            result_.includes.push_back(std::move(include));
+            return true;
+        }
+        if (word == "extension" && open_.empty()) return add_extension(result_.extensions, directive);
+        if (word == "if" || word == "ifdef" || word == "ifndef") {
+            if (word == "ifndef" && !seen_code_ && result_.includes.empty()) result_.guard = directive.rest;
+            open_.push_back({directive});
+        } else if (word == "elif" || word == "else" || word == "endif") {
+            GOBO_TRY_DO(go_on(directive));
+        } else if (word == "extension") {
+            Extensions scratch;
+            if (!add_extension(scratch, directive)) return false;
+        } else if (word != "define" && word != "undef" && word != "include") {
+            return false;
+        }
+        const bool is_blanked = word == "include" || word == "extension";
+        result_.directives.push_back(std::move(directive));
+        return is_blanked;
+    }
+
+    Result<bool> take_version(const Directive& directive) {
+        const std::string version(trim(directive.rest));
+        if (!is_version(version))
+            return fail_at(directive, fmt::format("GLSL has no #version '{}'", version),
+                           "write a number that GLSL has and the profile alone: 330 core, 450, 300 es");
+        if (!result_.version.empty() && result_.version != version)
+            return fail_at(directive, fmt::format("a second #version beside {}", result_.version),
+                           "state the version once");
+        result_.version = version;
+        return true;
+    }
+
+    /// #elif, #else and #endif.
+    Result<void> go_on(const Directive& directive) {
+        if (open_.empty())
+            return fail_at(directive, fmt::format("#{} without #if", directive.word),
+                           "begin and end a condition in the same file");
+        Condition& condition = open_.back();
+        if (directive.word == "endif") {
+            open_.pop_back();
+            return {};
+        }
+        if (condition.else_line > 0)
+            return fail_at(
+                directive,
+                fmt::format("#{} behind the #else of line {}", directive.word, condition.else_line),
+                "end the condition with #endif first");
+        if (directive.word == "else") condition.else_line = directive.place.line;
+        if (open_.size() == 1) is_guarded_ = false;
+        return {};
+    }
+
+    Result<void> blank(std::size_t start, std::size_t end) {
+        for (std::string* text : {&clean_.text, &clean_.code})
+            for (std::size_t i = start; i < end; ++i)
+                if (clean_.code[i] != ' ') (*text)[i] = ' ';
+        return {};
+    }
+
+    /// To glslang a quotation mark without its end is an error even where nothing compiles it: the end may
+    /// have stood in a comment.
+    void close_quotation(std::size_t start, std::size_t end) {
+        const std::string_view code = std::string_view(clean_.code).substr(start, end - start);
+        if (std::ranges::count(code, '"') % 2 == 0) return;
+        const std::size_t last = start + code.rfind('"');
+        clean_.text[last] = clean_.code[last] = ' ';
+    }
+
+    std::string_view file_;
     std::string path_;
-    std::size_t unclosed_ = 0;
-    std::string bare_;
+    CleanText clean_;
     ScannedPiece result_;
+    std::vector<Condition> open_;
     bool seen_code_ = false;
+    bool is_guarded_ = true;
     int depth_ = 0;
 };
 
 }  // namespace
 
-Result<ScannedPiece> scan_piece(std::string text, const std::string& path) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-    if (const auto nul = text.find('\0'); nul != std::string::npos)
-        return fail({path, line_at(text, nul), 0}, "", "holds a NUL byte and is not text",
-                    "name a GLSL file");
-    return Scanner(std::move(text), path).run();
+Result<Include> read_include(const Directive& directive) {
+    const std::string_view rest = directive.rest;
+    const bool angle = rest.size() > 2 && rest.front() == '<' && rest.back() == '>';
+    const bool quote = rest.size() > 2 && rest.front() == '"' && rest.back() == '"';
+    const std::string target(angle || quote ? trim(rest.substr(1, rest.size() - 2)) : "");
+    if (target.empty())
+        return fail(directive.place, directive.line, "malformed #include",
+                    "write #include <feature> or #include \"folder/piece.glsl\"");
+    return Include{angle, target, directive.place, directive.line};
+}
+
+bool add_extension(Extensions& extensions, const Directive& directive, bool is_certain) {
+    const std::vector<std::string_view> tokens = tokens_of(directive.rest);
+    if (tokens.size() != 3 || !are(tokens, {"name", ":", "name"})) return false;
+    const bool is_weaker = tokens[2] == "require" && !is_certain;
+    return add_extension(extensions, std::string(tokens[0]),
+                         {is_weaker ? "enable" : std::string(tokens[2]), directive.place, directive.line});
+}
+
+std::set<std::string_view> identifiers_of(std::string_view code) {
+    std::set<std::string_view> identifiers;
+    for (const std::string_view token : tokens_of(code))
+        if (is_identifier_start(token.front())) identifiers.insert(token);
+    return identifiers;
+}
+
+Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path) {
+    GOBO_TRY(CleanText clean, clean_text(text, path));
+    const std::string lines = unix_lines(text);
+    return Scanner(lines, path, std::move(clean)).run();
 }
 
 }  // namespace gobo

@@ -1,5 +1,4 @@
-// Reads what composing must know of one GLSL file: its includes, its #version and the identifiers it
-// mentions.
+// Reads what composing must know of one GLSL file: its includes, its #version, its conditions and macros.
 #pragma once
 
 #include <map>
@@ -8,32 +7,56 @@
 #include <string_view>
 #include <vector>
 
+#include "compose/dialect.hpp"
 #include "core/diagnostic.hpp"
 
 namespace gobo {
 
-/// `#include <feature>`, `#include <feature/part>` or `#include "path"`.
-struct Include {
-    bool of_feature = false;
-    std::string target;
+/// A line that the preprocessor reads.
+struct Directive {
+    std::string word;  ///< "ifdef", "include"
+    std::string rest;  ///< what stands behind the word
     Place place;
     std::string line;  ///< as it stands in the file, for diagnostics
 };
 
+/// `#include <name>` or `#include "path"`.
+struct Include {
+    bool in_angles = false;
+    std::string target;
+    Place place;
+    std::string line;    ///< as it stands in the file, for diagnostics
+    bool at_top = true;  ///< of its file: what is there already is not placed again
+};
+
 /// One GLSL file as the composer sees it.
 struct ScannedPiece {
-    std::string text;  ///< the file with #include and #version lines blanked, ending in a newline
-    std::string code;  ///< `text` with blanks for its comments, line for line and column for column; `text`
-                       ///< itself where GLSL's versions may disagree on what is a comment
-    std::string version;  ///< "330 core" of its #version line, or empty
-    std::vector<Include> includes;
-    std::set<std::string, std::less<>> identifiers;  ///< outside comments
-    Diagnostics warnings;                            ///< uniform blocks whose layout is left to the driver
+    std::string text;  ///< the file with the lines of #include, #version, #extension, #line and #pragma once
+                       ///< blanked, ending in a newline
+    std::string code;  ///< `text` with blanks for its comments, line for line and column for column
+    std::string version;                ///< "330 core" of its #version line, or empty
+    std::vector<Include> includes;      ///< those at its top
+    std::vector<Directive> directives;  ///< below that, in order: conditions, macros, further includes, and
+                                        ///< extensions under conditions
+    Extensions extensions;              ///< those under no condition
+    bool is_once = false;               ///< it says `#pragma once`
+    std::string guard;                  ///< the macro that an #ifndef around the whole file asks for
+    Diagnostics warnings;               ///< of uniform blocks whose layout is left to the driver, of comments
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 
-/// Scans a file. Errors: an include after code, a malformed include, a comment without an end, brackets
+/// Scans a file. Errors: a malformed include or #version, a comment or a condition without an end, brackets
 /// nested so deeply that parsing the shader could exhaust the stack, bytes that are no text.
-[[nodiscard]] Result<ScannedPiece> scan_piece(std::string text, const std::string& path);
+[[nodiscard]] Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path);
+
+/// What an include names.
+[[nodiscard]] Result<Include> read_include(const Directive& directive);
+
+/// Adds what a directive `#extension NAME : BEHAVIOR` asks for. Where only the driver knows whether it is
+/// asked at all, `require` is `enable`. False where that is not its form.
+bool add_extension(Extensions& extensions, const Directive& directive, bool is_certain = true);
+
+/// They point into `code`.
+[[nodiscard]] std::set<std::string_view> identifiers_of(std::string_view code);
 
 }  // namespace gobo

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/clean_text.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -85,21 +86,32 @@ void SearchPath::add_file(const FileSystem& files, const std::string& path) {
                   {&files, folder_of(path), "", true, name_of_file(path)});
 }
 
-Result<std::optional<Piece>> SearchPath::find(const std::string& include_path) const {
-    for (const Root& root : roots_) {
-        if (!root.only.empty() && root.only != include_path) continue;
-        Result<std::optional<Piece>> piece = read(root, include_path, "");
-        const bool can_be_marked = root.only.empty() && include_path.ends_with(kExtension);
-        for (std::size_t slash = include_path.rfind('/');
-             can_be_marked && piece && !*piece && slash != std::string::npos && slash != 0;
-             slash = include_path.rfind('/', slash - 1)) {
-            const std::string behind = include_path.substr(slash + 1);
-            piece = read(root, include_path.substr(0, slash).append(kExtension),
-                         behind.substr(0, behind.size() - kExtension.size()));
+Result<std::optional<Piece>> SearchPath::find(const std::string& include_path,
+                                              const std::string& first_folder) const {
+    for (const bool is_first : {true, false}) {
+        for (const Root& root : roots_) {
+            const bool goes_first =
+                named_files_ > 0 && root.only.empty() && !first_folder.empty() && root.folder == first_folder;
+            if (goes_first != is_first) continue;
+            Result<std::optional<Piece>> piece = find_in(root, include_path);
+            if (!piece || *piece) return piece;
         }
-        if (!piece || *piece) return piece;
     }
     return std::nullopt;
+}
+
+Result<std::optional<Piece>> SearchPath::find_in(const Root& root, const std::string& include_path) {
+    if (!root.only.empty() && root.only != include_path) return std::nullopt;
+    Result<std::optional<Piece>> piece = read(root, include_path, "");
+    const bool can_be_marked = root.only.empty() && include_path.ends_with(kExtension);
+    for (std::size_t slash = include_path.rfind('/');
+         can_be_marked && piece && !*piece && slash != std::string::npos && slash != 0;
+         slash = include_path.rfind('/', slash - 1)) {
+        const std::string behind = include_path.substr(slash + 1);
+        piece = read(root, include_path.substr(0, slash).append(kExtension),
+                     behind.substr(0, behind.size() - kExtension.size()));
+    }
+    return piece;
 }
 
 Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::string& file,
@@ -113,7 +125,8 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
         return fail({path, 0, 0}, "", fmt::format("is a link that leads out of '{}'", root.folder),
                     "put the piece itself into the folder, or name its folder with -I");
     }
-    GOBO_TRY(const std::string text, root.files->read(path));
+    GOBO_TRY(const std::string bytes, root.files->read(path));
+    const std::string text = unix_lines(bytes);
     std::optional<std::string> found = section_of(text, section);
     if (!found) return std::nullopt;
     const std::string name = root.name_prefix + file + (section.empty() ? "" : "#" + section);

@@ -26,8 +26,9 @@ class SearchPath {
     /// where no folder has it. A file may hold several pieces: `fog/linear.glsl` is also what stands in
     /// `fog.glsl` between `#piece linear` and the next such line, its name then `fog.glsl#linear`; a file of
     /// its own goes before. Fault::file where it cannot be read; Fault::input where a link leads out of its
-    /// folder.
-    [[nodiscard]] Result<std::optional<Piece>> find(const std::string& include_path) const;
+    /// folder. Where files are named by themselves, `first_folder` goes before the others.
+    [[nodiscard]] Result<std::optional<Piece>> find(const std::string& include_path,
+                                                    const std::string& first_folder = {}) const;
 
     /// The folders as diagnostics name them.
     [[nodiscard]] std::vector<std::string> folders() const;
@@ -43,6 +44,7 @@ class SearchPath {
         std::string only;  ///< the one file of the folder that counts; empty: all
     };
     /// A piece of a root's file: behind `#piece SECTION`, or before the first marker.
+    static Result<std::optional<Piece>> find_in(const Root& root, const std::string& include_path);
     static Result<std::optional<Piece>> read(const Root& root, const std::string& file,
                                              const std::string& section);
 

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include <fmt/format.h>
+#include <glslang/MachineIndependent/localintermediate.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
@@ -15,6 +16,7 @@
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
+#include "validate/missing_ends.hpp"
 #include "validate/stage_rules.hpp"
 
 namespace gobo {
@@ -61,9 +63,8 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
         const auto parsed = std::from_chars(message.data() + piece->path.size() + 1, end, line);
         if (parsed.ec != std::errc{} || parsed.ptr == end || *parsed.ptr != ':') continue;
         diagnostic.message = trim({parsed.ptr + 1, end});
-        diagnostic.place = {piece->path, line, 0};
         // A generated piece carries the lines of the file it comes from only where it stands for one.
-        diagnostic.quoted_line = line_of(*piece, line);
+        put_at(diagnostic, *piece, line);
         if (!diagnostic.quoted_line.empty()) return;  // else another piece of the same file may hold it
     }
 }
@@ -91,12 +92,12 @@ void explain(Diagnostic& diagnostic) {
 Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
                                const Place& otherwise) {
     constexpr std::string_view given_up = "'' : compilation terminated";
-    // Where glslang gives up, every condition that is open seems to lack its end.
+    // Where glslang gives up, every condition that is open seems to lack its end, an #extension its line's.
     const bool gave_up = log.find(given_up) != std::string_view::npos;
     const auto says_nothing = [&](std::string_view line) {
         const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
         return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
-               (gave_up && holds("'' : missing #endif"));
+               (gave_up && (holds("'' : missing #endif") || holds("'#extension' : extra tokens")));
     };
     Diagnostics diagnostics;
     for (const std::string& full_line : split(log, '\n')) {
@@ -238,7 +239,13 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     bindings_mapped_ = map_bindings;
     const bool is_fine =
         shader.parse(GetDefaultResources(), 110, false, for_spirv ? kSpirvRules : EShMsgDefault);
-    const Diagnostics found = diagnostics_of_log(shader.getInfoLog(), pieces_, {pieces_.back()->path, 0, 0});
+    const Place place{pieces_.back()->path, 0, 0};
+    const Diagnostics found =
+        with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_);
+    if (is_fine && shader.getIntermediate()->getNumEntryPoints() == 0)
+        return fail(place, "", fmt::format("the {} stage has no main()", name_of(kind_)),
+                    "write void main() in the template")
+            .value();
     if (is_fine || has_errors(found)) return found;
     return fail(Fault::internal, "glslang refuses a stage without saying why").value();
 }

@@ -57,10 +57,8 @@ Diagnostic diagnostic_of_line(const std::string& text, const StageText& stage) {
     diagnostic.severity = severity == "error" || severity == "ERROR" ? Severity::error : Severity::warning;
     diagnostic.message = match[form->message];
     int line = std::stoi(match[form->line]);
-    if (const Piece* piece = piece_at(stage.pieces, std::stoi(match[form->string]), line)) {
-        diagnostic.place = {piece->path, line, 0};
-        diagnostic.quoted_line = line_of(*piece, line);
-    }
+    if (const Piece* piece = piece_at(stage.pieces, std::stoi(match[form->string]), line))
+        put_at(diagnostic, *piece, line);
     return diagnostic;
 }
 

@@ -1,0 +1,152 @@
+// That what glslang checks is what a driver gets: both take, or refuse, every text that composing makes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compose/compose.hpp"
+#include "lab/render/program.hpp"
+#include "small_families.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr const char* vertex =
+    "#version 330 core\nlayout(location = 0) in vec3 position;\n"
+    "void main() { gl_Position = vec4(position, 1.0); }\n";
+
+struct DriverRow {
+    const char* name;
+    const char* fragment;  ///< without its #version 330 core and the output `color`
+    const char* included;  ///< a.glsl
+    const char* mistake;   ///< where both see one; empty: both take it
+    Comments comments = Comments::remove;
+};
+
+class Driver : public testing::TestWithParam<DriverRow> {};
+
+/// "path:line" of the first error.
+std::string place_of(const Diagnostics& diagnostics) {
+    for (const Diagnostic& diagnostic : diagnostics)
+        if (diagnostic.severity == Severity::error)
+            return diagnostic.place.file + ":" + std::to_string(diagnostic.place.line);
+    return "";
+}
+
+TEST_P(Driver, AgreesWithGlslang) {
+    const MemoryFileSystem files({{"tiny.vert", vertex},
+                                  {"tiny.frag", std::string("#version 330 core\n") + GetParam().fragment},
+                                  {"a.glsl", GetParam().included}});
+    SearchPath search;
+    search.add(files, "", "", false);
+    const Family family = family_of("");
+    const Composition composition =
+        compose(family, {Key()}, search, Dialect::own, GetParam().comments).value();
+    EXPECT_EQ(place_of(validate(family, composition, {}).diagnostics), GetParam().mistake);
+
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << first_text(context.error());
+    const Result<Program> program =
+        link_program(*context, stages_of(composition, composition.permutations.front()));
+    EXPECT_EQ(program ? "" : place_of(program.error()), GetParam().mistake);
+}
+
+TEST(DriverItself, JoinsLinesInEveryVersion) {
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << first_text(context.error());
+    for (const char* version : {"150", "330 core", "450 core"}) {
+        const std::string fragment = std::string("#version ") + version +
+                                     "\nout vec4 color;\n// takes in \\\nconst float a = 1.0;\n"
+                                     "void main() { color = vec4(a); }\n";
+        const std::vector<StageText> stages = {stage_text(StageKind::vertex, "a.vert", vertex),
+                                               stage_text(StageKind::fragment, "a.frag", fragment)};
+        EXPECT_FALSE(link_program(*context, stages)) << version;
+    }
+}
+
+constexpr const char* plain_main =
+    "#include \"a.glsl\"\nout vec4 color;\nvoid main() { color = vec4(one()); }\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, Driver,
+    testing::Values(
+        DriverRow{"unix_line_ends", plain_main, "// one\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"windows_line_ends", plain_main,
+                  "// one\r\n#define A \\\r\n1.0\r\nfloat one() { return A; }\r\n", ""},
+        DriverRow{"old_line_ends", plain_main, "// one\r#define A 1.0\rfloat one() { return A; }\r", ""},
+        DriverRow{"mistake_behind_old_line_ends", plain_main, "// one\r\rfloat one() { return oops; }\r",
+                  "a.glsl:3"},
+        DriverRow{"byte_order_mark", plain_main, "\xEF\xBB\xBF#define A 1.0\nfloat one() { return A; }", ""},
+        DriverRow{"form_feed", plain_main, "float one()\f{\vreturn 1.0; }", ""},
+        DriverRow{"comment_that_takes_in_a_declaration", plain_main,
+                  "float one() {\n// C:\\art\\\nfloat a = 1.0;\nreturn a;\n}\n", "a.glsl:4"},
+        DriverRow{"comment_kept_to_its_line", plain_main,
+                  "float one() {\n// C:\\art\\ \nfloat a = 1.0;\nreturn a;\n}\n", ""},
+        DriverRow{"comment_kept_to_its_line_and_shipped", plain_main,
+                  "float one() {\n// C:\\art\\ \nfloat a = 1.0;\nreturn a;\n}\n", "", Comments::keep},
+        DriverRow{"comment_that_takes_in_a_declaration_and_is_shipped", plain_main,
+                  "float one() {\n// C:\\art\\\nfloat a = 1.0;\nreturn a;\n}\n", "a.glsl:4", Comments::keep},
+        DriverRow{"comment_in_quotation_marks", plain_main,
+                  "#if 0\n#error \"see // http\"\n#endif\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"comment_in_quotation_marks_and_shipped", plain_main,
+                  "#if 0\n#error \"see // http\"\n#endif\nfloat one() { return 1.0; }\n", "", Comments::keep},
+        DriverRow{"pragma_with_a_comment_in_quotation_marks", plain_main,
+                  "#pragma note(\"see // http\")\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"comment_amid_a_directive", plain_main,
+                  "#define A /* of\nno\nuse */ 1.0\nfloat one() { return A; }\n", ""},
+        DriverRow{"mistake_behind_a_comment_amid_a_directive", plain_main,
+                  "#define A /* of\nno\nuse */ 1.0\nfloat one() { return oops; }\n", "a.glsl:4"},
+        DriverRow{"joined_macro", plain_main,
+                  "#define SUM(a, b) \\\n ((a) + \\\n  (b))\nfloat one() { return SUM(0.5, 0.5); }\n", ""},
+        DriverRow{"mistake_behind_a_joined_macro", plain_main,
+                  "#define SUM(a, b) \\\n ((a) + \\\n  (b))\n\nfloat one() { return oops; }\n", "a.glsl:5"},
+        DriverRow{"joined_at_the_end", plain_main, "float one() { return 1.0; } \\", ""},
+        DriverRow{"comment_at_the_end", plain_main, "float one() { return 1.0; } // \\", ""},
+        DriverRow{"extension_behind_code", plain_main,
+                  "float aHalf() { return 0.5; }\n#extension GL_ARB_texture_gather : require\nuniform "
+                  "sampler2D map;\n"
+                  "float one() { return textureGather(map, vec2(0.5)).x; }\n",
+                  ""},
+        DriverRow{"extension_where_there_is_one", plain_main,
+                  "#ifdef GL_ARB_texture_gather\n#extension GL_ARB_texture_gather : require\n#endif\n"
+                  "uniform sampler2D map;\nfloat one() { return textureGather(map, vec2(0.5)).x; }\n",
+                  ""},
+        DriverRow{"extension_under_a_dead_condition", plain_main,
+                  "#if 0\n#extension GL_no_such : require\n#endif\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"line_directive", plain_main, "#line 100\n#line 200 3\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"mistake_behind_a_line_directive", plain_main, "#line 100\nfloat one() { return oops; }\n",
+                  "a.glsl:2"},
+        DriverRow{"version_in_an_include", plain_main, "\n#version 150\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"pragma_once", plain_main, "#pragma once\nfloat one() { return 1.0; }\n", ""},
+        DriverRow{"include_below_code",
+                  "out vec4 color;\nfloat two() { return 2.0; }\n#include \"a.glsl\"\nvoid main() { color = "
+                  "vec4(one()); }\n",
+                  "float one() { return 0.5 * two(); }\n", ""},
+        DriverRow{"include_within_a_function",
+                  "out vec4 color;\nvoid main() {\nfloat a = 0.0;\n#include \"a.glsl\"\n#include "
+                  "\"a.glsl\"\ncolor = vec4(a);\n}\n",
+                  "a += 0.5;\n", ""},
+        DriverRow{
+            "mistake_in_an_include_within_a_function",
+            "out vec4 color;\nvoid main() {\nfloat a = 0.0;\n#include \"a.glsl\"\ncolor = vec4(a);\n}\n",
+            "\na += oops;\n", "a.glsl:2"},
+        DriverRow{
+            "mistake_behind_an_include",
+            "out vec4 color;\nvoid main() {\nfloat a = 0.0;\n#include \"a.glsl\"\ncolor = vec4(oops);\n}\n",
+            "a += 0.5;\n", "tiny.frag:6"},
+        DriverRow{"include_under_a_condition",
+                  "#if __VERSION__ >= 330\n#include \"a.glsl\"\n#else\n#include \"none.glsl\"\n#endif\nout "
+                  "vec4 color;\n"
+                  "void main() { color = vec4(one()); }\n",
+                  "float one() { return 1.0; }\n", ""},
+        DriverRow{"include_twice_with_a_guard",
+                  "#define USED\n#include \"a.glsl\"\n#include \"a.glsl\"\nout vec4 color;\nvoid main() { "
+                  "color = vec4(one()); }\n",
+                  "#ifndef A_\n#define A_\nfloat one() { return 1.0; }\n#endif\n", ""},
+        DriverRow{"include_twice_without",
+                  "#define USED\n#include \"a.glsl\"\n#include \"a.glsl\"\nout vec4 color;\nvoid main() { "
+                  "color = vec4(one()); }\n",
+                  "float one() { return 1.0; }\n", "a.glsl:1"}),
+    [](const auto& row) { return row.param.name; });
+
+}  // namespace
+}  // namespace gobo

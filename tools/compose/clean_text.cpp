@@ -1,0 +1,157 @@
+#include "compose/clean_text.hpp"
+
+#include <algorithm>
+
+namespace gobo {
+namespace {
+
+bool is_blank(std::string_view text) {
+    return text.find_first_not_of(" \t") == std::string_view::npos;
+}
+
+/// The text with lines joined. Their ends stand behind the whole line.
+struct JoinedText {
+    std::string text;
+    std::vector<std::size_t> joins;  ///< where in `text` a line end was taken out
+
+    /// Whether a `//` comment takes in more than blanks and another such comment.
+    [[nodiscard]] bool takes_in_code(std::size_t begin, std::size_t end) const {
+        const auto next = std::ranges::upper_bound(joins, begin);
+        if (next == joins.end() || *next >= end) return false;
+        const std::string_view taken = std::string_view(text).substr(*next, end - *next);
+        return !is_blank(taken) && !taken.substr(taken.find_first_not_of(" \t")).starts_with("//");
+    }
+    /// The line of the file that a character stands on.
+    [[nodiscard]] int line_at(std::size_t at) const {
+        const auto place = text.begin() + static_cast<std::ptrdiff_t>(at);
+        const std::size_t start = text.substr(0, at).rfind('\n') + 1;
+        return static_cast<int>(
+            1 + std::count(text.begin(), place, '\n') +
+            std::ranges::count_if(joins, [&](std::size_t join) { return join >= start && join <= at; }));
+    }
+};
+
+JoinedText join_lines(std::string_view text) {
+    JoinedText joined;
+    std::size_t owed = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text.substr(i).starts_with("\\\n")) {
+            joined.joins.push_back(joined.text.size());
+            ++owed;
+            ++i;
+            continue;
+        }
+        joined.text += text[i];
+        if (text[i] == '\n') joined.text.append(std::exchange(owed, 0), '\n');
+    }
+    joined.text.append(owed, '\n');
+    return joined;
+}
+
+/// Cuts the comments of a text whose lines are joined.
+class CommentCutter {
+  public:
+    explicit CommentCutter(const JoinedText& joined) : joined_(joined) {}
+
+    Result<CleanText> run(const std::string& path, std::string_view file) {
+        const std::string_view text = joined_.text;
+        for (std::size_t i = 0; i < text.size();) {
+            if (text.substr(i).starts_with("//")) {
+                const std::size_t end = text.find('\n', i);
+                if (joined_.takes_in_code(i, end)) clean_.joined_comments.push_back(joined_.line_at(i));
+                i = cut(i, end);
+            } else if (text.substr(i).starts_with("/*")) {
+                const std::size_t close = text.find("*/", i + 2);
+                if (close == std::string_view::npos) {
+                    const int line = joined_.line_at(i);
+                    return fail({path, line, 0}, line_of(file, line), "a comment has no end",
+                                "close it with */");
+                }
+                i = cut(i, close + 2);
+            } else {
+                put(text[i], text[i]);
+                if (text[i++] == '\n') end_line();
+            }
+        }
+        return std::move(clean_);
+    }
+
+  private:
+    void put(char text, char code) {
+        clean_.text += text;
+        clean_.code += code;
+    }
+    void end_line() {
+        for (; owed_ > 0; --owed_) put('\n', '\n');
+        line_start_ = clean_.code.size();
+    }
+
+    /// Cuts the comment from `begin` to `end`, which is returned.
+    std::size_t cut(std::size_t begin, std::size_t end) {
+        const std::string_view comment = std::string_view(joined_.text).substr(begin, end - begin);
+        const std::string_view behind =
+            std::string_view(joined_.text).substr(end, joined_.text.find('\n', end) - end);
+        const std::string_view before = std::string_view(clean_.code).substr(line_start_);
+        // Amid a line, such as a directive, a comment is a blank, however many lines it takes.
+        if (comment.find('\n') != std::string_view::npos && !is_blank(before) && !is_blank(behind)) {
+            owed_ += std::ranges::count(comment, '\n');
+            put(' ', ' ');
+            return end;
+        }
+        // To glslang what stands behind a quotation mark is a string, to others it may be a comment.
+        const bool is_disputed = before.find('"') != std::string_view::npos;
+        for (const char character : comment) {
+            put(is_disputed && character != '\n' ? ' ' : character, character == '\n' ? '\n' : ' ');
+            if (character == '\n') line_start_ = clean_.code.size();
+        }
+        return end;
+    }
+
+    const JoinedText& joined_;
+    CleanText clean_;
+    std::ptrdiff_t owed_ = 0;     ///< line ends of comments amid the current line
+    std::size_t line_start_ = 0;  ///< of the current line in clean_.code
+};
+
+}  // namespace
+
+std::string unix_lines(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    std::string lines;
+    lines.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view pair = text.substr(i, 2);
+        if (pair == "\r\n" || pair == "\n\r") ++i;
+        // Vertical tabs and form feeds are blanks in GLSL, which not every reader knows.
+        const char character = pair.front();
+        lines += character == '\r' ? '\n' : character == '\v' || character == '\f' ? ' ' : character;
+    }
+    return lines;
+}
+
+Result<CleanText> clean_text(std::string_view text, const std::string& path) {
+    std::string lines = unix_lines(text);
+    if (const auto nul = lines.find('\0'); nul != std::string::npos) {
+        const auto line =
+            1 + std::count(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+        return fail({path, static_cast<int>(line), 0}, "", "holds a NUL byte and is not text",
+                    "name a GLSL file");
+    }
+    if (!lines.empty() && lines.back() != '\n') lines += '\n';
+    return CommentCutter(join_lines(lines)).run(path, lines);
+}
+
+std::string without_trailing_blanks(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        const std::string_view kept = line.substr(0, line.find_last_not_of(" \t") + 1);
+        result += kept;
+        result += kept.ends_with('\\') ? " \n" : "\n";
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return result;
+}
+
+}  // namespace gobo

@@ -1,0 +1,44 @@
+#include "compose/tokens.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/text.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\n";
+constexpr std::array<std::string_view, 9> kLongOperators = {
+    "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "##"};
+
+bool is_digit(char character) {
+    return character >= '0' && character <= '9';
+}
+
+/// How many characters the token takes that `rest` begins with.
+std::size_t length_of_token(std::string_view rest) {
+    const bool is_number =
+        is_digit(rest.front()) || (rest.size() > 1 && rest.front() == '.' && is_digit(rest[1]));
+    if (is_number || is_identifier_start(rest.front())) {
+        const auto goes_on = [&](char character) {
+            return is_identifier_part(character) || (is_number && character == '.');
+        };
+        return static_cast<std::size_t>(std::ranges::find_if_not(rest, goes_on) - rest.begin());
+    }
+    return std::ranges::find(kLongOperators, rest.substr(0, 2)) == kLongOperators.end() ? 1 : 2;
+}
+
+}  // namespace
+
+std::vector<std::string_view> tokens_of(std::string_view code) {
+    std::vector<std::string_view> tokens;
+    while (true) {
+        code.remove_prefix(std::min(code.find_first_not_of(kBlanks), code.size()));
+        if (code.empty()) return tokens;
+        tokens.push_back(code.substr(0, length_of_token(code)));
+        code.remove_prefix(tokens.back().size());
+    }
+}
+
+}  // namespace gobo

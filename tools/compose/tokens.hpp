@@ -1,0 +1,13 @@
+// The tokens of GLSL and of its preprocessor.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace gobo {
+
+/// The tokens of code without comments: identifiers, numbers, operators (`&&` is one) and other characters.
+/// They point into `code`.
+[[nodiscard]] std::vector<std::string_view> tokens_of(std::string_view code);
+
+}  // namespace gobo
