@@ -1,12 +1,13 @@
-# gobo_add_permutations(TARGET FAMILY family
+# gobo_add_permutations(TARGET [PRIVATE|PUBLIC|INTERFACE] FAMILY family [HEADER name]
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
 #                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [COMMENTS] [LIBRARY folder])
 #
-# Has gobo write the header of the selected permutations, NAME.hpp after the family's name, and puts it on the include
-# path of TARGET: of an executable for itself, of a library for those who link it too. FAMILY is a shipped name or a
-# .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
+# Has gobo write the header of the selected permutations and puts it on the include path of TARGET (or of what TARGET is an
+# alias of): of it alone (PRIVATE), of those who link it too (PUBLIC), or of those alone (INTERFACE). By default an executable's
+# is PRIVATE, a library's PUBLIC. The header is NAME.hpp after the family's name, or HEADER, which may begin with folders:
+# "engine/shaders.hpp". FAMILY is a shipped name or a .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
 # pieces before the family's own. LIBRARY holds shader_lib and templates, by default those that came with gobo.
 #
 # The shaders' comments stay out of the header unless COMMENTS is given.
@@ -14,7 +15,8 @@
 # MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
 # choose by, by default the study that came with the family.
 #
-# GOBO_PROGRAM, where it is set, is the gobo that runs instead of the package's own: one of the host when cross-compiling.
+# GOBO_PROGRAM, where it is set, is the gobo that runs instead of the package's own. When cross-compiling it is by default one
+# of the host that lies in PATH.
 #
 # The header follows every file that it was made from, and is left untouched where its text stays the same. Relative
 # paths are relative to the current source folder. docs/build_integration.md says more.
@@ -22,7 +24,8 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS" "FAMILY;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;PRIVATE;PUBLIC;INTERFACE"
+                        "FAMILY;HEADER;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
@@ -30,29 +33,27 @@ function(gobo_add_permutations target)
   endif()
   get_filename_component(arg_LIBRARY "${arg_LIBRARY}" ABSOLUTE)
   _gobo_find_family(family_argument family_file name)
-  set(folder "${CMAKE_CURRENT_BINARY_DIR}/gobo/${target}/${name}")
+  _gobo_name_header()
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/gobo/${target}/${header_name}")
   _gobo_command_line(arguments inputs)
+  _gobo_find_program(program)
 
   # Make compares times and would run gobo again for ever where the header stays untouched: the stamp is what has been
   # made. A changed command line must run it too, and Make knows of that by a file alone.
-  set(stamp "${folder}/${name}.stamp")
+  set(stamp "${folder}/${header_name}.stamp")
   list(JOIN arguments "\n" argument_lines)
-  _gobo_write("${folder}/${name}.arguments" "${argument_lines}\n")
-  set(program gobo::gobo)
-  if(GOBO_PROGRAM)
-    set(program "${GOBO_PROGRAM}")
-  endif()
+  _gobo_write("${folder}/${header_name}.arguments" "${argument_lines}\n")
   add_custom_command(
     OUTPUT "${stamp}"
-    BYPRODUCTS "${folder}/${name}.hpp" "${folder}/${name}.json"
-    COMMAND ${program} build ${arguments} -o "${folder}" --depfile-target "${stamp}" --quiet
+    BYPRODUCTS "${folder}/${header_folder}${header_name}.hpp" "${folder}/${header_folder}${header_name}.json"
+    COMMAND ${program} build ${arguments} -o "${folder}/${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
-    DEPENDS ${program} ${inputs} "${folder}/${name}.arguments"
-    DEPFILE "${folder}/${name}.d"
-    COMMENT "Building the permutations ${name}.hpp of ${target}"
+    DEPENDS ${program} ${inputs} "${folder}/${header_name}.arguments"
+    DEPFILE "${folder}/${header_folder}${header_name}.d"
+    COMMENT "Building the permutations ${header_name}.hpp of ${target}"
     VERBATIM)
-  add_custom_target(${target}_${name}_permutations DEPENDS "${stamp}")
-  add_dependencies(${target} ${target}_${name}_permutations)
+  add_custom_target(${target}_${header_name}_permutations DEPENDS "${stamp}")
+  add_dependencies(${target} ${target}_${header_name}_permutations)
   _gobo_use_header()
 endfunction()
 
@@ -61,6 +62,18 @@ endfunction()
 function(_gobo_check_arguments)
   if(NOT TARGET "${target}")
     message(FATAL_ERROR "gobo_add_permutations: there is no target '${target}'; add it before")
+  endif()
+  get_target_property(aliased "${target}" ALIASED_TARGET)
+  if(aliased)
+    set(target "${aliased}" PARENT_SCOPE)
+    set(target "${aliased}")
+  endif()
+  get_target_property(is_imported "${target}" IMPORTED)
+  if(is_imported)
+    message(FATAL_ERROR "gobo_add_permutations: '${target}' is imported: nothing of it is compiled here; name a target of this project")
+  endif()
+  if(arg_PRIVATE AND arg_PUBLIC OR arg_PRIVATE AND arg_INTERFACE OR arg_PUBLIC AND arg_INTERFACE)
+    message(FATAL_ERROR "gobo_add_permutations: give one of PRIVATE, PUBLIC and INTERFACE")
   endif()
   if("RETIRED" IN_LIST arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "gobo_add_permutations: RETIRED is now EXCLUDED")
@@ -97,6 +110,43 @@ function(_gobo_find_family argument_variable file_variable name_variable)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
 endfunction()
 
+# The header's name without its end (header_name) and the folders before it (header_folder, empty or with a '/' behind it).
+function(_gobo_name_header)
+  set(header_folder "")
+  set(header_name "${name}")
+  if(arg_HEADER)
+    if(NOT arg_HEADER MATCHES "^(([A-Za-z0-9_.-]+/)*)([A-Za-z0-9_][A-Za-z0-9_.-]*)\\.hpp$" OR arg_HEADER MATCHES "(^|/)\\.\\.?/")
+      message(FATAL_ERROR "gobo_add_permutations: HEADER is a name such as shaders.hpp or engine/shaders.hpp, not '${arg_HEADER}'")
+    endif()
+    set(header_folder "${CMAKE_MATCH_1}")
+    set(header_name "${CMAKE_MATCH_3}")
+  endif()
+  set(header_folder "${header_folder}" PARENT_SCOPE)
+  set(header_name "${header_name}" PARENT_SCOPE)
+endfunction()
+
+# The gobo to run: the package's own, or one of the host where what is built here runs elsewhere.
+function(_gobo_find_program variable)
+  set(${variable} gobo::gobo PARENT_SCOPE)
+  get_target_property(is_imported gobo::gobo IMPORTED)
+  if(CMAKE_CROSSCOMPILING AND NOT GOBO_PROGRAM AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    if(is_imported)
+      get_target_property(location gobo::gobo LOCATION)
+      execute_process(COMMAND "${location}" --version RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+      if(status STREQUAL "0")
+        return()
+      endif()
+    endif()
+    find_program(GOBO_PROGRAM gobo NO_CMAKE_FIND_ROOT_PATH DOC "The gobo of the host")
+    if(NOT GOBO_PROGRAM)
+      message(FATAL_ERROR "gobo_add_permutations: cross-compiling needs a gobo that runs here; build one for the host and give -D GOBO_PROGRAM=.../gobo")
+    endif()
+  endif()
+  if(GOBO_PROGRAM)
+    set(${variable} "${GOBO_PROGRAM}" PARENT_SCOPE)
+  endif()
+endfunction()
+
 # The arguments of `gobo build`, and the files among them. Keys go through a file: there may be thousands.
 function(_gobo_command_line arguments_variable inputs_variable)
   set(arguments "")
@@ -113,8 +163,8 @@ function(_gobo_command_line arguments_variable inputs_variable)
     foreach(key IN LISTS arg_KEYS)
       string(APPEND lines "${key}\n")
     endforeach()
-    _gobo_write("${folder}/${name}.keys" "${lines}")
-    list(PREPEND arg_KEYS_FROM "${folder}/${name}.keys")
+    _gobo_write("${folder}/${header_name}.keys" "${lines}")
+    list(PREPEND arg_KEYS_FROM "${folder}/${header_name}.keys")
   endif()
   foreach(file IN LISTS arg_KEYS_FROM)
     get_filename_component(file "${file}" ABSOLUTE)
@@ -174,10 +224,10 @@ endfunction()
 # Puts the header, and what it includes, on the include path of the target and of those who may include it through it.
 function(_gobo_use_header)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL "EXECUTABLE")
-    set(scope PRIVATE)
-  elseif(type STREQUAL "INTERFACE_LIBRARY")
+  if(type STREQUAL "INTERFACE_LIBRARY" OR arg_INTERFACE)
     set(scope INTERFACE)
+  elseif(arg_PRIVATE OR type STREQUAL "EXECUTABLE" AND NOT arg_PUBLIC)
+    set(scope PRIVATE)
   else()
     set(scope PUBLIC)
   endif()

@@ -76,7 +76,7 @@ struct Components {
     }
     template <class Value, std::size_t Bytes>
     void add(const std140::Padded<Value, Bytes>& padded) {
-        add(static_cast<const Value&>(padded));
+        add(padded.value);
     }
 
   private:

@@ -31,9 +31,9 @@ template <class Number, glm::qualifier Layout>
     const glm::dvec3 y(model_view[1][0], model_view[1][1], model_view[1][2]);
     const glm::dvec3 z(model_view[2][0], model_view[2][1], model_view[2][2]);
     const auto size_of = [](const glm::dvec3& axis) {
-        return std::max(std::abs(axis.x), std::max(std::abs(axis.y), std::abs(axis.z)));
+        return (std::max)(std::abs(axis.x), (std::max)(std::abs(axis.y), std::abs(axis.z)));
     };
-    const double size = std::max(size_of(x), std::max(size_of(y), size_of(z)));
+    const double size = (std::max)(size_of(x), (std::max)(size_of(y), size_of(z)));
     if (!(size > 0)) return glm::mat3(0.0F);
     const glm::dvec3 a = x / size;  // so that products neither over- nor underflow
     const glm::dvec3 b = y / size;
@@ -41,7 +41,7 @@ template <class Number, glm::qualifier Layout>
     glm::dmat3 cofactors(glm::cross(b, c), glm::cross(c, a), glm::cross(a, b));
     if (glm::dot(a, cofactors[0]) < 0) cofactors = -cofactors;  // mirrored
     double largest = 0;
-    for (int column = 0; column < 3; ++column) largest = std::max(largest, size_of(cofactors[column]));
+    for (int column = 0; column < 3; ++column) largest = (std::max)(largest, size_of(cofactors[column]));
     if (!(largest > 0)) return glm::mat3(0.0F);
     return glm::mat3(cofactors / largest);
 }

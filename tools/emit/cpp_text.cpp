@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "emit/reserved_names.hpp"
 
 namespace gobo {
 namespace {
@@ -15,24 +16,6 @@ constexpr std::size_t kLineWidth = 110;
 constexpr std::size_t kLiteralLimit = 16000;
 /// An octal escape: the most that one byte can take.
 constexpr std::size_t kLongestEscape = 4;
-
-/// Keywords of C++17 and C++20 and their alternative tokens; then what headers define as macros: those of the
-/// compilers and the standard library (`linux` and `unix` in GNU mode), <windows.h>, <X11/Xlib.h>.
-constexpr std::string_view kReserved =
-    " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t "
-    "class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit "
-    "continue decltype default delete do double dynamic_cast else enum explicit export extern false float "
-    "for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq "
-    "private protected public register reinterpret_cast requires return short signed sizeof static "
-    "static_assert static_cast struct switch template this thread_local throw true try typedef typeid "
-    "typename union unsigned using virtual void volatile wchar_t while xor xor_eq "
-    "EOF INFINITY NAN NULL assert errno i386 linux major minor offsetof stderr stdin stdout unix "
-    "ABSOLUTE ALTERNATE CONST DELETE DIFFERENCE DOMAIN ERROR FALSE FAR IGNORE IN INFINITE NEAR OPAQUE "
-    "OPTIONAL OUT OVERFLOW RELATIVE STRICT THIS TRANSPARENT TRUE UNDERFLOW VOID WINDING cdecl far hyper "
-    "interface near pascal small "
-    "Above Always Below Bool Complex Convex CurrentTime DirectColor Expose False FocusIn FocusOut GrayScale "
-    "KeyPress KeyRelease LSBFirst MSBFirst None Nonconvex StaticColor StaticGray Status Success True "
-    "TrueColor Unsorted ";
 
 bool is_plain(char character) {
     return (character >= ' ' && character <= '~') || character == '\n' || character == '\t';
@@ -118,7 +101,7 @@ std::string cpp_identifier(std::string_view name) {
     }
     if (result.empty()) return "unnamed";
     if (!is_identifier_start(result.front())) result.insert(0, 1, '_');
-    if (kReserved.find(" " + result + " ") != std::string_view::npos) result += '_';
+    if (is_reserved_name(result)) result += '_';
     return result;
 }
 

@@ -26,8 +26,8 @@ namespace gobo {
 
 /// A C++ identifier as near to `name` as can be: other characters become '_', runs of '_' and leading ones
 /// are dropped (C++ reserves them), a leading digit gets a '_' before it (`4x` is `_4x`), and a keyword of
-/// C++ (20 too) or a macro of <windows.h> or X11 gets one behind it (`default` is `default_`, `near`
-/// `near_`).
+/// C++ (20 too) or a macro of the standard library, <windows.h> or X11 gets one behind it (`default` is
+/// `default_`, `near` `near_`, `INT_MAX` `INT_MAX_`).
 [[nodiscard]] std::string cpp_identifier(std::string_view name);
 
 /// `fog_distance` as the name of a type: `FogDistance`.

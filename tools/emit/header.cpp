@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,20 @@ Result<std::string> namespace_of(const EmitInput& input) {
         return input.cpp_namespace;
     return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
                 "use identifiers with '::' between them, such as game::shaders");
+}
+
+/// A name that differs where the header does, by its contents (FNV-1a): the inline namespace of two headers
+/// of one family, so that programs may link both.
+std::string contents_name(const HeaderTemplates& templates, const TemplateValues& values) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    const auto add = [&hash](std::string_view text) {
+        for (const char character : text)
+            hash = (hash ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
+        hash = (hash ^ 0xffU) * 0x100000001b3U;  // no text holds this byte: "ab", "c" is not "a", "bc"
+    };
+    for (const auto& [name, part] : templates) add(part.text);
+    for (const auto& [name, value] : values) add(value);
+    return fmt::format("contents_{:016x}", hash);
 }
 
 }  // namespace
@@ -74,6 +89,7 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     GOBO_TRY_DO(block_section(interface.blocks, family.domains, templates, scope, values));
     interface_section(interface, family.domains, values);
     permutation_section(input.composition, key, values);
+    values["contents"] = contents_name(templates, values);
     return fill(templates.at("header"), values);
 }
 

@@ -120,6 +120,13 @@ const Member* last_array(const Block& block) {
     return block.members.empty() || block.members.back().array.empty() ? nullptr : &block.members.back();
 }
 
+/// C++ places members in the order in which they are declared: by offset, which the source may state
+/// otherwise.
+void sort_by_offset(std::vector<Member>& members) {
+    std::ranges::stable_sort(members, {}, &Member::offset);
+    for (Member& member : members) sort_by_offset(member.members);
+}
+
 class StructWriter {
   public:
     StructWriter(const std::vector<Domain>& domains, const HeaderTemplates& templates, CppScope& scope)
@@ -167,11 +174,6 @@ class StructWriter {
 
     Result<void> add_members(StructText& structure, const std::vector<Member>& members,
                              const std::string& path) {
-        const auto unsupported = [&](const Member& member) {
-            return fail(Fault::input,
-                        fmt::format("no C++ struct has the layout of '{}.{}'", path, member.name),
-                        "declare the block with layout(std140)");
-        };
         std::vector<std::pair<CppMemberType, std::vector<NamedMember>>> types;
         for (const Member& member : members) {
             std::optional<CppMemberType> type = cpp_type_of(member);
@@ -181,13 +183,22 @@ class StructWriter {
                 type = cpp_array_of(inner.name, inner.end, member);
                 parts = std::move(inner.named);
             }
-            if (!type) return unsupported(member);
+            if (!type)
+                return fail(Fault::input,
+                            fmt::format("no C++ type has the layout of '{}.{}', a {}", path, member.name,
+                                        member.type),
+                            "declare the block with layout(std140), of numbers of 32 or 64 bits");
             // A member may not have the name of a type that its struct uses.
             structure.scope.claim(type->type);
             types.emplace_back(std::move(*type), std::move(parts));
         }
         for (std::size_t i = 0; i < members.size(); ++i) {
-            if (members[i].offset < structure.end) return unsupported(members[i]);
+            if (members[i].offset < structure.end)
+                return fail(
+                    Fault::input,
+                    fmt::format("'{}.{}' at offset {} overlaps '{}', which ends at {}", path, members[i].name,
+                                members[i].offset, members[i - 1].name, structure.end),
+                    "state other offsets, or none: layout(std140) gives them");
             const std::string domain = domain_text(domains_, path + "." + members[i].name);
             structure.add(members[i], types[i].first, domain.empty() ? "" : "  ///< " + domain,
                           std::move(types[i].second));
@@ -304,7 +315,8 @@ Result<void> block_section(const std::vector<Block>& blocks, const std::vector<D
                            const HeaderTemplates& templates, CppScope& scope, TemplateValues& values) {
     StructWriter writer(domains, templates, scope);
     std::string& checks = values["checks"] = "";
-    for (const Block& block : blocks) {
+    for (Block block : blocks) {
+        sort_by_offset(block.members);
         GOBO_TRY(const StructText written, writer.write_block(block));
         GOBO_TRY(const std::string check, block_check(block, written, domains, templates.at("check")));
         checks += check;

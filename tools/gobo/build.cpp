@@ -13,10 +13,21 @@ namespace {
 struct BuildOptions : SelectionOptions {
     BudgetOptions budget;
     std::string folder;
+    std::string header;
     std::string cpp_namespace;
     std::string depfile_target;
     bool comments = false;
 };
+
+/// The path of the header without its end, which those of the manifest and the depfile begin with, too.
+Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
+    if (options.header.empty()) return options.folder + "/" + family.name;
+    const std::size_t size = options.header.size();
+    if (!options.header.ends_with(".hpp") || size == 4 || options.header.find('/') != std::string::npos)
+        return fail(Fault::usage, fmt::format("'{}' is not the name of a header", options.header),
+                    "give a file name that ends in .hpp; --output says the folder");
+    return options.folder + "/" + options.header.substr(0, size - 4);
+}
 
 /// The interface of the whole family: what any permutation of the composition declares.
 Result<Interface> united_interface(const Composition& composition, const Validated& validated) {
@@ -30,6 +41,7 @@ Result<Interface> united_interface(const Composition& composition, const Validat
 
 Result<Outcome> run(const BuildOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
+    GOBO_TRY(const std::string stem, stem_of(options, family.family));
     if (options.comments) family.comments = Comments::keep;
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     std::vector<QualityChoice> qualities;
@@ -51,7 +63,6 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
     files.insert(composition.files.begin(), composition.files.end());
     if (!world.options.library.empty())
         for (const auto& [name, part] : templates) files.insert(part.name);
-    const std::string stem = options.folder + "/" + family.family.name;
     const std::string target = options.depfile_target.empty() ? stem + ".hpp" : options.depfile_target;
     GOBO_TRY(const bool is_new_header, world.disk.write(stem + ".hpp", header));
     GOBO_TRY(const bool is_new_manifest, world.disk.write(stem + ".json", emit_manifest(input)));
@@ -75,6 +86,8 @@ Command build_command() {
         {family_argument(options->family),
          {"-o,--output", "DIR", "Folder for FAMILY.hpp, FAMILY.json and FAMILY.d", &options->folder,
           kRequired},
+         {"--header", "FILE", "Name of the header, the manifest's and the depfile's; by default FAMILY.hpp",
+          &options->header},
          {"--namespace", "NAME", "C++ namespace of the header; by default the family's name",
           &options->cpp_namespace},
          {"--depfile-target", "FILE",

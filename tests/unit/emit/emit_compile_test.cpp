@@ -32,7 +32,8 @@ class GeneratedHeader : public testing::TestWithParam<Compiler> {
         const std::string program = fmt::format("{}/{}", folder_, caller);
         const std::string log = program + ".log";
         const std::string command = fmt::format(
-            "{} -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror {} -I'{}' -I'{}/include' "
+            "{} -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror {} -I'{}' "
+            "-I'{}/include' "
             "'{}/tests/unit/emit/{}.cpp' -o '{}' > '{}' 2>&1 && '{}' '{}' > '{}' 2>&1",
             GetParam().command, options, folder_, GOBO_SOURCE_DIR, GOBO_SOURCE_DIR, caller, program, log,
             program, folder_, log);
@@ -63,6 +64,18 @@ TEST_P(GeneratedHeader, FindsPermutationsByAStateAndRecordsKeys) {
 TEST_P(GeneratedHeader, StandsBehindTheMacrosOfPlatforms) {
     write_header(sample::macros(), "macros");
     EXPECT_EQ(compile_and_run("macro_caller"), "");
+}
+
+TEST_P(GeneratedHeader, StandsBehindAndBeforeXlib) {
+    write_header(sample::macros(), "macros");
+    EXPECT_EQ(compile_and_run("xlib_caller", "-DXLIB_FIRST"), "");
+    EXPECT_EQ(compile_and_run("xlib_caller"), "");
+}
+
+TEST_P(GeneratedHeader, TakesElementsOfArraysWhateverGlmsLayout) {
+    write_header(sample::arrays(), "arrays");
+    EXPECT_EQ(compile_and_run("array_caller"), "");
+    EXPECT_EQ(compile_and_run("array_caller", "-DGLM_FORCE_DEFAULT_ALIGNED_GENTYPES"), "");
 }
 
 TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {

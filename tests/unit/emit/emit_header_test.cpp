@@ -34,15 +34,15 @@ TEST_P(CppNames, AreIdentifiers) {
     EXPECT_TRUE(is_cpp_identifier(GetParam().identifier));
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, CppNames,
-                         testing::Values(NameRow{"fog_distance", "fog_distance", "FogDistance"},
-                                         NameRow{"default", "default_", "Default"},
-                                         NameRow{"co_await", "co_await_", "CoAwait"},
-                                         NameRow{"4x", "_4x", "_4x"}, NameRow{"a-b", "a_b", "AB"},
-                                         NameRow{"__Bool", "Bool_", "Bool_"}, NameRow{"a__b", "a_b", "AB"},
-                                         NameRow{"linux", "linux_", "Linux"},
-                                         NameRow{"near", "near_", "Near"}, NameRow{"none", "none", "None_"},
-                                         NameRow{"--", "unnamed", "unnamed"}));
+INSTANTIATE_TEST_SUITE_P(
+    Names, CppNames,
+    testing::Values(NameRow{"fog_distance", "fog_distance", "FogDistance"},
+                    NameRow{"default", "default_", "Default"}, NameRow{"co_await", "co_await_", "CoAwait"},
+                    NameRow{"4x", "_4x", "_4x"}, NameRow{"a-b", "a_b", "AB"},
+                    NameRow{"__Bool", "Bool_", "Bool_"}, NameRow{"a__b", "a_b", "AB"},
+                    NameRow{"linux", "linux_", "Linux"}, NameRow{"near", "near_", "Near"},
+                    NameRow{"INT_MAX", "INT_MAX_", "INTMAX"}, NameRow{"none", "none", "None_"},
+                    NameRow{"--", "unnamed", "unnamed"}));
 
 TEST(CppScope, HandsOutEachNameOnce) {
     CppScope scope({"Fog"});
@@ -216,8 +216,8 @@ TEST(EmitHeader, RefusesALayoutThatOverlaps) {
     const auto header = emit_header(built.input(), templates());
     ASSERT_FALSE(header);
     EXPECT_EQ(to_text(header.error().front()),
-              "gobo: error: no C++ struct has the layout of 'Odd.b'\n"
-              "  help: declare the block with layout(std140)\n");
+              "gobo: error: 'Odd.b' at offset 8 overlaps 'a', which ends at 16\n"
+              "  help: state other offsets, or none: layout(std140) gives them\n");
 }
 
 }  // namespace

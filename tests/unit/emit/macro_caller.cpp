@@ -18,7 +18,11 @@
 #define Always 2
 #define Above 0
 #define Complex 0
+#define min(a, b) ((a) < (b) ? (a) : (b))
+#define max(a, b) ((a) > (b) ? (a) : (b))
 
+#include <climits>
+#include <cmath>
 #include <cstdio>
 
 #include <gobo/light_probes.hpp>
@@ -34,10 +38,12 @@ int main() {
     key.status = macros::Status_::ERROR_;
     key.Bool_ = true;
     key.interface_ = 2;
+    key.limit = macros::Limit::INT_MAX_;
     if (macros::find(key) == nullptr) std::printf("%s\n", macros::describe_missing(key).c_str());
     macros::Complex_ block{};
     block.near_ = 2;
     block.True_ = true;
+    block.min = block.max = 1;
     block.DELETE_.OPTIONAL_ = glm::vec4(1);
     if (macros::check(block).size() != 1) std::puts("near is out of range");
     return macros::find(key) != nullptr && macros::attribute::OUT_ + macros::output::False_ == 0 ? 0 : 1;

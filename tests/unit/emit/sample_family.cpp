@@ -165,17 +165,38 @@ Built macros() {
     built.family.name = "macros";
     built.family.features = {choice("small", {"none", "None", "near", "far", "IN", "TRANSPARENT"}),
                              choice("status", {"Success", "Always", "ERROR"}), count("interface", 3),
-                             define("Bool")};
+                             define("Bool"), choice("limit", {"EOF", "INT_MAX", "M_PI", "EDOM"})};
     built.family.rules = {defaults(built.family, "Bool == off", {"interface"})};
     built.interface.blocks = {
-        block("Complex", 0, 32,
+        block("Complex", 0, 48,
               {member("near", "float", 0), member("far", "float", 4), member("True", "bool", 8),
-               structure("DELETE", "Status", 16, {member("OPTIONAL", "vec4", 0)})})};
+               structure("DELETE", "Status", 16, {member("OPTIONAL", "vec4", 0)}), member("min", "float", 32),
+               member("max", "float", 36)})};
     built.family.domains = {{"Complex.near", 0, 1, false, {}, {}, {}}};
     built.interface.inputs = {{"OUT", "vec3", 0, {}}};
     built.interface.outputs = {{"False", "vec4", 0, {}}};
     built.interface.samplers = {{"Above", "sampler2D", 0, {}, {}}};
-    compose_keys(built, {"default", "small=None status=ERROR Bool=on interface=2"});
+    compose_keys(built, {"default", "small=None status=ERROR Bool=on interface=2 limit=INT_MAX"});
+    return built;
+}
+
+Built arrays() {
+    Built built;
+    built.family.name = "arrays";
+    Member reached = array(matrix("turns", "mat3", 0), {2}, 48);
+    reached.offset = 352;
+    built.interface.blocks = {
+        block("Arrays", 0, 512,
+              {array(member("taps", "vec2", 0), {3}, 16), array(member("order", "uint", 48), {4}, 16),
+               array(member("weights", "float", 112), {2}, 16), array(member("on", "bool", 144), {3}, 16),
+               array(member("masks", "bvec3", 192), {2}, 16), array(member("offsets", "vec3", 224), {2}, 16),
+               matrix("turn", "mat3", 256), matrix("rows", "mat3", 304, true), reached,
+               member("lit", "bool", 448), member("mask", "bvec2", 456), member("point", "vec3", 464)}),
+        // Stated offsets need not rise with the members.
+        block("Order", 1, 16, {member("late", "float", 8), member("early", "float", 4)})};
+    built.family.domains = {{"Arrays.on", 0, 1, false, {}, {}, {}},
+                            {"Arrays.masks", 0, 1, false, {}, {}, {}}};
+    compose_keys(built, {"default"});
     return built;
 }
 

@@ -122,6 +122,9 @@ Built nasty();
 /// Names that other people's headers make macros.
 Built macros();
 
+/// Arrays and matrices of every kind that std140 pads, and a block whose offsets do not rise.
+Built arrays();
+
 /// A family without features, with one permutation and an empty interface.
 Built bare();
 

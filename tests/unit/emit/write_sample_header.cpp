@@ -16,7 +16,13 @@ Result<bool> write_header(const std::string& name, const std::string& path) {
     DiskFileSystem files;
     const auto templates = read_header_templates(files, GOBO_SOURCE_DIR "/templates/header");
     if (!templates) return tl::make_unexpected(templates.error());
-    const sample::Built built = name == "large" ? sample::large(large_size) : sample::drawn();
+    const sample::Built built = name == "large"    ? sample::large(large_size)
+                                : name == "lit"    ? sample::lit()
+                                : name == "nasty"  ? sample::nasty()
+                                : name == "bare"   ? sample::bare()
+                                : name == "macros" ? sample::macros()
+                                : name == "arrays" ? sample::arrays()
+                                                   : sample::drawn();
     const auto header = emit_header(built.input(name), *templates);
     if (!header) return tl::make_unexpected(header.error());
     return files.write(path, *header);
