@@ -45,11 +45,11 @@ function(gobo_add_permutations target)
   _gobo_write("${folder}/${header_name}.arguments" "${argument_lines}\n")
   add_custom_command(
     OUTPUT "${stamp}"
-    BYPRODUCTS "${folder}/${header_folder}${header_name}.hpp" "${folder}/${header_folder}${header_name}.json"
-    COMMAND ${program} build ${arguments} -o "${folder}/${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
+    BYPRODUCTS "${folder}${header_folder}/${header_name}.hpp" "${folder}${header_folder}/${header_name}.json"
+    COMMAND ${program} build ${arguments} -o "${folder}${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
     DEPENDS ${program} ${inputs} "${folder}/${header_name}.arguments"
-    DEPFILE "${folder}/${header_folder}${header_name}.d"
+    DEPFILE "${folder}${header_folder}/${header_name}.d"
     COMMENT "Building the permutations ${header_name}.hpp of ${target}"
     VERBATIM)
   add_custom_target(${target}_${header_name}_permutations DEPENDS "${stamp}")
@@ -110,7 +110,7 @@ function(_gobo_find_family argument_variable file_variable name_variable)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
 endfunction()
 
-# The header's name without its end (header_name) and the folders before it (header_folder, empty or with a '/' behind it).
+# The header's name without its end (header_name), and the folders before it (header_folder: empty, or "/engine").
 function(_gobo_name_header)
   set(header_folder "")
   set(header_name "${name}")
@@ -118,8 +118,9 @@ function(_gobo_name_header)
     if(NOT arg_HEADER MATCHES "^(([A-Za-z0-9_.-]+/)*)([A-Za-z0-9_][A-Za-z0-9_.-]*)\\.hpp$" OR arg_HEADER MATCHES "(^|/)\\.\\.?/")
       message(FATAL_ERROR "gobo_add_permutations: HEADER is a name such as shaders.hpp or engine/shaders.hpp, not '${arg_HEADER}'")
     endif()
-    set(header_folder "${CMAKE_MATCH_1}")
-    set(header_name "${CMAKE_MATCH_3}")
+    get_filename_component(header_name "${arg_HEADER}" NAME_WLE)
+    get_filename_component(header_folder "/${arg_HEADER}" DIRECTORY)
+    string(REGEX REPLACE "/$" "" header_folder "${header_folder}")
   endif()
   set(header_folder "${header_folder}" PARENT_SCOPE)
   set(header_name "${header_name}" PARENT_SCOPE)
