@@ -130,11 +130,13 @@ template <class Tables, class Functions>
 
 }  // namespace detail
 
-/// Gives blocks their bindings and samplers their units, by name: needed where the dialect (330, ES 300)
-/// cannot state them in the shader. The current program stays current.
-template <class Tables, class Functions>
-void set_bindings(unsigned program, const Functions& gl) {
+namespace detail {
+
+/// Does as set_bindings() says with the rows of the tables that `is_wanted(only)`.
+template <class Tables, class Functions, class IsWanted>
+void set_bindings(unsigned program, const Functions& gl, IsWanted is_wanted) {
     for (const runtime::BlockBinding& block : Tables::blocks) {
+        if (!is_wanted(block.only)) continue;
         const unsigned index = gl.GetUniformBlockIndex(program, std::string(block.name).c_str());
         if (index == constant::invalid_index) continue;
         gl.UniformBlockBinding(program, index, static_cast<unsigned>(block.binding));
@@ -143,13 +145,29 @@ void set_bindings(unsigned program, const Functions& gl) {
     gl.GetIntegerv(constant::current_program, &previous);
     gl.UseProgram(program);
     for (const runtime::SamplerBinding& sampler : Tables::samplers) {
-        const int location = gl.GetUniformLocation(program, std::string(sampler.name).c_str());
-        if (location < 0) continue;
+        if (!is_wanted(sampler.only)) continue;
         std::vector<int> units;
         for (int unit = 0; unit < sampler.count; ++unit) units.push_back(sampler.binding + unit);
-        gl.Uniform1iv(location, sampler.count, units.data());
+        const int location = gl.GetUniformLocation(program, std::string(sampler.name).c_str());
+        if (location >= 0) gl.Uniform1iv(location, sampler.count, units.data());
     }
     gl.UseProgram(static_cast<unsigned>(previous));
+}
+
+}  // namespace detail
+
+/// Gives blocks their bindings and samplers their units, by name: needed where the dialect (330, ES 300)
+/// cannot state them in the shader. The current program stays current.
+template <class Permutation, class Functions>
+void set_bindings(const Permutation& permutation, unsigned program, const Functions& gl) {
+    detail::set_bindings<typename Permutation::Tables>(
+        program, gl, [&permutation](const runtime::Only& only) { return only.applies_to(permutation); });
+}
+
+/// The same where all permutations declare alike.
+template <class Tables, class Functions>
+void set_bindings(unsigned program, const Functions& gl) {
+    detail::set_bindings<Tables>(program, gl, [](const runtime::Only&) { return true; });
 }
 
 /// Compiles and links a permutation of a generated header, and binds its attributes, blocks and samplers as
@@ -169,6 +187,7 @@ template <class Permutation, class Functions>
     gl.AttachShader(id, vertex);
     gl.AttachShader(id, fragment);
     for (const runtime::VariableLocation& attribute : Permutation::Tables::attributes) {
+        if (!attribute.only.applies_to(permutation)) continue;
         gl.BindAttribLocation(id, static_cast<unsigned>(attribute.location),
                               std::string(attribute.name).c_str());
     }
@@ -186,7 +205,7 @@ template <class Permutation, class Functions>
         gl.DeleteProgram(id);
         return program;
     }
-    set_bindings<typename Permutation::Tables>(id, gl);
+    set_bindings(permutation, id, gl);
     program.id = id;
     return program;
 }

@@ -25,18 +25,33 @@ struct Stage {
 
     /// How many texts for_each_piece() passes.
     [[nodiscard]] constexpr int piece_count() const {
-        return static_cast<int>(Tables::stage_begins[number + 1] - Tables::stage_begins[number]);
+        std::uint32_t count = 0;
+        for (std::uint32_t at = Tables::stage_begins[number]; at < Tables::stage_begins[number + 1]; ++at) {
+            const std::size_t run = Tables::run_lists[at];
+            count += Tables::run_begins[run + 1] - Tables::run_begins[run];
+        }
+        return static_cast<int>(count);
     }
     /// The piece at a position from 0 to piece_count() - 1.
     [[nodiscard]] constexpr const Piece& piece(int position) const {
-        const std::size_t begin = Tables::stage_begins[number];
-        return Tables::pieces[Tables::piece_lists[begin + static_cast<std::size_t>(position)]];
+        auto left = static_cast<std::uint32_t>(position);
+        std::uint32_t at = Tables::stage_begins[number];
+        for (;; ++at) {
+            const std::size_t run = Tables::run_lists[at];
+            const std::uint32_t size = Tables::run_begins[run + 1] - Tables::run_begins[run];
+            if (left < size) return Tables::pieces[Tables::run_pieces[Tables::run_begins[run] + left]];
+            left -= size;
+        }
     }
     /// Calls `callback(std::string_view)` with each text in order. One after the other they are the source;
     /// glShaderSource takes them as they are, with their lengths (they may lack a terminating zero).
     template <class Callback>
     constexpr void for_each_piece(Callback&& callback) const {
-        for (int position = 0; position < piece_count(); ++position) callback(piece(position).text);
+        for (std::uint32_t at = Tables::stage_begins[number]; at < Tables::stage_begins[number + 1]; ++at) {
+            const std::size_t run = Tables::run_lists[at];
+            for (std::uint32_t piece = Tables::run_begins[run]; piece < Tables::run_begins[run + 1]; ++piece)
+                callback(Tables::pieces[Tables::run_pieces[piece]].text);
+        }
     }
     /// The whole source as one text.
     [[nodiscard]] std::string source() const {
@@ -84,10 +99,23 @@ template <class Packed, std::size_t Count>
     return first;
 }
 
+/// Whose row of a table it is: of all permutations, or of those whose declared(differing) is `number`, where
+/// others declare the name in another way.
+struct Only {
+    int differing = -1;
+    int number = 0;
+
+    template <class Permutation>
+    [[nodiscard]] constexpr bool applies_to(const Permutation& permutation) const {
+        return differing < 0 || permutation.declared(differing) == number;
+    }
+};
+
 /// The binding point of a uniform block, for dialects that cannot state it in the shader.
 struct BlockBinding {
     std::string_view name;
     int binding = 0;
+    Only only = {};
 };
 
 /// The texture unit of a sampler; an array of samplers takes `count` units from `binding` on.
@@ -96,6 +124,7 @@ struct SamplerBinding {
     std::string_view type;  ///< the GLSL type
     int binding = 0;
     int count = 1;
+    Only only = {};
 };
 
 /// A vertex attribute or a fragment output.
@@ -103,6 +132,7 @@ struct VariableLocation {
     std::string_view name;
     std::string_view type;  ///< the GLSL type
     int location = -1;      ///< -1 where the driver chooses
+    Only only = {};
 };
 
 /// A uniform outside any block.
@@ -111,6 +141,7 @@ struct UniformLocation {
     std::string_view type;  ///< the GLSL type
     int location = -1;      ///< -1 where the driver chooses: ask glGetUniformLocation
     int count = 1;          ///< elements of an array
+    Only only = {};
 };
 
 }  // namespace gobo::runtime

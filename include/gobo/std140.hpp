@@ -130,7 +130,8 @@ using bvec4 = BoolVector<4>;
 /// A column-major matrix whose columns are `Stride` bytes apart: in std140 each column is padded to 16.
 template <int Columns, int Rows, class Number, std::size_t Stride>
 struct Matrix {
-    static_assert(Stride > static_cast<std::size_t>(Rows) * sizeof(Number), "a matrix without padding is a PlainMatrix");
+    static_assert(Stride > static_cast<std::size_t>(Rows) * sizeof(Number),
+                  "a matrix without padding is a PlainMatrix");
     using Column = Padded<Vector<Rows, Number>, Stride>;
     Column columns[static_cast<std::size_t>(Columns)];
 

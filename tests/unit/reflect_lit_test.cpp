@@ -90,7 +90,7 @@ TEST(Lit, HasOneInterfaceForAllPermutations) {
     for (const Permutation& permutation : lit.permutations)
         programs.push_back(merge({stages[static_cast<std::size_t>(permutation.vertex)],
                                   stages[static_cast<std::size_t>(permutation.fragment)]}));
-    const Interface family = value_of(unite(programs));
+    const Interface family = unite(programs).interface;
     const auto lights = std::ranges::find(family.blocks, "PointLights", &Block::name);
     ASSERT_NE(lights, family.blocks.end());
     EXPECT_EQ(lights->members.back().array, std::vector<int>{8});  // the largest count that lit offers

@@ -131,7 +131,7 @@ void main() { color[1] = surfaces[1].tint + texture(maps[1], vec4(1.0)) + all[0]
 bool survives(const Words& words) {
     const Result<Interface> interface = reflect_stage(words);
     const bool readable = unused_variables(words).has_value();
-    return interface.has_value() && readable && unite({*interface, *interface}).has_value();
+    return interface.has_value() && readable && unite({*interface, *interface}).differing.empty();
 }
 
 TEST(RichModule, IsAcceptedWhole) {

@@ -27,9 +27,11 @@ struct QualityChoice {
 struct EmitInput {
     const Family& family;
     const Composition& composition;
-    const Interface& interface;  ///< of all permutations together: the largest extent of each array
-    std::string cpp_namespace;   ///< "lit" or "game::shaders"; empty: the family's name
+    const Interface& interface;                 ///< of all permutations together, as unite() makes it
+    std::string cpp_namespace;                  ///< "lit" or "game::shaders"; empty: the family's name
     std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
+    /// What permutations declare differently; `declared` goes by their order in the composition.
+    std::vector<Differing> differing = {};
 };
 
 /// The templates that a generated header is filled from, by name: "header", and "struct" and others for what
@@ -47,10 +49,11 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 
 /// For programs that are not C++. JSON: "family", "dialect", "features" (name, role, kind, values; the first
 /// value is the default), "interface" (as `gobo reflect --json`, with the bindings and locations of the
-/// header), "stages" (each distinct one: its kind and the names of its pieces in order) and "permutations"
-/// (key text, and the stages by their number; where a budget chose it, "promised_error", "measured_error",
-/// "cost" and "chosen_by"), sorted by key text. One stage or permutation a line. The same input gives the
-/// same bytes.
+/// header), "pieces" (names), "stages" (each distinct one: its kind and the numbers of its pieces in order)
+/// and "permutations" (key text, and the stages by their number; where a budget chose it, "promised_error",
+/// "measured_error", "cost" and "chosen_by"), sorted by key text. Where permutations declare names
+/// differently, "differing" lists these, and "declared" of a permutation which declaration it has of each.
+/// One stage or permutation a line. The same input gives the same bytes.
 [[nodiscard]] std::string emit_manifest(const EmitInput& input);
 
 /// A rule in the syntax of make (and so of Ninja and CMake): the outputs depend on the files, each named

@@ -15,8 +15,10 @@ namespace {
 /// Names that header.hpp.in uses in the namespace or as local names: nothing of the family's may hide them.
 constexpr std::string_view kHeaderNames =
     "Key Permutation SceneState Settings Stage State attribute attributes before bits block blocks canonical "
-    "changed check count describe_missing detail find found glm gobo key key_text left output outputs "
-    "permutations position reason right sampler samplers select settings state std std140 uniforms wanted";
+    "changed check combination count declared describe_missing detail find found glm gobo key key_text left "
+    "output outputs "
+    "permutations position reason right sampler samplers select settings state std std140 uniform uniforms "
+    "wanted";
 
 Result<std::string> namespace_of(const EmitInput& input) {
     if (input.cpp_namespace.empty()) return cpp_identifier(input.family.name);
@@ -86,9 +88,11 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     });
     GOBO_TRY_DO(key_section(rules, key, templates, values));
     const Interface interface = with_places(input.interface);
-    GOBO_TRY_DO(block_section(interface.blocks, family.domains, templates, scope, values));
-    interface_section(interface, family.domains, values);
-    permutation_section(input.composition, key, values);
+    const Declarations declarations(input);
+    GOBO_TRY_DO(block_section(interface, family.domains, declarations, templates, scope, values));
+    interface_section(interface, family.domains, declarations, values);
+    declaration_section(declarations, interface, values);
+    permutation_section(input.composition, key, declarations, values);
     values["contents"] = contents_name(templates, values);
     return fill(templates.at("header"), values);
 }

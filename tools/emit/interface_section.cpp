@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
 #include "spirv/glsl_type.hpp"
@@ -9,7 +11,8 @@
 namespace gobo {
 namespace {
 
-/// Gives every item without a place the lowest free one. `size` says how many places an item takes.
+/// Gives every item without a place the lowest free one: one and the same to all declarations of a name.
+/// `size` says how many places an item takes.
 template <class Item, class SizeOf>
 void fill_places(std::vector<Item>& items, SizeOf size) {
     std::set<int> taken;
@@ -18,66 +21,181 @@ void fill_places(std::vector<Item>& items, SizeOf size) {
     };
     for (const Item& item : items)
         if (place_of(item) >= 0) take(item);
-    for (Item& item : items) {
-        if (place_of(item) >= 0) continue;
+    for (auto item = items.begin(); item != items.end();) {
+        const auto end =
+            std::find_if(item, items.end(), [&](const Item& other) { return other.name != item->name; });
+        int most = 0;
+        for (auto same = item; same != end; ++same)
+            if (place_of(*same) < 0) most = std::max(most, size(*same));
         int first = 0;
-        for (int used = 0; used < size(item);) {
+        for (int used = 0; used < most;) {
             const bool free = !taken.contains(first + used);
             used = free ? used + 1 : 0;
             if (!free) ++first;
         }
-        place_of(item) = first;
-        take(item);
+        for (; item != end; ++item) {
+            if (place_of(*item) >= 0) continue;
+            place_of(*item) = first;
+            take(*item);
+        }
     }
 }
 
-/// A constant for each variable or sampler: where it is.
+/// A constant for each variable or sampler: where it is. Declarations of a name at one place share theirs.
 template <class Item>
 std::string constants_of(const std::vector<Item>& items, const std::vector<Domain>& domains) {
     CppScope scope;
     std::string text;
-    for (const Item& item : items) {
-        const std::string domain = domain_text(domains, item.name);
-        text += fmt::format("inline constexpr int {} = {};  ///< {}{}{}\n",
-                            scope.claim(cpp_identifier(item.name)), place_of(item), cpp_comment(item.type),
-                            domain.empty() ? "" : ", ", domain);
+    for (auto item = items.begin(); item != items.end();) {
+        const std::string domain = domain_text(domains, item->name);
+        const std::string& name = item->name;
+        for (int number = 1; item != items.end() && item->name == name; ++number) {
+            const int place = place_of(*item);
+            std::string types = item->type;
+            for (++item; item != items.end() && item->name == name && place_of(*item) == place; ++item)
+                if (item->type != item[-1].type) types += " or " + item->type;
+            const std::string identifier = cpp_identifier(name);
+            text +=
+                fmt::format("inline constexpr int {} = {};  ///< {}{}{}\n",
+                            scope.claim(number == 1 ? identifier : fmt::format("{}_{}", identifier, number)),
+                            place, cpp_comment(types), domain.empty() ? "" : ", ", domain);
+        }
     }
     return text;
 }
 
+/// Of the declarations in a list which one each is of its name, from 1.
+template <class Item>
+int number_of(const std::vector<Item>& items, const Item& item) {
+    int number = 1;
+    for (const Item* other = &item; other != items.data() && other[-1].name == item.name; --other) ++number;
+    return number;
+}
+
+/// ", {2, 1}" where the item is a declaration of a name that permutations declare differently.
+template <class Item>
+std::string only_of(const std::vector<Item>& items, const Item& item, std::string_view kind,
+                    const Declarations& declarations) {
+    const auto differing = declarations.find(kind, item.name);
+    return differing ? fmt::format(", {{{}, {}}}", *differing, number_of(items, item)) : std::string();
+}
+
 /// Name, type, place and, where each element takes a place, how many: as the header's tables have them.
 template <class Item>
-std::string row_of(const Item& item) {
+std::string row_of(const Item& item, const std::string& only) {
     std::string row = "{" + cpp_literal(item.name);
     if constexpr (requires { item.type; }) row += ", " + cpp_literal(item.type);
     row += fmt::format(", {}", place_of(item));
     if constexpr (std::is_same_v<Item, Sampler>) row += fmt::format(", {}", element_count(item.array));
-    return row + "}";
+    return row + only + "}";
 }
 
 /// A row for each name that OpenGL knows: members of structs, and elements of arrays of structs or arrays,
 /// are uniforms of their own, at locations that follow one another where the first is stated.
-void add_uniform_rows(const Uniform& uniform, int& location, std::vector<std::string>& rows) {
+void add_uniform_rows(const Uniform& uniform, int& location, const std::string& only,
+                      std::vector<std::string>& rows) {
     Uniform part = uniform;
     const bool is_plain_array = uniform.members.empty() && uniform.array.size() == 1;
     if (!uniform.array.empty() && !is_plain_array) {
         part.array.erase(part.array.begin());
         for (int index = 0; index < uniform.array.front(); ++index) {
             part.name = fmt::format("{}[{}]", uniform.name, index);
-            add_uniform_rows(part, location, rows);
+            add_uniform_rows(part, location, only, rows);
         }
         return;
     }
     for (const Member& member : uniform.members)
         add_uniform_rows(
             {uniform.name + "." + member.name, member.type, -1, member.array, member.members, {}}, location,
-            rows);
+            only, rows);
     if (!uniform.members.empty()) return;
     const int count = element_count(uniform.array);
-    rows.push_back(fmt::format("{{{}, {}, {}, {}}}", cpp_literal(uniform.name), cpp_literal(uniform.type),
-                               location, count));
+    rows.push_back(fmt::format("{{{}, {}, {}, {}{}}}", cpp_literal(uniform.name), cpp_literal(uniform.type),
+                               location, count, only));
     if (location >= 0) location += count;
 }
+
+/// The constants of uniforms outside blocks: typed, at the rows that add_uniform_rows() gives them. Structs
+/// become structs, arrays of structs std::array.
+class UniformConstants {
+  public:
+    void add(const Uniform& uniform, int number, const std::vector<Domain>& domains) {
+        const std::string identifier = cpp_identifier(uniform.name);
+        const std::string name =
+            scope_.claim(number == 1 ? identifier : fmt::format("{}_{}", identifier, number));
+        const Place place = place_of_uniform(uniform);
+        const std::string domain = domain_text(domains, uniform.name);
+        constants_ += fmt::format("inline constexpr {} {}{};  ///< {}{}{}\n", place.type, name, place.value,
+                                  uniform.type, domain.empty() ? "" : ", ", domain);
+    }
+    [[nodiscard]] std::string text() const { return structs_ + constants_; }
+
+  private:
+    struct Place {
+        std::string type;
+        std::string value;  ///< with its braces
+    };
+
+    Place place_of_uniform(Uniform uniform) {
+        const bool is_plain = uniform.members.empty();
+        if (is_plain && uniform.array.size() < 2) {
+            const int count = element_count(uniform.array);
+            return {fmt::format("gobo::UniformPlace<detail::Tables, {}{}>", value_type(uniform.type),
+                                count == 1 ? "" : fmt::format(", {}", count)),
+                    fmt::format("{{{}}}", row_++)};
+        }
+        if (!uniform.array.empty()) {
+            const int extent = uniform.array.front();
+            uniform.array.erase(uniform.array.begin());
+            Place element;
+            std::vector<std::string> values;
+            for (int index = 0; index < extent; ++index) {
+                element = place_of_uniform(uniform);
+                values.push_back(element.value);
+            }
+            return {fmt::format("std::array<{}, {}>", element.type, extent),
+                    fmt::format("{{{{{}}}}}", fmt::join(values, ", "))};
+        }
+        std::string members;
+        std::vector<std::string> values;
+        CppScope scope;
+        for (const Member& member : uniform.members) {
+            const Place place =
+                place_of_uniform({member.name, member.type, -1, member.array, member.members, {}});
+            members += fmt::format("    {} {};\n", place.type, scope.claim(cpp_identifier(member.name)));
+            values.push_back(place.value);
+        }
+        return {struct_of(uniform.type, members), fmt::format("{{{}}}", fmt::join(values, ", "))};
+    }
+
+    /// The name of a struct with these members, written once.
+    std::string struct_of(const std::string& type, const std::string& members) {
+        const auto [place, is_new] = names_.try_emplace(members);
+        if (is_new) {
+            place->second = scope_.claim(cpp_identifier(type) + "_places");
+            structs_ += fmt::format("struct {} {{\n{}}};\n", place->second, members);
+        }
+        return place->second;
+    }
+
+    /// The type of the application's values.
+    static std::string value_type(const std::string& type) {
+        constexpr std::string_view numbers[] = {"float", "std::int32_t", "std::uint32_t", "bool", "double"};
+        const std::optional<GlslType> glsl = glsl_type(type);
+        if (!glsl || glsl->scalar > Scalar::float64) return "void";  // nothing that set() takes: atomic_uint
+        const std::string_view number = numbers[static_cast<std::size_t>(glsl->scalar)];
+        if (glsl->is_matrix())
+            return fmt::format("std140::PlainMatrix<{}, {}, {}>", glsl->columns, glsl->rows, number);
+        return glsl->rows == 1 ? std::string(number)
+                               : fmt::format("std140::Vector<{}, {}>", glsl->rows, number);
+    }
+
+    CppScope scope_;
+    std::map<std::string, std::string> names_;  ///< of structs, by their members
+    std::string structs_;
+    std::string constants_;
+    int row_ = 0;
+};
 
 }  // namespace
 
@@ -95,25 +213,29 @@ Interface with_places(Interface interface) {
 }
 
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
-                       TemplateValues& values) {
+                       const Declarations& declarations, TemplateValues& values) {
     values["attribute_constants"] = constants_of(interface.inputs, domains);
     values["output_constants"] = constants_of(interface.outputs, domains);
     values["sampler_constants"] = constants_of(interface.samplers, {});
-    const auto add_rows = [&](const std::string& name, const auto& items) {
+    const auto add_rows = [&](const std::string& name, const std::string& kind, const auto& items) {
         std::vector<std::string> rows;
-        for (const auto& item : items) rows.push_back(row_of(item));
+        for (const auto& item : items) rows.push_back(row_of(item, only_of(items, item, kind, declarations)));
         add_table(values, name, rows);
     };
-    add_rows("attribute", interface.inputs);
-    add_rows("output", interface.outputs);
-    add_rows("block", interface.blocks);
-    add_rows("sampler", interface.samplers);
+    add_rows("attribute", "input", interface.inputs);
+    add_rows("output", "output", interface.outputs);
+    add_rows("block", "uniform block", interface.blocks);
+    add_rows("sampler", "sampler", interface.samplers);
     std::vector<std::string> uniforms;
+    UniformConstants constants;
     for (const Uniform& uniform : interface.uniforms) {
+        constants.add(uniform, number_of(interface.uniforms, uniform), domains);
         int location = uniform.location;
-        add_uniform_rows(uniform, location, uniforms);
+        add_uniform_rows(uniform, location, only_of(interface.uniforms, uniform, "uniform", declarations),
+                         uniforms);
     }
     add_table(values, "uniform", uniforms);
+    values["uniform_constants"] = constants.text();
 }
 
 }  // namespace gobo

@@ -33,17 +33,32 @@ std::vector<std::string> feature_rows(const Family& family) {
     return rows;
 }
 
-std::vector<std::string> stage_rows(const Composition& composition) {
-    // Names are quoted once per piece, not once per mention: thousands of stages share them.
-    std::vector<std::string> names;
-    for (const Piece& piece : composition.pieces) names.push_back(text_of(piece.name));
+std::vector<std::string> piece_rows(const Composition& composition) {
     std::vector<std::string> rows;
-    for (const Stage& stage : composition.stages) {
-        std::vector<std::string_view> pieces;
-        for (const int piece : stage.pieces) pieces.emplace_back(names[static_cast<std::size_t>(piece)]);
-        rows.push_back(
-            fmt::format("{{\"stage\":\"{}\",\"pieces\":[{}]}}", name_of(stage.kind), fmt::join(pieces, ",")));
-    }
+    for (const Piece& piece : composition.pieces) rows.push_back(text_of(piece.name));
+    return rows;
+}
+
+std::vector<std::string> stage_rows(const Composition& composition) {
+    std::vector<std::string> rows;
+    for (const Stage& stage : composition.stages)
+        rows.push_back(fmt::format("{{\"stage\":\"{}\",\"pieces\":[{}]}}", name_of(stage.kind),
+                                   fmt::join(stage.pieces, ",")));
+    return rows;
+}
+
+/// Which declarations a permutation has of the names that others declare differently, by their order.
+std::string declared_text(const std::vector<Differing>& differing, std::size_t permutation) {
+    if (differing.empty()) return "";
+    std::vector<int> numbers;
+    for (const Differing& one : differing) numbers.push_back(one.declared[permutation]);
+    return fmt::format(",\"declared\":[{}]", fmt::join(numbers, ","));
+}
+
+std::vector<std::string> differing_rows(const std::vector<Differing>& differing) {
+    std::vector<std::string> rows;
+    for (const Differing& one : differing)
+        rows.push_back(text_of(Json{{"kind", one.kind}, {"name", one.name}}));
     return rows;
 }
 
@@ -64,9 +79,11 @@ std::vector<std::string> permutation_rows(const EmitInput& input) {
     std::ranges::sort(sorted);
     std::vector<std::string> rows;
     for (const auto& [key, permutation] : sorted)
-        rows.push_back(fmt::format("{{\"key\":{},\"vertex\":{},\"fragment\":{}{}}}", text_of(key),
-                                   permutation->vertex, permutation->fragment,
-                                   choice_text(input.qualities, permutation->key)));
+        rows.push_back(fmt::format(
+            "{{\"key\":{},\"vertex\":{},\"fragment\":{}{}{}}}", text_of(key), permutation->vertex,
+            permutation->fragment, choice_text(input.qualities, permutation->key),
+            declared_text(input.differing,
+                          static_cast<std::size_t>(permutation - input.composition.permutations.data()))));
     return rows;
 }
 
@@ -105,10 +122,14 @@ std::string emit_manifest(const EmitInput& input) {
     const Json interface = to_json(with_places(input.interface));
     return fmt::format(
         "{{\n  \"family\": {},\n  \"dialect\": {},\n  \"features\": {},\n  \"interface\": {},\n"
-        "  \"stages\": {},\n  \"permutations\": {}\n}}\n",
+        "{}  \"pieces\": {},\n  \"stages\": {},\n  \"permutations\": {}\n}}\n",
         text_of(input.family.name), text_of(version_of(input.composition)),
         array_text(feature_rows(input.family)), indented(text_of(interface, kIndent)),
-        array_text(stage_rows(input.composition)), array_text(permutation_rows(input)));
+        input.differing.empty()
+            ? std::string()
+            : fmt::format("  \"differing\": {},\n", array_text(differing_rows(input.differing))),
+        array_text(piece_rows(input.composition)), array_text(stage_rows(input.composition)),
+        array_text(permutation_rows(input)));
 }
 
 std::string emit_depfile(const std::vector<std::string>& outputs, const std::vector<std::string>& files) {

@@ -59,9 +59,55 @@ void add_texts(const Piece& piece, std::vector<std::string>& rows, Numbers& numb
     }
 }
 
+/// Where a list of pieces is cut into runs: behind every fourth piece or so, by the piece alone, so that
+/// lists with the same pieces in a row have the same runs.
+bool ends_run(std::size_t piece) {
+    return (piece * 2654435761U >> 8U) % 4 == 0;
+}
+
+/// Lists of pieces as lists of runs; each distinct run stands once.
+class Runs {
+  public:
+    /// The runs of a list, by number.
+    Numbers cut(const Numbers& list) {
+        Numbers numbers;
+        Numbers run;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            run.push_back(list[i]);
+            if (!ends_run(list[i]) && i + 1 < list.size()) continue;
+            const auto [place, is_new] = numbers_.try_emplace(run, numbers_.size());
+            if (is_new) {
+                begins_.push_back(pieces_.size());
+                std::ranges::copy(run, std::back_inserter(pieces_));
+            }
+            numbers.push_back(place->second);
+            run.clear();
+        }
+        return numbers;
+    }
+    /// Where each begins in pieces(), and where the last one ends.
+    [[nodiscard]] Numbers begins() const {
+        Numbers begins = begins_;
+        begins.push_back(pieces_.size());
+        return begins;
+    }
+    [[nodiscard]] const Numbers& pieces() const { return pieces_; }
+
+  private:
+    std::map<Numbers, std::size_t> numbers_;
+    Numbers begins_;
+    Numbers pieces_;
+};
+
+void add_numbers(TemplateValues& values, const std::string& name, const Numbers& numbers) {
+    values[name + "_count"] = std::to_string(numbers.size());
+    values[name + "s"] = numbers_text(numbers);
+}
+
 }  // namespace
 
-void permutation_section(const Composition& composition, const CppKey& key, TemplateValues& values) {
+void permutation_section(const Composition& composition, const CppKey& key, const Declarations& declarations,
+                         TemplateValues& values) {
     std::set<int> used;  // stages
     std::vector<std::pair<PackedKey, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
@@ -76,30 +122,39 @@ void permutation_section(const Composition& composition, const CppKey& key, Temp
     std::vector<std::string> texts;
     for (auto& [piece, numbers] : texts_of) add_texts(composition.piece(piece), texts, numbers);
 
+    Runs runs;
     Numbers stage_begins;
-    Numbers piece_lists;
+    Numbers run_lists;
     std::map<int, std::size_t> stage_numbers;
     for (const int stage : used) {
         stage_numbers[stage] = stage_begins.size();
-        stage_begins.push_back(piece_lists.size());
+        stage_begins.push_back(run_lists.size());
+        Numbers list;
         for (const int piece : composition.stage(stage).pieces)
-            std::ranges::copy(texts_of[piece], std::back_inserter(piece_lists));
+            std::ranges::copy(texts_of[piece], std::back_inserter(list));
+        std::ranges::copy(runs.cut(list), std::back_inserter(run_lists));
     }
-    stage_begins.push_back(piece_lists.size());
+    stage_begins.push_back(run_lists.size());
 
     std::vector<std::string> keys;
     std::vector<std::string> rows;
     for (const auto& [packed, permutation] : sorted) {
+        const auto number = static_cast<std::size_t>(permutation - composition.permutations.data());
+        const std::string combination = declarations.differing().empty()
+                                            ? std::string()
+                                            : fmt::format(", {}", declarations.combination_of(number));
         keys.push_back(packed_text(packed));
-        rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}}}", keys.back(), stage_numbers[permutation->vertex],
-                                   stage_numbers[permutation->fragment]));
+        rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}{}}}", rows.size(),
+                                   stage_numbers[permutation->vertex], stage_numbers[permutation->fragment],
+                                   combination));
     }
-    const bool is_wide = texts.size() > std::numeric_limits<std::uint16_t>::max();
+    const std::size_t most = std::max(texts.size(), runs.begins().size());
+    const bool is_wide = most > std::numeric_limits<std::uint16_t>::max();
     values["index_type"] = is_wide ? "std::uint32_t" : "std::uint16_t";
-    values["stage_begin_count"] = std::to_string(stage_begins.size());
-    values["stage_begins"] = numbers_text(stage_begins);
-    values["index_count"] = std::to_string(piece_lists.size());
-    values["piece_lists"] = numbers_text(piece_lists);
+    add_numbers(values, "stage_begin", stage_begins);
+    add_numbers(values, "run_list", run_lists);
+    add_numbers(values, "run_begin", runs.begins());
+    add_numbers(values, "run_piece", runs.pieces());
     values["keys"] = cpp_list(keys);
     add_table(values, "piece", texts);
     add_table(values, "permutation", rows);

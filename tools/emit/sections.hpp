@@ -47,26 +47,53 @@ struct CppKey {
 [[nodiscard]] Result<void> key_section(const std::vector<Rule>& rules, const CppKey& key,
                                        const HeaderTemplates& templates, TemplateValues& values);
 
+/// What permutations declare differently: which declaration each has, and where the header says so.
+class Declarations {
+  public:
+    explicit Declarations(const EmitInput& input);
+
+    [[nodiscard]] const std::vector<Differing>& differing() const { return differing_; }
+    /// The distinct combinations of declarations, a number for each of differing(), and which a permutation
+    /// of the composition has.
+    [[nodiscard]] const std::vector<std::vector<int>>& combinations() const { return combinations_; }
+    [[nodiscard]] int combination_of(std::size_t permutation) const { return combination_of_[permutation]; }
+    /// The index in differing(); nothing where all permutations declare the name alike.
+    [[nodiscard]] std::optional<std::size_t> find(std::string_view kind, std::string_view name) const;
+    /// ", such as 'fog=linear'": one permutation that has the declaration with that number, from 1.
+    [[nodiscard]] std::string example(std::size_t differing, int number) const;
+
+  private:
+    const EmitInput& input_;
+    std::vector<Differing> differing_;
+    std::vector<std::vector<int>> combinations_;
+    std::vector<int> combination_of_;
+};
+
+/// The comment that names what differs, the tables of who has what, and a function for each name.
+void declaration_section(const Declarations& declarations, const Interface& interface,
+                         TemplateValues& values);
+
 /// Packed keys, stages as lists of pieces, texts. Only stages and pieces that a permutation uses are written,
 /// in the order of the composition; permutations are sorted by packed key.
-void permutation_section(const Composition& composition, const CppKey& key, TemplateValues& values);
+void permutation_section(const Composition& composition, const CppKey& key, const Declarations& declarations,
+                         TemplateValues& values);
 
 /// A copy in which every block, sampler and attribute has a place: where the source states none, the lowest
-/// that is free, in the order of names; a single output stands at 0. Names that OpenGL itself supplies (gl_*)
-/// are left out.
+/// that is free, in the order of names, the same for all declarations of a name; a single output stands at 0.
+/// Names that OpenGL itself supplies (gl_*) are left out.
 [[nodiscard]] Interface with_places(Interface interface);
 
 /// Where attributes, outputs, samplers, uniforms and blocks are bound. `interface` has places.
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
-                       TemplateValues& values);
+                       const Declarations& declarations, TemplateValues& values);
 
-/// A struct for every block and for every struct within one, inner ones first, each name claimed in `scope`;
-/// and for each block `check(block)`: what of it lies outside the ranges that the family declares. Where the
-/// block ends in an array, `check(block, count)` looks at no more elements of it. A layout that no C++ struct
-/// can mirror is an error (Fault::input).
-[[nodiscard]] Result<void> block_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
-                                         const HeaderTemplates& templates, CppScope& scope,
-                                         TemplateValues& values);
+/// A struct for every layout of a block and for every struct within one, inner ones first, each name claimed
+/// in `scope`; and for each block `check(block)`: what of it lies outside the ranges that the family
+/// declares. Where the block ends in an array, `check(block, count)` looks at no more elements of it. A
+/// layout that no C++ struct can mirror is an error (Fault::input).
+[[nodiscard]] Result<void> block_section(const Interface& interface, const std::vector<Domain>& domains,
+                                         const Declarations& declarations, const HeaderTemplates& templates,
+                                         CppScope& scope, TemplateValues& values);
 
 /// A C++ type of known size, to be declared as `TYPE NAME EXTENTS`.
 struct CppMemberType {

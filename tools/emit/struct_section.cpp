@@ -133,8 +133,12 @@ class StructWriter {
         : domains_(domains), templates_(templates), scope_(scope) {}
 
     /// Adds the block's struct to text(), behind those of its members.
-    Result<StructText> write_block(const Block& block) {
-        StructText structure{scope_.claim(cpp_identifier(block.name), "_block")};
+    /// `number`: which of the block's layouts it is, from 1; `users` says who has it where others have
+    /// another.
+    Result<StructText> write_block(const Block& block, int number, const std::string& users) {
+        std::string identifier = cpp_identifier(block.name);
+        if (number > 1) identifier += fmt::format("_{}", number);
+        StructText structure{scope_.claim(identifier, "_block")};
         structure.scope = CppScope({structure.name, "binding", "size", "bytes"});
         GOBO_TRY_DO(add_members(structure, block.members, block.name));
         const int size = rounded_up(std::max(structure.end, block.size));
@@ -149,7 +153,8 @@ class StructWriter {
                                                    {"stride", std::to_string(last->array_stride)}}));
             constants += bytes;
         }
-        GOBO_TRY_DO(append(structure, fmt::format("The uniform block {}.", block.name), constants));
+        GOBO_TRY_DO(append(structure, fmt::format("The uniform block {}{}.", cpp_comment(block.name), users),
+                           constants));
         return structure;
     }
 
@@ -168,7 +173,7 @@ class StructWriter {
         const int stride = element_stride(member);
         if (stride >= structure.end && stride < size) size = stride;
         structure.close(size);
-        GOBO_TRY_DO(append(structure, fmt::format("The shaders' struct {}.", member.type), {}));
+        GOBO_TRY_DO(append(structure, fmt::format("The shaders' struct {}.", cpp_comment(member.type)), {}));
         return written_.emplace_back(member, std::move(structure)).second;
     }
 
@@ -311,13 +316,21 @@ std::string domain_text(const std::vector<Domain>& domains, const std::string& p
     return text;
 }
 
-Result<void> block_section(const std::vector<Block>& blocks, const std::vector<Domain>& domains,
-                           const HeaderTemplates& templates, CppScope& scope, TemplateValues& values) {
+Result<void> block_section(const Interface& interface, const std::vector<Domain>& domains,
+                           const Declarations& declarations, const HeaderTemplates& templates,
+                           CppScope& scope, TemplateValues& values) {
     StructWriter writer(domains, templates, scope);
     std::string& checks = values["checks"] = "";
-    for (Block block : blocks) {
+    int number = 1;
+    for (const Block& declared : interface.blocks) {
+        const bool is_same = &declared != interface.blocks.data() && (&declared)[-1].name == declared.name;
+        number = is_same ? number + 1 : 1;
+        Block block = declared;
         sort_by_offset(block.members);
-        GOBO_TRY(const StructText written, writer.write_block(block));
+        const auto differing = declarations.find("uniform block", block.name);
+        const std::string users =
+            differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "";
+        GOBO_TRY(const StructText written, writer.write_block(block, number, users));
         GOBO_TRY(const std::string check, block_check(block, written, domains, templates.at("check")));
         checks += check;
     }

@@ -1,4 +1,5 @@
 // gobo build: the generated header, its manifest and its depfile.
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -29,14 +30,25 @@ Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
     return options.folder + "/" + options.header.substr(0, size - 4);
 }
 
-/// The interface of the whole family: what any permutation of the composition declares.
-Result<Interface> united_interface(const Composition& composition, const Validated& validated) {
+/// The interface of the whole family, and what its permutations declare differently, by their order in the
+/// composition.
+United united_interface(const Composition& composition, const Validated& validated) {
     std::vector<Interface> programs;
-    std::set<std::pair<int, int>> seen;
-    for (const Permutation& permutation : composition.permutations)
-        if (seen.emplace(permutation.vertex, permutation.fragment).second)
-            programs.push_back(interface_of(validated, permutation));
-    return unite(programs);
+    std::map<std::pair<int, int>, std::size_t> numbers;
+    std::vector<std::size_t> program_of;
+    for (const Permutation& permutation : composition.permutations) {
+        const auto [place, is_new] =
+            numbers.try_emplace({permutation.vertex, permutation.fragment}, programs.size());
+        if (is_new) programs.push_back(interface_of(validated, permutation));
+        program_of.push_back(place->second);
+    }
+    United united = unite(programs);
+    for (Differing& differing : united.differing) {
+        std::vector<int> declared;
+        for (const std::size_t program : program_of) declared.push_back(differing.declared[program]);
+        differing.declared = std::move(declared);
+    }
+    return united;
 }
 
 Result<Outcome> run(const BuildOptions& options, const World& world) {
@@ -53,10 +65,11 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
     }
     GOBO_TRY(const Composition composition, compose_keys(family, keys));
     GOBO_TRY(Validated validated, compile(world, family.family, composition));
-    GOBO_TRY(const Interface interface, united_interface(composition, validated));
+    const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,
              read_header_templates(world.library(), world.in_library("templates/header")));
-    const EmitInput input{family.family, composition, interface, options.cpp_namespace, std::move(qualities)};
+    const EmitInput input{family.family,         composition,          united.interface,
+                          options.cpp_namespace, std::move(qualities), united.differing};
     GOBO_TRY(const std::string header, emit_header(input, templates));
 
     std::set<std::string> files(family.files.begin(), family.files.end());

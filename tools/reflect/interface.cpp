@@ -18,63 +18,128 @@ void add_stages(std::vector<std::string>& stages, const std::vector<std::string>
     std::ranges::sort(stages, {}, rank);
 }
 
-/// The outermost extent of the array that ends the block, or null where none does.
-int* last_extent(Block& block) {
-    if (block.members.empty() || block.members.back().array.empty()) return nullptr;
-    return &block.members.back().array.front();
-}
-
-/// Gives the array that ends both blocks the larger of their extents.
-void extend_last_array(Block& block, Block& other) {
-    int* const extent = last_extent(block);
-    int* const other_extent = last_extent(other);
-    if (extent == nullptr || other_extent == nullptr) return;
-    block.size = other.size = *extent < *other_extent ? other.size : block.size;
-    *extent = *other_extent = std::max(*extent, *other_extent);
-}
-
-/// What two entries disagree about: the name, with the first member that differs where it is a block.
+/// Adds what a later stage declares to `list`, both sorted by name.
 template <class Entry>
-std::string contested(const Entry& entry, const Entry& other) {
-    if constexpr (std::is_same_v<Entry, Block>) {
-        const auto [mine, theirs] = std::ranges::mismatch(entry.members, other.members);
-        if (mine != entry.members.end()) return entry.name + "." + mine->name;
-    }
-    return entry.name;
-}
-
-/// Adds `more` to `list`, both sorted by name. What they disagree about goes to `conflicts`.
-template <class Entry>
-void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more,
-                 std::vector<std::string>& conflicts) {
-    for (Entry other : more) {
+void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more) {
+    for (const Entry& other : more) {
         const auto place = std::ranges::lower_bound(list, other.name, {}, &Entry::name);
         if (place == list.end() || place->name != other.name) {
-            list.insert(place, std::move(other));
+            list.insert(place, other);
             continue;
         }
-        // One that states no binding or location agrees with one that does.
-        int& number = place_of(*place);
-        int& other_number = place_of(other);
-        if (number < 0) number = other_number;
-        if (other_number < 0) other_number = number;
-        if constexpr (std::is_same_v<Entry, Block>) extend_last_array(*place, other);
-        if constexpr (requires { place->stages; }) {
-            add_stages(place->stages, other.stages);
-            other.stages = place->stages;
-        }
+        if (place_of(*place) < 0) place_of(*place) = place_of(other);
+        add_stages(place->stages, other.stages);
         place->usage.unused = place->usage.unused && other.usage.unused;
-        if (*place != other) conflicts.push_back(contested(*place, other));
     }
 }
 
-/// Everything but inputs and outputs.
-void add_resources(Interface& sum, const Interface& more, std::vector<std::string>& conflicts) {
-    add_stages(sum.stages, more.stages);
-    add_entries(sum.blocks, more.blocks, conflicts);
-    add_entries(sum.storage_blocks, more.storage_blocks, conflicts);
-    add_entries(sum.uniforms, more.uniforms, conflicts);
-    add_entries(sum.samplers, more.samplers, conflicts);
+/// Makes the outermost extent of an array the larger one; whether nothing else about the arrays differs.
+bool extend(std::vector<int>& array, const std::vector<int>& other) {
+    if (array.size() != other.size() ||
+        !std::equal(array.begin() + !array.empty(), array.end(), other.begin() + !other.empty()))
+        return false;
+    if (!array.empty()) array.front() = std::max(array.front(), other.front());
+    return true;
+}
+
+bool absorb(Block& block, const Block& other) {
+    if (block.members == other.members) return true;
+    if (block.members.empty() || block.members.size() != other.members.size()) return false;
+    // The array that ends both may have another extent.
+    Block wider = block;
+    Member& last = wider.members.back();
+    const Member& other_last = other.members.back();
+    if (last.array.empty() || last.array.front() == 0 || !extend(last.array, other_last.array)) return false;
+    const bool is_wider = last.array.front() != block.members.back().array.front();
+    Member same = other_last;
+    same.array = last.array;
+    const auto is_behind = [&](const Member& member) { return member.offset > last.offset; };
+    if (last != same || std::ranges::any_of(wider.members, is_behind) ||
+        !std::equal(wider.members.begin(), wider.members.end() - 1, other.members.begin()))
+        return false;
+    if (is_wider) wider.size = other.size;
+    block = std::move(wider);
+    return true;
+}
+
+/// Adds what structs of uniforms lack of each other.
+bool absorb_members(std::vector<Member>& members, const std::vector<Member>& others) {
+    for (const Member& other : others) {
+        const auto member = std::ranges::find(members, other.name, &Member::name);
+        if (member == members.end())
+            members.push_back(other);
+        else if (member->type != other.type || !extend(member->array, other.array) ||
+                 !absorb_members(member->members, other.members))
+            return false;
+    }
+    return true;
+}
+
+bool absorb(Uniform& uniform, const Uniform& other) {
+    if (uniform.type != other.type) return false;
+    Uniform wider = uniform;
+    if (!extend(wider.array, other.array) || !absorb_members(wider.members, other.members)) return false;
+    // Where the location is stated, those of the elements follow from the members.
+    const bool is_stated = uniform.location >= 0 || other.location >= 0;
+    if (is_stated && (wider.members != uniform.members || wider.members != other.members)) return false;
+    uniform = std::move(wider);
+    return true;
+}
+
+bool absorb(Sampler& sampler, const Sampler& other) {
+    return sampler.type == other.type && extend(sampler.array, other.array);
+}
+
+bool absorb(Variable& variable, const Variable& other) {
+    return variable.type == other.type && variable.array == other.array;
+}
+
+/// Makes the entry serve a program that declares `other`, where one declaration can serve both.
+template <class Entry>
+bool serve_both(Entry& entry, const Entry& other) {
+    const int place = place_of(entry);
+    const int other_place = place_of(other);
+    if (place >= 0 && other_place >= 0 && place != other_place) return false;
+    if (!absorb(entry, other)) return false;
+    place_of(entry) = std::max(place, other_place);
+    entry.usage.unused = entry.usage.unused && other.usage.unused;
+    if constexpr (requires { entry.stages; }) add_stages(entry.stages, other.stages);
+    return true;
+}
+
+/// Unites one list of all programs.
+template <class Entry>
+void unite_list(const std::string& kind, std::vector<Entry> Interface::*list,
+                const std::vector<Interface>& programs, United& united) {
+    struct Declarations {
+        std::vector<Entry> entries;
+        std::map<std::size_t, int> declared;  ///< by program
+    };
+    std::map<std::string, Declarations> names;
+    const auto add = [&names](std::size_t program, const Entry& entry) {
+        auto& [entries, declared] = names[entry.name];
+        const auto serves = [&](Entry& other) { return serve_both(other, entry); };
+        auto place = std::ranges::find_if(entries, serves);
+        if (place == entries.end()) place = entries.insert(place, entry);
+        declared[program] = static_cast<int>(place - entries.begin()) + 1;
+    };
+    // Those that state a place come first: one that states none joins them, whatever the order of the
+    // programs.
+    for (const bool is_stated : {true, false})
+        for (std::size_t program = 0; program < programs.size(); ++program)
+            for (const Entry& entry : programs[program].*list) {
+                // A sampler that no stage reads takes no unit.
+                if (std::is_same_v<Entry, Sampler> && entry.usage.unused) continue;
+                if ((place_of(entry) >= 0) == is_stated) add(program, entry);
+            }
+    for (auto& [name, declarations] : names) {
+        if (declarations.entries.size() > 1) {
+            Differing& differing =
+                united.differing.emplace_back(kind, name, std::vector<int>(programs.size()));
+            for (const auto& [program, number] : declarations.declared) differing.declared[program] = number;
+        }
+        std::ranges::move(declarations.entries, std::back_inserter(united.interface.*list));
+    }
 }
 
 bool is_unsigned(const std::string& type) {
@@ -123,27 +188,28 @@ Interface merge(std::vector<Interface> stages) {
         return stage.stages.empty() ? 0 : rank(stage.stages.front());
     });
     Interface program;
-    std::vector<std::string> conflicts;  // linking has ruled them out
-    for (const Interface& stage : stages) add_resources(program, stage, conflicts);
+    for (const Interface& stage : stages) {
+        add_stages(program.stages, stage.stages);
+        add_entries(program.blocks, stage.blocks);
+        add_entries(program.storage_blocks, stage.storage_blocks);
+        add_entries(program.uniforms, stage.uniforms);
+        add_entries(program.samplers, stage.samplers);
+    }
     program.inputs = std::move(stages.front().inputs);
     program.outputs = std::move(stages.back().outputs);
     return program;
 }
 
-Result<Interface> unite(const std::vector<Interface>& programs) {
-    Interface sum;
-    std::vector<std::string> conflicts;
-    for (const Interface& program : programs) {
-        add_resources(sum, program, conflicts);
-        add_entries(sum.inputs, program.inputs, conflicts);
-        add_entries(sum.outputs, program.outputs, conflicts);
-        if (conflicts.empty()) continue;
-        return fail(Fault::input,
-                    fmt::format("'{}' is declared differently in different permutations", conflicts.front()),
-                    "give it one declaration in a piece that every user includes, or two names");
-    }
-    std::erase_if(sum.samplers, [](const Sampler& sampler) { return sampler.usage.unused; });
-    return sum;
+United unite(const std::vector<Interface>& programs) {
+    United united;
+    for (const Interface& program : programs) add_stages(united.interface.stages, program.stages);
+    unite_list("uniform block", &Interface::blocks, programs, united);
+    unite_list("storage block", &Interface::storage_blocks, programs, united);
+    unite_list("uniform", &Interface::uniforms, programs, united);
+    unite_list("sampler", &Interface::samplers, programs, united);
+    unite_list("input", &Interface::inputs, programs, united);
+    unite_list("output", &Interface::outputs, programs, united);
+    return united;
 }
 
 bool may_hold_bools(const Interface& interface) {

@@ -131,11 +131,28 @@ template <class Entry>
 /// the same name their declarations agree; should they differ, the earlier stage's stands.
 [[nodiscard]] Interface merge(std::vector<Interface> stages);
 
-/// The interface that serves every one of several programs, the permutations of a family: lists united by
-/// name. A block whose last member is an array may differ in that array's outermost extent: the largest is
-/// kept. Samplers that no program reads are left out: they take no texture unit. Where two programs disagree
-/// in any other way about a name: an error (Fault::input) that names it.
-[[nodiscard]] Result<Interface> unite(const std::vector<Interface>& programs);
+/// A name that programs declare in ways that no one declaration serves.
+struct Differing {
+    std::string kind;  ///< "uniform block", "storage block", "uniform", "sampler", "input" or "output"
+    std::string name;
+    /// For each program which of the declarations it has, counted from 1 as the list has them; 0 where none.
+    std::vector<int> declared;
+
+    friend bool operator==(const Differing&, const Differing&) = default;
+};
+
+/// What several programs, the permutations of a family, declare together.
+struct United {
+    Interface
+        interface;  ///< a name that they declare differently stands in its list once for each declaration
+    std::vector<Differing> differing;
+};
+
+/// The interfaces of several programs as one: lists united by name. One declaration serves arrays of uniforms
+/// and of samplers, and the array that ends a block, whatever their outermost extents: the largest is kept;
+/// and structs of uniforms outside blocks, whatever members each has. One that states no binding or location
+/// agrees with one that does.
+[[nodiscard]] United unite(const std::vector<Interface>& programs);
 
 /// OpenGL's type enumerants (0x8B56 is GL_BOOL) by flattened name, as glslang's reflection and OpenGL's
 /// program-interface queries list them: "Fog.enabled" or, for a block without instance, "enabled";
