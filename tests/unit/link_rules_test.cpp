@@ -510,7 +510,7 @@ TEST_P(SamplerUnits, AreNeverShared) {
     std::vector<Interface> programs;
     for (const Permutation& permutation : composition.permutations)
         programs.push_back(interface_of(validated, permutation));
-    const Interface family_interface = with_places(unite(programs).value());
+    const Interface family_interface = with_places(unite(programs).interface);
 
     Tables::samplers.clear();
     std::vector<std::string> in_table;
@@ -589,7 +589,7 @@ TEST(SamplerUnit, KeepsAwayFromAStatedOne) {
     const Composition composition = compose(family, {{}}, search, Dialect::own).value();
     const Validated validated = validate(family, composition, {});
     const Interface interface =
-        with_places(unite({interface_of(validated, composition.permutations.front())}).value());
+        with_places(unite({interface_of(validated, composition.permutations.front())}).interface);
     std::vector<std::string> units;
     for (const Sampler& sampler : interface.samplers)
         units.push_back(sampler.name + " " + std::to_string(sampler.binding));
