@@ -163,8 +163,8 @@ std::string short_text(const Interface& interface) {
     return text.empty() ? text : text.substr(1);
 }
 
-/// What the declaration gives a fragment stage that reads it; -1 where it states no place, as validation leaves
-/// it.
+/// What the declaration gives a fragment stage that reads it; -1 where it states no place, as validation
+/// leaves it.
 Interface declared(const std::string& declaration) {
     Interface interface = reflected(Stage::fragment, declaration + "\nvoid main() {}\n");
     for (Sampler& sampler : interface.samplers) sampler.usage.unused = false;
