@@ -39,7 +39,7 @@ def pick(driver, name, label):
 def wait_for(what, driver, condition):
     from selenium.webdriver.support.ui import WebDriverWait
 
-    WebDriverWait(driver, 20).until(condition, what)
+    WebDriverWait(driver, 60).until(condition, what)
 
 
 def wait_for_images(driver, selector):

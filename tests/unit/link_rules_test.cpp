@@ -630,8 +630,8 @@ INSTANTIATE_TEST_SUITE_P(
                              "void main() { c = vec4(f(1.0)); }\n",
                              "tiny.frag: error: Linking fragment stage: Recursion detected"},
                     FaultRow{"no_main", "float f() { return 1.0; }\n",
-                             "tiny.frag: error: Linking fragment stage: Missing entry"},
-                    FaultRow{"empty", "\n", "Missing entry point"},
+                             "tiny.frag: error: the fragment stage has no main()"},
+                    FaultRow{"empty", "\n", "the fragment stage has no main()"},
                     FaultRow{"block_too_large",
                              "layout(std140, binding = 0) uniform B { vec4 q[134217728]; };\nout vec4 c;\n"
                              "void main() { c = q[1]; }\n",
