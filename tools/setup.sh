@@ -17,7 +17,7 @@ optional=(chromium chromium-driver python3-selenium)
 # absent PACKAGE...: those that are not installed.
 absent() {
   for package in "$@"; do
-    command -v dpkg-query >/dev/null && dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || echo "$package"
+    command -v dpkg-query >/dev/null && dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -x installed >/dev/null || echo "$package"
   done
 }
 mapfile -t missing < <(absent "${packages[@]}")

@@ -64,8 +64,8 @@ driver_links() { # FAMILY FOLDER KEY LOG
     [ -n "$link" ] || { echo '?'; return; }
     "$gobo" show "$1" "$3" -I "$2" --stage vertex > "$4.vert" 2> /dev/null || { echo '?'; return; }
     "$gobo" show "$1" "$3" -I "$2" --stage fragment > "$4.frag" 2> /dev/null || { echo '?'; return; }
-    head -n 1 "$4.vert" | grep -q ' es' && context=es
-    echo "x $context $4.vert $4.frag" | "$link" | grep -q '^x	linked' && echo yes || echo no
+    head -n 1 "$4.vert" | grep ' es' >/dev/null && context=es
+    echo "x $context $4.vert $4.frag" | "$link" | grep '^x	linked' >/dev/null && echo yes || echo no
 }
 
 echo '| set | families | keys | check | build | reflect | render, linked by the driver | refused though the driver links |'

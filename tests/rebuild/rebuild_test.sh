@@ -94,7 +94,7 @@ cmake "$work/build" >"$scratch/configure.log" 2>&1
 # expect_quoted TARGET TEXT: the target is refused by gobo with a message that quotes the text.
 expect_quoted() {
   cmake --build "$work/build" --target "$1" >"$scratch/odd.log" 2>&1 && fail "$1 builds"
-  grep -E "error:|^    " "$scratch/odd.log" | grep -v '^cd ' | grep -qF -- "$2" || fail "$1 is not quoted: $(cat "$scratch/odd.log")"
+  grep -E "error:|^    " "$scratch/odd.log" | grep -v '^cd ' | grep -F -- "$2" >/dev/null || fail "$1 is not quoted: $(cat "$scratch/odd.log")"
 }
 expect_quoted odd_key "$odd_key"
 expect_quoted odd_condition "$odd_condition"

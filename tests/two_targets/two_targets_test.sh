@@ -19,7 +19,7 @@ refuses() {
   cat >"$scratch/refused.cmake" <<<"$1"
   cmake -S "$scratch/source" -B "$scratch/refused" "${options[@]}" -D "REFUSED=$scratch/refused.cmake" >"$scratch/log" 2>&1 &&
     { echo "FAILED: accepted: $1"; exit 1; }
-  tr -s ' \n' ' ' <"$scratch/log" | grep -qF -- "$2" || { cat "$scratch/log"; echo "FAILED: no '$2' for $1"; exit 1; }
+  tr -s ' \n' ' ' <"$scratch/log" | grep -F -- "$2" >/dev/null || { cat "$scratch/log"; echo "FAILED: no '$2' for $1"; exit 1; }
 }
 if [ "$compiler $type" = "g++ Debug" ]; then
   refuses 'gobo_add_permutations(application PRIVATE PUBLIC FAMILY lit)' "give one of PRIVATE, PUBLIC and INTERFACE"
