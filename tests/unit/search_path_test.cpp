@@ -48,6 +48,16 @@ TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
     EXPECT_THAT(search.all_include_paths(), testing::ElementsAre("fog/linear.glsl", "fog/none.glsl"));
 }
 
+TEST(SearchPath, RefusesAPieceThatAFileHoldsTwice) {
+    MemoryFileSystem files({{"lib/fog.glsl", "#piece linear\na\n#piece none\nb\n#piece linear\nc\n"}});
+    SearchPath search;
+    search.add(files, "lib", "lib/", false);
+    EXPECT_EQ(to_text(search.find("fog/linear.glsl").error().front()),
+              "lib/fog.glsl:5:1: error: the piece 'linear' is here twice\n    #piece linear\n    ^\n"
+              "  help: give one of them another name\n");
+    EXPECT_EQ(search.find("fog/none.glsl").value().value().text, "\n\n\nb\n");
+}
+
 TEST(SearchPath, FindsPiecesThatShareAFile) {
     MemoryFileSystem files(
         {{"lib/fog.glsl", "// All fogs\n\n#piece linear\na\nb\n\n#piece distance/radial\nc"},

@@ -30,6 +30,17 @@ void for_each_line(std::string_view text, Visit visit) {
     }
 }
 
+/// The line that marks the name a second time; 0 where none does.
+int marked_twice(std::string_view text, std::string_view name) {
+    int line = 0;
+    int marks = 0;
+    for_each_line(text, [&](std::string_view content) {
+        ++line;
+        return marked(content) != name || ++marks < 2;
+    });
+    return marks < 2 ? 0 : line;
+}
+
 /// What a file holds between the marker of that name and the next one, behind as many empty lines as stand
 /// before it: line numbers are the file's. With an empty name, what stands before the first marker, unless
 /// that is but a comment on all that follows.
@@ -127,6 +138,9 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     }
     GOBO_TRY(const std::string bytes, root.files->read(path));
     const std::string text = unix_lines(bytes);
+    if (const int line = section.empty() ? 0 : marked_twice(text, section); line > 0)
+        return fail({path, line, 1}, line_of(text, line),
+                    fmt::format("the piece '{}' is here twice", section), "give one of them another name");
     std::optional<std::string> found = section_of(text, section);
     if (!found) return std::nullopt;
     const std::string name = root.name_prefix + file + (section.empty() ? "" : "#" + section);
