@@ -78,6 +78,36 @@ TEST_P(LinkRule, IsToldAndAgreesWithMesa) {
         << (program ? "it links" : to_text(program.error().front()));
 }
 
+struct Versions {
+    const char* vertex;
+    const char* fragment;
+    std::string message;  ///< empty where they go together
+};
+
+TEST(LinkRules, TellOfVersionsThatMakeNoProgram) {
+    const Versions rows[] = {
+        {"330", "300 es", "GLSL ES 300, but tiny.vert is GLSL 330"},
+        {"450", "310 es", "GLSL ES 310, but tiny.vert is GLSL 450"},
+        {"300 es", "330", "GLSL 330, but tiny.vert is GLSL ES 300"},
+        {"300 es", "310 es", "GLSL ES 310, but tiny.vert is GLSL ES 300"},
+        {"330", "450", ""},
+        {"310 es", "310 es", ""},
+    };
+    for (const Versions& row : rows) {
+        SCOPED_TRACE(fmt::format("{} with {}", row.vertex, row.fragment));
+        const Diagnostics found =
+            checked(fmt::format("#version {}\nvoid main() {{ gl_Position = vec4(0.0); }}\n", row.vertex),
+                    fmt::format("#version {}\nprecision highp float;\nlayout(location = 0) out vec4 c;\n"
+                                "void main() {{ c = vec4(1.0); }}\n",
+                                row.fragment));
+        ASSERT_EQ(found.size(), row.message.empty() ? 0U : 1U);
+        if (found.empty()) continue;
+        EXPECT_EQ(to_text(found.front()),
+                  "tiny.frag: error: this stage is " + row.message +
+                      ": they make no program [default]\n  help: state the same #version in both\n");
+    }
+}
+
 constexpr const char* plain = "void main() { gl_Position = vec4(0.0); }\n";
 constexpr const char* color = "out vec4 c;\nvoid main() { c = vec4(1.0); }\n";
 

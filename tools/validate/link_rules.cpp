@@ -73,6 +73,7 @@ class LinkCheck {
         : vertex_(vertex), fragment_(fragment), version_(version_of(vertex.pieces.front()->text)) {}
 
     Diagnostics run() {
+        check_versions();
         check_varyings();
         check_names();
         check_blocks(vertex_.interface.blocks, fragment_.interface.blocks);
@@ -86,6 +87,20 @@ class LinkCheck {
   private:
     void add(const Declaration& at, Severity severity, std::string message, std::string help) {
         found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
+    }
+
+    /// A program is of OpenGL or of OpenGL ES, and there of one version (GLSL ES 3.00, 3.3).
+    void check_versions() {
+        const Piece& vertex = *vertex_.pieces.back();
+        const GlslVersion here = version_of(fragment_.pieces.front()->text);
+        if (here.es == version_.es && (!here.es || here.number == version_.number)) return;
+        const auto text = [](const GlslVersion& version) {
+            return fmt::format("GLSL {}{}", version.es ? "ES " : "", version.number);
+        };
+        add({{fragment_.pieces.back()->path, 0, 0}, ""}, Severity::error,
+            fmt::format("this stage is {}, but {} is {}: they make no program", text(here), vertex.path,
+                        text(version_)),
+            "state the same #version in both");
     }
 
     [[nodiscard]] Declaration in_vertex(std::string_view name, std::string_view type) const {
