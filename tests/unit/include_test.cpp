@@ -126,6 +126,8 @@ TEST_F(Includes, AreFoundBesideTheirFileFirst) {
         {"library/e.glsl", "int e;\n"}};
     EXPECT_THAT(source(),
                 StartsWith("project/tiny.frag:2:1: error: the path '../library/b.glsl' leaves the folders"));
+    files["project/tiny.frag"] = "#include \"sub\\a.glsl\"\nvoid main() {}\n";
+    EXPECT_THAT(source(), StartsWith("project/tiny.frag:1:1: error: the path 'sub\\a.glsl' holds a '\\'"));
     files["project/tiny.frag"] = "#include \"sub/a.glsl\"\n#include \"b.glsl\"\nvoid main() {}\n";
     EXPECT_EQ(source(), "int sub_b;\nint library_c;\nint d;\nint e;\nint b;\nvoid main() {}\n")
         << "each once, however its path is written";

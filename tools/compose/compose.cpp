@@ -213,6 +213,9 @@ class PieceLibrary {
             if (include.in_angles && target.find('.') == std::string::npos)
                 candidates.insert(candidates.end(), {with_infix(path + ".glsl", stage), path + ".glsl"});
         }
+        if (candidates.empty() && include.target.find('\\') != std::string::npos)
+            return fail_at(include, fmt::format("the path '{}' holds a '\\'", include.target),
+                           "write / between folder and file");
         if (candidates.empty())
             return fail_at(
                 include, fmt::format("the path '{}' leaves the folders searched", include.target),
