@@ -11,11 +11,38 @@
 namespace gobo::runtime {
 
 /// One text of a stage. A long file is cut into several pieces, so that no literal exceeds what compilers
-/// take.
+/// take; so is one that differs little between stages, such as the prologue.
 struct Piece {
     std::string_view name;  ///< the file, and the piece in it: "shader_lib/fog.glsl#linear"
     std::string_view text;
-    int first_line = 1;  ///< the line of the file at which `text` starts
+    int first_line = 1;  ///< the line of the file at which `text` starts; in a header's table 0 where that
+                         ///< follows from the piece before it
+};
+
+/// `Count` whole numbers as text, `Digits` characters from '0' to 'o' each: six bits a character, the first
+/// ones weigh most. Compilers read a literal many times as fast as a list of numbers.
+template <int Digits, std::size_t Count>
+struct NumberText {
+    /// As many numbers as a literal that every compiler takes.
+    static constexpr std::size_t in_row = Count < 4000 ? Count : 4000;
+    char rows[(Count + in_row - 1) / in_row][in_row * Digits + 1];
+
+    [[nodiscard]] constexpr std::uint32_t operator[](std::size_t position) const {
+        const char* digits = rows[position / in_row] + position % in_row * Digits;
+        std::uint32_t number = 0;
+        for (int digit = 0; digit < Digits; ++digit)
+            number = number * 64 + static_cast<std::uint32_t>(digits[digit] - '0');
+        return number;
+    }
+};
+
+/// Where a header's tables have the stages of one kind: each is a row of digits, and each column has lists of
+/// pieces of which the digit chooses one.
+struct StageTable {
+    std::uint32_t first_stage;
+    std::uint32_t first_digit;
+    std::uint32_t first_column;
+    std::uint32_t columns;
 };
 
 /// A stage of a permutation: an index into the tables of its generated header.
@@ -25,33 +52,27 @@ struct Stage {
 
     /// How many texts for_each_piece() passes.
     [[nodiscard]] constexpr int piece_count() const {
-        std::uint32_t count = 0;
-        for (std::uint32_t at = Tables::stage_begins[number]; at < Tables::stage_begins[number + 1]; ++at) {
-            const std::size_t run = Tables::run_lists[at];
-            count += Tables::run_begins[run + 1] - Tables::run_begins[run];
-        }
-        return static_cast<int>(count);
+        int count = 0;
+        for_each_number([&count](std::size_t) { ++count; });
+        return count;
     }
     /// The piece at a position from 0 to piece_count() - 1.
-    [[nodiscard]] constexpr const Piece& piece(int position) const {
-        auto left = static_cast<std::uint32_t>(position);
-        std::uint32_t at = Tables::stage_begins[number];
-        for (;; ++at) {
-            const std::size_t run = Tables::run_lists[at];
-            const std::uint32_t size = Tables::run_begins[run + 1] - Tables::run_begins[run];
-            if (left < size) return Tables::pieces[Tables::run_pieces[Tables::run_begins[run] + left]];
-            left -= size;
-        }
+    [[nodiscard]] constexpr Piece piece(int position) const {
+        Piece found;
+        for_each_number([&found, &position](std::size_t piece) {
+            if (position-- < 0) return;
+            int line = found.first_line;
+            for (const char character : found.text) line += character == '\n' ? 1 : 0;
+            found = Tables::pieces[piece];
+            if (found.first_line == 0) found.first_line = line;
+        });
+        return found;
     }
     /// Calls `callback(std::string_view)` with each text in order. One after the other they are the source;
     /// glShaderSource takes them as they are, with their lengths (they may lack a terminating zero).
     template <class Callback>
     constexpr void for_each_piece(Callback&& callback) const {
-        for (std::uint32_t at = Tables::stage_begins[number]; at < Tables::stage_begins[number + 1]; ++at) {
-            const std::size_t run = Tables::run_lists[at];
-            for (std::uint32_t piece = Tables::run_begins[run]; piece < Tables::run_begins[run + 1]; ++piece)
-                callback(Tables::pieces[Tables::run_pieces[piece]].text);
-        }
+        for_each_number([&callback](std::size_t piece) { callback(Tables::pieces[piece].text); });
     }
     /// The whole source as one text.
     [[nodiscard]] std::string source() const {
@@ -63,6 +84,22 @@ struct Stage {
         return left.number == right.number;
     }
     friend constexpr bool operator!=(const Stage& left, const Stage& right) { return !(left == right); }
+
+  private:
+    /// Calls `callback(std::size_t)` with the number of each piece in order.
+    template <class Callback>
+    constexpr void for_each_number(Callback callback) const {
+        StageTable table{};
+        for (const StageTable& other : Tables::stage_tables)
+            if (other.first_stage <= number) table = other;
+        const std::size_t row = table.first_digit + std::size_t{number - table.first_stage} * table.columns;
+        for (std::size_t column = 0; column < table.columns; ++column) {
+            const std::size_t list =
+                Tables::first_lists[table.first_column + column] + Tables::stage_digits[row + column];
+            for (std::size_t at = Tables::list_begins[list]; at < Tables::list_begins[list + 1]; ++at)
+                callback(std::size_t{Tables::list_pieces[at]});
+        }
+    }
 };
 
 /// A packed key of a family whose features need more than 64 bits. The first word weighs most.

@@ -9,12 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
+#include "emit/stage_columns.hpp"
 
 namespace gobo {
 namespace {
 
 using PackedKey = std::vector<std::uint64_t>;
-using Numbers = std::vector<std::size_t>;
 
 PackedKey pack(const Key& values, const CppKey& key) {
     PackedKey words(static_cast<std::size_t>(key.words));
@@ -38,70 +38,78 @@ std::string packed_text(const PackedKey& words) {
     return fmt::format("{{{{{}}}}}", fmt::join(literals, ", "));
 }
 
-std::string numbers_text(const Numbers& numbers) {
-    if (numbers.empty()) return {};
-    std::string text = "{";
+constexpr std::size_t kDigits = 64;  ///< of NumberText in gobo/permutation.hpp: '0' to 'o'
+constexpr std::size_t kNumbersInRow = 4000;
+
+/// A NumberText of that name.
+std::string numbers_text(std::string_view name, Numbers numbers) {
+    if (numbers.empty()) numbers.push_back(0);  // an array has at least one element
+    std::size_t digits = 1;
+    for (std::size_t most = std::ranges::max(numbers); most >= kDigits; most /= kDigits) ++digits;
+    std::vector<std::string> rows;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        text += i % 20 == 0 ? "\n        " : " ";
-        fmt::format_to(std::back_inserter(text), "{},", numbers[i]);
+        if (i % kNumbersInRow == 0) rows.emplace_back();
+        const std::size_t first = rows.back().size();
+        rows.back().resize(first + digits);
+        for (std::size_t digit = digits; digit-- > 0; numbers[i] /= kDigits)
+            rows.back()[first + digit] = static_cast<char>('0' + numbers[i] % kDigits);
     }
-    return text + "\n    }";
+    return fmt::format("gobo::runtime::NumberText<{}, {}> {}{{ {{\n        R\"({})\"}} }}", digits,
+                       numbers.size(), name, fmt::join(rows, ")\",\n        R\"("));
 }
 
-/// Adds the texts of a piece, which fits no single literal where it is long, and their numbers.
-void add_texts(const Piece& piece, std::vector<std::string>& rows, Numbers& numbers) {
-    int line = 1;
-    for (const std::string_view text : cut_for_literals(piece.text)) {
-        numbers.push_back(rows.size());
-        rows.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name), cpp_literal(text),
-                                   text.size(), line));
-        line += static_cast<int>(std::ranges::count(text, '\n'));
-    }
-}
-
-/// Where a list of pieces is cut into runs: behind every fourth piece or so, by the piece alone, so that
-/// lists with the same pieces in a row have the same runs.
-bool ends_run(std::size_t piece) {
-    return (piece * 2654435761U >> 8U) % 4 == 0;
-}
-
-/// Lists of pieces as lists of runs; each distinct run stands once.
-class Runs {
+/// The texts of pieces as rows of a table, each distinct one once.
+class TextRows {
   public:
-    /// The runs of a list, by number.
-    Numbers cut(const Numbers& list) {
+    /// The numbers of a piece's texts; cut at line ends where that lets pieces share more than it costs.
+    Numbers add(const Piece& piece, bool is_cut) {
         Numbers numbers;
-        Numbers run;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            run.push_back(list[i]);
-            if (!ends_run(list[i]) && i + 1 < list.size()) continue;
-            const auto [place, is_new] = numbers_.try_emplace(run, numbers_.size());
-            if (is_new) {
-                begins_.push_back(pieces_.size());
-                std::ranges::copy(run, std::back_inserter(pieces_));
+        for (const std::string_view part :
+             is_cut ? lines_of(piece.text) : std::vector<std::string_view>{piece.text})
+            for (const std::string_view text : cut_for_literals(part)) {
+                const std::string row = fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name),
+                                                    cpp_literal(text), text.size(), numbers.empty() ? 1 : 0);
+                const auto [place, is_new] = numbers_.try_emplace(row, rows_.size());
+                if (is_new) rows_.push_back(row);
+                numbers.push_back(place->second);
             }
-            numbers.push_back(place->second);
-            run.clear();
-        }
         return numbers;
     }
-    /// Where each begins in pieces(), and where the last one ends.
-    [[nodiscard]] Numbers begins() const {
-        Numbers begins = begins_;
-        begins.push_back(pieces_.size());
-        return begins;
+    [[nodiscard]] const std::vector<std::string>& rows() const { return rows_; }
+
+    /// Its lines, each with the empty ones before it.
+    static std::vector<std::string_view> lines_of(std::string_view text) {
+        std::vector<std::string_view> lines;
+        while (!text.empty()) {
+            const std::size_t end = text.find('\n', std::min(text.find_first_not_of('\n'), text.size()));
+            lines.push_back(text.substr(0, end == std::string_view::npos ? end : end + 1));
+            text.remove_prefix(lines.back().size());
+        }
+        return lines;
     }
-    [[nodiscard]] const Numbers& pieces() const { return pieces_; }
 
   private:
-    std::map<Numbers, std::size_t> numbers_;
-    Numbers begins_;
-    Numbers pieces_;
+    std::map<std::string, std::size_t> numbers_;
+    std::vector<std::string> rows_;
 };
 
-void add_numbers(TemplateValues& values, const std::string& name, const Numbers& numbers) {
-    values[name + "_count"] = std::to_string(numbers.size());
-    values[name + "s"] = numbers_text(numbers);
+/// The names of those pieces that are shorter as lines that they share than each as a whole.
+std::set<std::string_view> names_to_cut(const Composition& composition, const std::set<int>& pieces) {
+    constexpr std::ptrdiff_t kRowSize = 40;  // of a row without its text, about
+    std::map<std::string_view, std::ptrdiff_t> gains;
+    std::set<std::pair<std::string_view, std::string_view>> lines;
+    for (const int number : pieces) {
+        const Piece& piece = composition.piece(number);
+        std::ptrdiff_t& gain = gains[piece.name];
+        gain += kRowSize + static_cast<std::ptrdiff_t>(piece.text.size());
+        for (const std::string_view line : TextRows::lines_of(piece.text))
+            if (lines.emplace(piece.name, line).second)
+                gain -= kRowSize + static_cast<std::ptrdiff_t>(line.size());
+    }
+    std::set<std::string_view> names;
+    for (const auto& [name, gain] : gains)
+        if (gain > 0) names.insert(name);
+    return names;
 }
 
 }  // namespace
@@ -116,25 +124,49 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
     }
     std::ranges::sort(sorted);
 
-    std::map<int, Numbers> texts_of;  // each piece that is used
-    for (const int stage : used)
-        for (const int piece : composition.stage(stage).pieces) texts_of[piece];
-    std::vector<std::string> texts;
-    for (auto& [piece, numbers] : texts_of) add_texts(composition.piece(piece), texts, numbers);
-
-    Runs runs;
-    Numbers stage_begins;
-    Numbers run_lists;
-    std::map<int, std::size_t> stage_numbers;
+    std::set<int> pieces;
+    std::map<StageKind, std::vector<int>> by_kind;
     for (const int stage : used) {
-        stage_numbers[stage] = stage_begins.size();
-        stage_begins.push_back(run_lists.size());
-        Numbers list;
-        for (const int piece : composition.stage(stage).pieces)
-            std::ranges::copy(texts_of[piece], std::back_inserter(list));
-        std::ranges::copy(runs.cut(list), std::back_inserter(run_lists));
+        const Stage& one = composition.stage(stage);
+        by_kind[one.kind].push_back(stage);
+        pieces.insert(one.pieces.begin(), one.pieces.end());
     }
-    stage_begins.push_back(run_lists.size());
+    TextRows texts;
+    std::map<int, Numbers> texts_of;
+    const std::set<std::string_view> cut = names_to_cut(composition, pieces);
+    for (const int number : pieces) {
+        const Piece& piece = composition.piece(number);
+        texts_of[number] = texts.add(piece, cut.contains(piece.name));
+    }
+
+    std::map<int, std::size_t> stage_numbers;
+    std::vector<std::string> tables;
+    Numbers digits;
+    Numbers first_lists;
+    Numbers list_begins;
+    Numbers list_pieces;
+    for (const auto& [kind, stages] : by_kind) {
+        tables.push_back(
+            fmt::format("{{{}, {}, {}, ", stage_numbers.size(), digits.size(), first_lists.size()));
+        std::vector<Numbers> lists;
+        for (const int stage : stages) {
+            stage_numbers.emplace(stage, stage_numbers.size());
+            Numbers& list = lists.emplace_back();
+            for (const int piece : composition.stage(stage).pieces)
+                std::ranges::copy(texts_of[piece], std::back_inserter(list));
+        }
+        const StageColumns table = columns_of(lists, kDigits);
+        tables.back() += fmt::format("{}}}", table.columns.size());
+        for (const Numbers& row : table.rows) std::ranges::copy(row, std::back_inserter(digits));
+        for (const std::vector<Numbers>& column : table.columns) {
+            first_lists.push_back(list_begins.size());
+            for (const Numbers& list : column) {
+                list_begins.push_back(list_pieces.size());
+                std::ranges::copy(list, std::back_inserter(list_pieces));
+            }
+        }
+    }
+    list_begins.push_back(list_pieces.size());
 
     std::vector<std::string> keys;
     std::vector<std::string> rows;
@@ -148,15 +180,13 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
                                    stage_numbers[permutation->vertex], stage_numbers[permutation->fragment],
                                    combination));
     }
-    const std::size_t most = std::max(texts.size(), runs.begins().size());
-    const bool is_wide = most > std::numeric_limits<std::uint16_t>::max();
-    values["index_type"] = is_wide ? "std::uint32_t" : "std::uint16_t";
-    add_numbers(values, "stage_begin", stage_begins);
-    add_numbers(values, "run_list", run_lists);
-    add_numbers(values, "run_begin", runs.begins());
-    add_numbers(values, "run_piece", runs.pieces());
+    values["stage_digits"] = numbers_text("stage_digits", digits);
+    values["first_lists"] = numbers_text("first_lists", first_lists);
+    values["list_begins"] = numbers_text("list_begins", list_begins);
+    values["list_pieces"] = numbers_text("list_pieces", list_pieces);
+    add_table(values, "stage_table", tables);
     values["keys"] = cpp_list(keys);
-    add_table(values, "piece", texts);
+    add_table(values, "piece", texts.rows());
     add_table(values, "permutation", rows);
 }
 

@@ -161,6 +161,23 @@ TEST(EmitHeader, LeavesOutWhatNoPermutationUses) {
     EXPECT_NE(header.find("piece of default"), std::string::npos);
 }
 
+TEST(EmitHeader, WritesOnceWhatProloguesShare) {
+    Built built = sample::lit();
+    Composition& composition = built.composition;
+    for (Stage& stage : composition.stages) {
+        const auto number = static_cast<int>(composition.pieces.size());
+        composition.pieces.push_back(
+            {"prologue", "lit.vert",
+             "#version 450 core\n\n#define FOG_DISTANCE_IS_RADIAL 1\n#define STAGE " +
+                 std::to_string(number) + "\n"});
+        stage.pieces.insert(stage.pieces.begin(), number);
+    }
+    const std::string header = header_of(built);
+    const auto shared = header.find("#define FOG_DISTANCE_IS_RADIAL 1");
+    ASSERT_NE(shared, std::string::npos);
+    EXPECT_EQ(header.find("#define FOG_DISTANCE_IS_RADIAL 1", shared + 1), std::string::npos);
+}
+
 TEST(EmitHeader, RulesOfOtherDialectsDoNotHold) {
     Built built = sample::lit();
     built.family.rules.back().dialects = {"330"};
