@@ -49,7 +49,8 @@ TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
 }
 
 TEST(SearchPath, RefusesAPieceThatAFileHoldsTwice) {
-    MemoryFileSystem files({{"lib/fog.glsl", "#piece linear\na\n#piece none\nb\n#piece linear\nc\n"}});
+    MemoryFileSystem files({{"lib/fog.glsl", "#piece linear\na\n#piece none\nb\n#piece linear\nc\n"},
+                            {"lib/light.glsl", "#piece linear\nd\n"}});
     SearchPath search;
     search.add(files, "lib", "lib/", false);
     EXPECT_EQ(to_text(search.find("fog/linear.glsl").error().front()),
