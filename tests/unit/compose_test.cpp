@@ -232,6 +232,12 @@ TEST_F(Compose, LaysCountedVaryingsBehindTheOthers) {
               "VARYING(5) vec4 rays[2];VARYING(4) vec3 halves[1];VARYING(3) vec3 eyePosition;");
     EXPECT_THAT(vertex("point=1").source,
                 testing::HasSubstr("vec4 rays[2]; void writeVaryingRays() { rays = allRays(); }"));
+    body.replace(body.find("location = 3"), 12, "location = 8");
+    EXPECT_EQ(declarations("point=2"),
+              "VARYING(11) vec4 rays[4];VARYING(9) vec3 halves[2];VARYING(8) vec3 eyePosition;");
+    EXPECT_EQ(declarations("point=3"),
+              "VARYING(4) vec4 rays[6];VARYING(1) vec3 halves[3];VARYING(0) vec3 eyePosition;")
+        << "no gaps where they would lead past 15 locations";
     files["tiny.frag"] = "void main() { rays; }\n";
     EXPECT_EQ(declarations("point=1"), "VARYING(0) vec4 rays[2];");
     body = std::string(features) +

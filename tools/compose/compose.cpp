@@ -13,6 +13,7 @@
 #include "compose/scan_piece.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
@@ -447,6 +448,34 @@ class Composer {
         return read;
     }
 
+    struct VaryingPlace {
+        int location;
+        int elements;  ///< of an array; 0 for a single one
+    };
+
+    /// Where the varyings stand: at the locations that the family states, arrays behind them. Where the gaps
+    /// between them lead past the locations that every implementation has, they stand without gaps.
+    [[nodiscard]] std::vector<VaryingPlace> places_of(const std::vector<int>& varyings,
+                                                      const Key& key) const {
+        constexpr int kGuaranteedLocations = 15;  // MAX_VARYING_COMPONENTS / 4
+        std::vector<VaryingPlace> places;
+        std::vector<VaryingPlace> packed;
+        int behind = 0;  // the first location that is still free
+        int packed_behind = 0;
+        for (const int index : varyings) {
+            const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
+            int values = 0;
+            for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
+            const int elements = (values + varying.values_per_element - 1) / varying.values_per_element;
+            const int locations = location_count(varying.type, {std::max(elements, 1)});
+            places.push_back({varying.counts.empty() ? varying.location : behind, elements});
+            packed.push_back({packed_behind, elements});
+            behind = std::max(behind, places.back().location + locations);
+            packed_behind += locations;
+        }
+        return behind > kGuaranteedLocations ? packed : places;
+    }
+
     /// The declarations of varyings, each on the line of the family file where it stands, so that a
     /// diagnostic and the module's debug lines name that place; in the vertex stage also the functions that
     /// write them.
@@ -455,20 +484,15 @@ class Composer {
         std::map<int, std::string> lines;
         std::string calls;
         std::string path = family_.path;
-        int behind = 0;  // the first location that is still free
-        for (const int index : varyings) {
-            const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
-            if (index == varyings.front()) path = varying.place.file;
-            const bool is_counted = !varying.counts.empty();
-            int values = 0;
-            for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
-            const int elements = (values + varying.values_per_element - 1) / varying.values_per_element;
-            const int location = is_counted ? behind : varying.location;
-            behind = location + std::max(elements, 1);
+        const std::vector<VaryingPlace> places = places_of(varyings, key);
+        for (std::size_t i = 0; i < varyings.size(); ++i) {
+            const Varying& varying = family_.varyings[static_cast<std::size_t>(varyings[i])];
+            if (i == 0) path = varying.place.file;
             std::string& line = lines[varying.place.line];
             line += fmt::format("{}{}VARYING({}) {} {}{};", varying.interpolation,
-                                varying.interpolation.empty() ? "" : " ", location, varying.type,
-                                varying.name, is_counted ? fmt::format("[{}]", elements) : "");
+                                varying.interpolation.empty() ? "" : " ", places[i].location, varying.type,
+                                varying.name,
+                                varying.counts.empty() ? "" : fmt::format("[{}]", places[i].elements));
             if (stage == StageKind::fragment) continue;
             std::string writer = "writeVarying" + varying.name;
             char& initial = writer[writer.size() - varying.name.size()];

@@ -149,9 +149,7 @@ class LimitCheck {
                     "varying vectors:", "MAX_VARYING_VECTORS");
     }
 
-    /// Stated locations are four components each, whether or not the variable takes them all. The varyings of
-    /// a family file get theirs from the composer, which leaves gaps: their
-    /// number counts.
+    /// Stated locations are four components each, whether or not the variable takes them all.
     void check_varying_locations(const StageView& stage, const std::vector<Variable>& list) {
         int needed = 0;
         for (const Variable& variable : list) {
@@ -159,8 +157,6 @@ class LimitCheck {
             const int count = location_count(variable.type, variable.array);
             if (!variable.usage.unused && variable.component == 0) needed += count;
             if (variable.location + count <= kRowsOfVaryings) continue;
-            if (declaration_of(variable.name, variable.type, stage.pieces).place.file.ends_with(".toml"))
-                continue;
             at_most(kRowsOfVaryings, variable.location + count, stage, variable.name,
                     fmt::format("locations of varyings up to the last of '{}':", variable.name),
                     "MAX_VARYING_COMPONENTS / 4");
