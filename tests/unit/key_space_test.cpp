@@ -272,6 +272,10 @@ TEST(WholeNumber, SaturatesAboveThe64BitsOnly) {
     EXPECT_EQ(number.saturated(), std::numeric_limits<std::uint64_t>::max());
     number += number;
     EXPECT_EQ(number.text(), "36893488147419103232");
+    number *= 4097;
+    EXPECT_EQ(number.text(), "151152620939976065941504");
+    number *= 0;
+    EXPECT_EQ(number, 0U);
     WholeNumber below = 999'999'999'999'999'999;
     below += 1;
     EXPECT_EQ(below, 1'000'000'000'000'000'000U);

@@ -28,6 +28,16 @@ class WholeNumber {
         return *this;
     }
 
+    /// By doubling: factors are small.
+    WholeNumber& operator*=(std::uint64_t factor) {
+        WholeNumber product;
+        for (; factor > 0; factor /= 2) {
+            if (factor % 2 == 1) product += *this;
+            *this += *this;
+        }
+        return *this = product;
+    }
+
     friend bool operator==(const WholeNumber&, const WholeNumber&) = default;
 
     /// The largest 64-bit number where it is more.

@@ -59,9 +59,9 @@ std::string funnel_text(const SceneReport& report) {
         "  after light buckets  {:>12}  ({})\n"
         "  distinct programs    {:>12}\n"
         "  compiled stages      {:>12}\n",
-        funnel.full_product, funnel.valid, funnel.needed, funnel.draws, funnel.draws == 1 ? "" : "s",
-        funnel.bucketed, scene::buckets_text(report.buckets), report.distinct_programs,
-        report.compiled_stages);
+        funnel.full_product.text(), funnel.valid.text(), funnel.needed, funnel.draws,
+        funnel.draws == 1 ? "" : "s", funnel.bucketed, scene::buckets_text(report.buckets),
+        report.distinct_programs, report.compiled_stages);
 }
 
 /// Unused lights are what a bucketing costs: each is evaluated at every fragment, for nothing.
@@ -114,8 +114,8 @@ std::string scene_json(const SceneReport& report) {
     json["keys"] = ordered_json::array();
     for (const Key& key : scene::distinct_keys(report.keys))
         json["keys"].push_back(key_text(report.family, key));
-    json["funnel"] = {{"full_product", report.funnel.full_product},
-                      {"valid", report.funnel.valid},
+    json["funnel"] = {{"full_product", report.funnel.full_product.saturated()},
+                      {"valid", report.funnel.valid.saturated()},
                       {"draws", report.funnel.draws},
                       {"needed", report.funnel.needed},
                       {"after_light_buckets", report.funnel.bucketed},

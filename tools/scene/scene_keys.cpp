@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -115,14 +114,9 @@ Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& dra
     GOBO_TRY(const auto exact, keys_for_draws(family, draws, {}, dialect));
     GOBO_TRY(const auto rounded, keys_for_draws(family, draws, buckets, dialect));
     Funnel funnel;
-    funnel.full_product = 1;
-    for (const Feature& feature : family.features) {
-        const std::uint64_t count = feature.values.size();
-        const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-        funnel.full_product = funnel.full_product > most / count ? most : funnel.full_product * count;
-    }
+    for (const Feature& feature : family.features) funnel.full_product *= feature.values.size();
     GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, {{}, {}, true}));
-    funnel.valid = space.count().saturated();
+    funnel.valid = space.count();
     funnel.draws = static_cast<std::size_t>(
         std::ranges::count_if(exact, [](const auto& draw) { return draw.has_value(); }));
     funnel.needed = distinct_keys(exact).size();

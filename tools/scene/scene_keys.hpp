@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/whole_number.hpp"
 #include "family/family.hpp"
 #include "scene/effects.hpp"
 
@@ -42,8 +43,8 @@ struct DrawKey {
 
 /// The numbers from the family down to the scene. What only composing tells is not among them.
 struct Funnel {
-    std::uint64_t full_product = 0;  ///< of the numbers of values of all features
-    std::uint64_t valid = 0;         ///< keys that the family's rules allow
+    WholeNumber full_product = 1;  ///< of the numbers of values of all features
+    WholeNumber valid;             ///< keys that the family's rules allow
     std::size_t draws = 0;
     std::size_t needed = 0;    ///< keys of the draws, as they are
     std::size_t bucketed = 0;  ///< after light counts are rounded up
