@@ -48,7 +48,8 @@ TEST(Alone, FindsLostDigitsButNotConditionAndSteps) {
         {"a step", "v.x > 0.5 * v.y ? 1.0 : 0.0", true},
         {"digits lost on the way", "((v.x + 1.0e6) - 1.0e6) / range", false},
         {"a square that overflows on the way", "sqrt(v.x * 1.0e30 * (v.x * 1.0e30)) / 1.0e30", false},
-        {"a NaN", "sqrt(v.x)", false},
+        {"a NaN in both, which is for the sanitizer to tell", "sqrt(v.x)", true},
+        {"a NaN in fp32 alone", "0.0 * (v.x * 1.0e30 * 1.0e30)", false},
     };
     for (const Row& row : rows) {
         const verify::VerifyReport report = verify_expression(row.expression);
