@@ -154,5 +154,25 @@ TEST(TrapOfANaN, IsToldWhereItIsHidden) {
     }
 }
 
+/// Two directions whose half vector lies along an axis: a component comes out a rounding beyond 1.
+TEST(TrapOfAReflection, IsFound) {
+    const auto of_length = [](const char* name, double low, double high) {
+        Domain domain;
+        domain.name = name;
+        domain.low = low;
+        domain.high = high;
+        domain.of_length = true;
+        return domain;
+    };
+    const std::vector<Domain> domains = {of_length("v", 0.1, 10), of_length("w", 0.9, 1.1)};
+    const std::string reflected = "vec3 r = reflect(-normalize(v), normalize(w)); ";
+    const auto lines = [&](const std::string& result) {
+        return found_lines(sanitized_text("trap.frag", shader_with(reflected + result), {}, domains));
+    };
+    EXPECT_EQ(lines("result = acos(r.y);"), Lines{"14: acos() of a number beyond [-1, 1]"});
+    EXPECT_EQ(lines("result = sqrt(1.0 - r.z * r.z);"), Lines{"14: sqrt() of a negative number"});
+    EXPECT_EQ(lines("result = acos(clamp(r.y, -1.0, 1.0));"), Lines{});
+}
+
 }  // namespace
 }  // namespace gobo

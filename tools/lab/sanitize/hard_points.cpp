@@ -109,7 +109,7 @@ class PointMaker {
         const InputField& from = space_.fields[random_.pick(space_.vectors)];
         const InputField& to = space_.fields[random_.pick(space_.vectors)];
         if (&from == &to) return;
-        if (random_.one_in(3)) return set_cosine(to, from);
+        if (random_.one_in(3)) return random_.one_in(3) ? set_reflection(to, from) : set_cosine(to, from);
         Vector direction{};
         std::copy(value(from).begin(), value(from).end(), direction.begin());
         if (random_.one_in(2))
@@ -161,6 +161,18 @@ class PointMaker {
             if (field.domain.high <= 2 && holds(field.domain, edge) && random_.one_in(2))
                 value(field)[0] = edge;
         }
+    }
+
+    /// `to` halfway between `from` and an axis: each mirrors the other about it, and their components along
+    /// the axis come out as 1, or a rounding above.
+    void set_reflection(const InputField& to, const InputField& from) {
+        const std::size_t components = std::min(from.ranged(), to.ranged());
+        const std::span<const double> numbers = value(from).first(components);
+        const double length = length_of(numbers);
+        Vector halfway{};
+        for (std::size_t i = 0; i < components && length > 0; ++i) halfway[i] = numbers[i] / length;
+        halfway[random_.index(components)] += random_.one_in(2) ? 1 : -1;
+        align(to, std::span(halfway).first(to.components));
     }
 
     void relate_numbers() {
