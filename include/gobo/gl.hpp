@@ -37,6 +37,7 @@ struct Program {
 namespace constant {
 inline constexpr unsigned fragment_shader = 0x8B30;
 inline constexpr unsigned vertex_shader = 0x8B31;
+inline constexpr unsigned delete_status = 0x8B80;
 inline constexpr unsigned compile_status = 0x8B81;
 inline constexpr unsigned link_status = 0x8B82;
 inline constexpr unsigned info_log_length = 0x8B84;
@@ -143,6 +144,8 @@ void set_bindings(unsigned program, const Functions& gl, IsWanted is_wanted) {
     }
     int previous = 0;
     gl.GetIntegerv(constant::current_program, &previous);
+    int is_deleted = 0;  // it lives as long as it is current, and cannot become so again
+    if (previous != 0) gl.GetProgramiv(static_cast<unsigned>(previous), constant::delete_status, &is_deleted);
     gl.UseProgram(program);
     for (const runtime::SamplerBinding& sampler : Tables::samplers) {
         if (!is_wanted(sampler.only)) continue;
@@ -151,7 +154,7 @@ void set_bindings(unsigned program, const Functions& gl, IsWanted is_wanted) {
         const int location = gl.GetUniformLocation(program, std::string(sampler.name).c_str());
         if (location >= 0) gl.Uniform1iv(location, sampler.count, units.data());
     }
-    gl.UseProgram(static_cast<unsigned>(previous));
+    gl.UseProgram(is_deleted != 0 ? 0 : static_cast<unsigned>(previous));
 }
 
 }  // namespace detail

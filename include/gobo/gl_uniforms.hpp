@@ -1,11 +1,12 @@
-// Sets uniforms outside blocks by the typed places of a generated header, through whatever loader the
-// application uses.
+// Sets uniforms outside blocks and binds textures by the typed places of a generated header, through whatever
+// loader the application uses.
 //
 //     gobo::gl::Program program = gobo::gl::build_program(*p);
 //     const auto locations = gobo::gl::find_locations(*p, program.id);       // once
 //     glUseProgram(program.id);
 //     gobo::gl::set(locations, game::uniform::tint, glm::vec3(1, 0, 0));     // another type does not compile
 //     gobo::gl::set(locations, game::uniform::lights[2].radius, 5.0F);
+//     gobo::gl::bind_texture(game::sampler::albedo, texture);                // to its unit, as its kind
 //
 // As in <gobo/gl.hpp>, a table of functions can be passed as a last argument.
 #pragma once
@@ -21,85 +22,73 @@
 
 namespace gobo::gl {
 
+namespace constant {
+inline constexpr unsigned texture0 = 0x84C0;
+}
+
 #ifndef GOBO_GL_NO_LOADER
-/// The functions of the loader that set uniforms.
+/// The functions of the loader that set uniforms and bind textures.
 struct LoadedUniformFunctions : LoadedFunctions {
-    void Uniform1fv(int location, int count, const float* values) const {
-        glUniform1fv(location, count, values);
+#define GOBO_GL_FUNCTION(name)                \
+    template <class... Arguments>             \
+    void name(Arguments... arguments) const { \
+        gl##name(arguments...);               \
     }
-    void Uniform2fv(int location, int count, const float* values) const {
-        glUniform2fv(location, count, values);
-    }
-    void Uniform3fv(int location, int count, const float* values) const {
-        glUniform3fv(location, count, values);
-    }
-    void Uniform4fv(int location, int count, const float* values) const {
-        glUniform4fv(location, count, values);
-    }
-    void Uniform2iv(int location, int count, const int* values) const {
-        glUniform2iv(location, count, values);
-    }
-    void Uniform3iv(int location, int count, const int* values) const {
-        glUniform3iv(location, count, values);
-    }
-    void Uniform4iv(int location, int count, const int* values) const {
-        glUniform4iv(location, count, values);
-    }
-    void Uniform1uiv(int location, int count, const unsigned* values) const {
-        glUniform1uiv(location, count, values);
-    }
-    void Uniform2uiv(int location, int count, const unsigned* values) const {
-        glUniform2uiv(location, count, values);
-    }
-    void Uniform3uiv(int location, int count, const unsigned* values) const {
-        glUniform3uiv(location, count, values);
-    }
-    void Uniform4uiv(int location, int count, const unsigned* values) const {
-        glUniform4uiv(location, count, values);
-    }
-    void UniformMatrix2fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix2fv(location, count, transpose, values);
-    }
-    void UniformMatrix3fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix3fv(location, count, transpose, values);
-    }
-    void UniformMatrix4fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix4fv(location, count, transpose, values);
-    }
-    void UniformMatrix2x3fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix2x3fv(location, count, transpose, values);
-    }
-    void UniformMatrix2x4fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix2x4fv(location, count, transpose, values);
-    }
-    void UniformMatrix3x2fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix3x2fv(location, count, transpose, values);
-    }
-    void UniformMatrix3x4fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix3x4fv(location, count, transpose, values);
-    }
-    void UniformMatrix4x2fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix4x2fv(location, count, transpose, values);
-    }
-    void UniformMatrix4x3fv(int location, int count, unsigned char transpose, const float* values) const {
-        glUniformMatrix4x3fv(location, count, transpose, values);
-    }
+    GOBO_GL_FUNCTION(ActiveTexture)
+    GOBO_GL_FUNCTION(BindTexture)
+    GOBO_GL_FUNCTION(Uniform1fv)
+    GOBO_GL_FUNCTION(Uniform2fv)
+    GOBO_GL_FUNCTION(Uniform3fv)
+    GOBO_GL_FUNCTION(Uniform4fv)
+    GOBO_GL_FUNCTION(Uniform2iv)
+    GOBO_GL_FUNCTION(Uniform3iv)
+    GOBO_GL_FUNCTION(Uniform4iv)
+    GOBO_GL_FUNCTION(Uniform1uiv)
+    GOBO_GL_FUNCTION(Uniform2uiv)
+    GOBO_GL_FUNCTION(Uniform3uiv)
+    GOBO_GL_FUNCTION(Uniform4uiv)
+    GOBO_GL_FUNCTION(UniformMatrix2fv)
+    GOBO_GL_FUNCTION(UniformMatrix3fv)
+    GOBO_GL_FUNCTION(UniformMatrix4fv)
+    GOBO_GL_FUNCTION(UniformMatrix2x3fv)
+    GOBO_GL_FUNCTION(UniformMatrix2x4fv)
+    GOBO_GL_FUNCTION(UniformMatrix3x2fv)
+    GOBO_GL_FUNCTION(UniformMatrix3x4fv)
+    GOBO_GL_FUNCTION(UniformMatrix4x2fv)
+    GOBO_GL_FUNCTION(UniformMatrix4x3fv)
+#undef GOBO_GL_FUNCTION
 };
 #endif
 
-/// Where the program, built from the permutation, has each uniform outside blocks: asked of OpenGL once,
-/// after linking.
+namespace detail {
+
+/// The location of each row of a table: -1 where the program does not have the name or `is_declared(row)` is
+/// not so.
+template <std::size_t Count, class Row, class IsDeclared, class Functions>
+[[nodiscard]] std::array<int, Count> locations_of(const std::array<Row, Count>& rows, unsigned program,
+                                                  const Functions& gl, IsDeclared is_declared) {
+    std::array<int, Count> locations{};
+    for (std::size_t row = 0; row < Count; ++row)
+        locations[row] =
+            is_declared(rows[row]) ? gl.GetUniformLocation(program, std::string(rows[row].name).c_str()) : -1;
+    return locations;
+}
+
+}  // namespace detail
+
+/// Where the program, built from the permutation, has each uniform outside blocks and each sampler: asked of
+/// OpenGL once, after linking.
 template <class Permutation, class Functions>
 [[nodiscard]] Locations<typename Permutation::Tables> find_locations(const Permutation& permutation,
                                                                      unsigned program, const Functions& gl) {
-    Locations<typename Permutation::Tables> locations{};
-    for (std::size_t row = 0; row < locations.numbers.size(); ++row) {
-        const runtime::UniformLocation& uniform = Permutation::Tables::uniforms[row];
-        locations.numbers[row] = uniform.only.applies_to(permutation)
-                                     ? gl.GetUniformLocation(program, std::string(uniform.name).c_str())
-                                     : -1;
-    }
-    return locations;
+    using Tables = typename Permutation::Tables;
+    const auto is_declared = [&permutation](const runtime::UniformLocation& uniform) {
+        return uniform.only.applies_to(permutation);
+    };
+    // The declarations of a sampler share its place: any program has the name at most once.
+    const auto is_any = [](const runtime::SamplerBinding&) { return true; };
+    return {detail::locations_of(Tables::uniforms, program, gl, is_declared),
+            detail::locations_of(Tables::samplers, program, gl, is_any)};
 }
 
 namespace detail {
@@ -108,17 +97,18 @@ namespace detail {
 template <int Columns, int Rows, class Number, class Functions>
 void upload(int location, int count, const Number* numbers, const Functions& gl) {
     constexpr int shape = Columns * 10 + Rows;
+    [[maybe_unused]] constexpr unsigned char as_it_is = 0;  // not transposed
     if constexpr (Columns > 1) {
         static_assert(std::is_same_v<Number, float>, "only matrices of float can be set");
-        if constexpr (shape == 22) gl.UniformMatrix2fv(location, count, 0, numbers);
-        if constexpr (shape == 33) gl.UniformMatrix3fv(location, count, 0, numbers);
-        if constexpr (shape == 44) gl.UniformMatrix4fv(location, count, 0, numbers);
-        if constexpr (shape == 23) gl.UniformMatrix2x3fv(location, count, 0, numbers);
-        if constexpr (shape == 24) gl.UniformMatrix2x4fv(location, count, 0, numbers);
-        if constexpr (shape == 32) gl.UniformMatrix3x2fv(location, count, 0, numbers);
-        if constexpr (shape == 34) gl.UniformMatrix3x4fv(location, count, 0, numbers);
-        if constexpr (shape == 42) gl.UniformMatrix4x2fv(location, count, 0, numbers);
-        if constexpr (shape == 43) gl.UniformMatrix4x3fv(location, count, 0, numbers);
+        if constexpr (shape == 22) gl.UniformMatrix2fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 33) gl.UniformMatrix3fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 44) gl.UniformMatrix4fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 23) gl.UniformMatrix2x3fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 24) gl.UniformMatrix2x4fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 32) gl.UniformMatrix3x2fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 34) gl.UniformMatrix3x4fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 42) gl.UniformMatrix4x2fv(location, count, as_it_is, numbers);
+        if constexpr (shape == 43) gl.UniformMatrix4x3fv(location, count, as_it_is, numbers);
     } else if constexpr (std::is_same_v<Number, float>) {
         if constexpr (Rows == 1) gl.Uniform1fv(location, count, numbers);
         if constexpr (Rows == 2) gl.Uniform2fv(location, count, numbers);
@@ -173,6 +163,39 @@ void set(const Locations<Tables>& locations, UniformPlace<Tables, Value, Extent>
     detail::set_values<static_cast<int>(Count)>(locations, uniform, values.data(), gl);
 }
 
+/// Gives a sampler of the current program another texture unit than the header does; nothing where the
+/// program does not have it. An array takes as many units as it has elements, or fewer.
+template <class Tables, unsigned Target, int Extent, std::size_t Count, class Functions>
+void set(const Locations<Tables>& locations, SamplerPlace<Tables, Target, Extent> sampler,
+         const std::array<int, Count>& units, const Functions& gl) {
+    static_assert(Count <= static_cast<std::size_t>(Extent), "the array of samplers is shorter");
+    const int location = locations.samplers[static_cast<std::size_t>(sampler.row)];
+    if (location >= 0) gl.Uniform1iv(location, static_cast<int>(Count), units.data());
+}
+template <class Tables, unsigned Target, class Functions>
+void set(const Locations<Tables>& locations, SamplerPlace<Tables, Target, 1> sampler, int unit,
+         const Functions& gl) {
+    set(locations, sampler, std::array<int, 1>{unit}, gl);
+}
+
+/// Binds textures of the sampler's kind to the units that build_program() gave it: one for each element of an
+/// array, or fewer. Leaves the last of these units the active one.
+template <class Tables, unsigned Target, int Extent, std::size_t Count, class Functions>
+void bind_textures(SamplerPlace<Tables, Target, Extent> sampler, const std::array<unsigned, Count>& textures,
+                   const Functions& gl) {
+    static_assert(Target != 0, "no texture can be bound to it");
+    static_assert(Count <= static_cast<std::size_t>(Extent), "the array of samplers is shorter");
+    auto unit = constant::texture0 + static_cast<unsigned>(sampler.unit);
+    for (const unsigned texture : textures) {
+        gl.ActiveTexture(unit++);
+        gl.BindTexture(Target, texture);
+    }
+}
+template <class Tables, unsigned Target, class Functions>
+void bind_texture(SamplerPlace<Tables, Target, 1> sampler, unsigned texture, const Functions& gl) {
+    bind_textures(sampler, std::array<unsigned, 1>{texture}, gl);
+}
+
 #ifndef GOBO_GL_NO_LOADER
 /// The same through the functions of the loader that was included.
 template <class Permutation>
@@ -180,10 +203,17 @@ template <class Permutation>
                                                                      unsigned program) {
     return find_locations(permutation, program, LoadedUniformFunctions{});
 }
-template <class Tables, class Value, int Extent, class Given>
-void set(const Locations<Tables>& locations, UniformPlace<Tables, Value, Extent> uniform,
-         const Given& values) {
-    set(locations, uniform, values, LoadedUniformFunctions{});
+template <class Tables, class Place, class Given>
+void set(const Locations<Tables>& locations, Place place, const Given& values) {
+    set(locations, place, values, LoadedUniformFunctions{});
+}
+template <class Place>
+void bind_texture(Place sampler, unsigned texture) {
+    bind_texture(sampler, texture, LoadedUniformFunctions{});
+}
+template <class Place, std::size_t Count>
+void bind_textures(Place sampler, const std::array<unsigned, Count>& textures) {
+    bind_textures(sampler, textures, LoadedUniformFunctions{});
 }
 #endif
 

@@ -1,4 +1,5 @@
-// Uniforms outside blocks, as generated headers name them. <gobo/gl.hpp> sets them. No OpenGL.
+// Uniforms outside blocks, samplers and vertex attributes, as generated headers name them.
+// <gobo/gl_uniforms.hpp> and <gobo/gl_vertices.hpp> set them. No OpenGL.
 #pragma once
 
 #include <array>
@@ -15,11 +16,50 @@ struct UniformPlace {
     int row;
 };
 
-/// The locations in a program of what Tables::uniforms lists; -1 for what the program does not have.
+/// A sampler of the header that Tables belong to, or an array of `Count`: the texture unit that
+/// build_program() gives it (an array's first one), as which it can be used. `Target` is what glBindTexture()
+/// calls textures for it, 0 for what takes no texture.
+template <class Tables, unsigned Target, int Count = 1>
+struct SamplerPlace {
+    static constexpr unsigned target = Target;
+    static constexpr int count = Count;
+    int row;  ///< among Tables::samplers
+    int unit;
+
+    constexpr operator int() const { return unit; }
+};
+
+/// A vertex attribute: its location (of an array or a matrix the first one), as which it can be used. `Value`
+/// is a number or a vector or matrix of std140.
+template <class Value, int Count = 1>
+struct AttributePlace {
+    int location;
+
+    constexpr operator int() const { return location; }
+};
+
+/// The locations in a program of what Tables::uniforms and Tables::samplers list; -1 for what the program
+/// does not have.
 template <class Tables>
 struct Locations {
     std::array<int, Tables::uniforms.size()> numbers;
+    std::array<int, Tables::samplers.size()> samplers;
 };
+
+/// What glBindTexture() calls the kinds of textures.
+namespace target {
+inline constexpr unsigned texture_1d = 0x0DE0;
+inline constexpr unsigned texture_2d = 0x0DE1;
+inline constexpr unsigned texture_3d = 0x806F;
+inline constexpr unsigned texture_cube = 0x8513;
+inline constexpr unsigned texture_rectangle = 0x84F5;
+inline constexpr unsigned texture_1d_array = 0x8C18;
+inline constexpr unsigned texture_2d_array = 0x8C1A;
+inline constexpr unsigned texture_buffer = 0x8C2A;
+inline constexpr unsigned texture_cube_array = 0x9009;
+inline constexpr unsigned texture_2d_multisample = 0x9100;
+inline constexpr unsigned texture_2d_multisample_array = 0x9102;
+}  // namespace target
 
 namespace runtime {
 

@@ -41,27 +41,81 @@ void fill_places(std::vector<Item>& items, SizeOf size) {
     }
 }
 
-/// A constant for each variable or sampler: where it is. Declarations of a name at one place share theirs.
-template <class Item>
-std::string constants_of(const std::vector<Item>& items, const std::vector<Domain>& domains) {
+/// A constant of the header, without its name.
+struct Constant {
+    std::string type;
+    std::string value;  ///< with its braces, or behind " = "
+};
+
+/// A constant for each variable or sampler: where it is. Declarations of a name whose constants are alike
+/// share one.
+template <class Item, class ConstantOf>
+std::string constants_of(const std::vector<Item>& items, const std::vector<Domain>& domains,
+                         ConstantOf constant_of) {
     CppScope scope;
     std::string text;
     for (auto item = items.begin(); item != items.end();) {
         const std::string domain = domain_text(domains, item->name);
         const std::string& name = item->name;
+        const std::string identifier = cpp_identifier(name);
         for (int number = 1; item != items.end() && item->name == name; ++number) {
-            const int place = place_of(*item);
+            const Constant constant = constant_of(*item);
             std::string types = item->type;
-            for (++item; item != items.end() && item->name == name && place_of(*item) == place; ++item)
+            for (++item; item != items.end() && item->name == name; ++item) {
+                const Constant other = constant_of(*item);
+                if (other.type != constant.type || other.value != constant.value) break;
                 if (item->type != item[-1].type) types += " or " + item->type;
-            const std::string identifier = cpp_identifier(name);
+            }
             text +=
-                fmt::format("inline constexpr int {} = {};  ///< {}{}{}\n",
+                fmt::format("inline constexpr {} {}{};  ///< {}{}{}\n", constant.type,
                             scope.claim(number == 1 ? identifier : fmt::format("{}_{}", identifier, number)),
-                            place, cpp_comment(types), domain.empty() ? "" : ", ", domain);
+                            constant.value, cpp_comment(types), domain.empty() ? "" : ", ", domain);
         }
     }
     return text;
+}
+
+/// The C++ type of the application's values.
+std::string value_type(const std::string& type) {
+    constexpr std::string_view numbers[] = {"float", "std::int32_t", "std::uint32_t", "bool", "double"};
+    const std::optional<GlslType> glsl = glsl_type(type);
+    if (!glsl || glsl->scalar > Scalar::float64) return "void";  // nothing that set() takes: atomic_uint
+    const std::string_view number = numbers[static_cast<std::size_t>(glsl->scalar)];
+    if (glsl->is_matrix())
+        return fmt::format("std140::PlainMatrix<{}, {}, {}>", glsl->columns, glsl->rows, number);
+    return glsl->rows == 1 ? std::string(number) : fmt::format("std140::Vector<{}, {}>", glsl->rows, number);
+}
+
+/// ", 3" behind the last argument of a template, where it is an array.
+std::string extent_of(const std::vector<int>& array) {
+    const int count = element_count(array);
+    return count == 1 ? "" : fmt::format(", {}", count);
+}
+
+/// Of gobo::target: as what textures for the sampler are bound.
+std::string target_of(std::string_view type) {
+    constexpr std::pair<std::string_view, std::string_view> kTargets[] = {
+        {"1D", "texture_1d"},
+        {"1DArray", "texture_1d_array"},
+        {"2D", "texture_2d"},
+        {"2DArray", "texture_2d_array"},
+        {"2DMS", "texture_2d_multisample"},
+        {"2DMSArray", "texture_2d_multisample_array"},
+        {"2DRect", "texture_rectangle"},
+        {"3D", "texture_3d"},
+        {"Buffer", "texture_buffer"},
+        {"Cube", "texture_cube"},
+        {"CubeArray", "texture_cube_array"},
+    };
+    constexpr std::string_view kSampler = "sampler";
+    constexpr std::string_view kShadow = "Shadow";
+    if (type.starts_with('i') || type.starts_with('u')) type.remove_prefix(1);
+    if (!type.starts_with(kSampler)) return "0";
+    type.remove_prefix(kSampler.size());
+    if (type.ends_with(kShadow)) type.remove_suffix(kShadow.size());
+    for (const auto& [shape, target] : kTargets)
+        if (shape == type) return fmt::format("gobo::target::{}", target);
+    return "0";
 }
 
 /// Of the declarations in a list which one each is of its name, from 1.
@@ -139,9 +193,8 @@ class UniformConstants {
     Place place_of_uniform(Uniform uniform) {
         const bool is_plain = uniform.members.empty();
         if (is_plain && uniform.array.size() < 2) {
-            const int count = element_count(uniform.array);
             return {fmt::format("gobo::UniformPlace<detail::Tables, {}{}>", value_type(uniform.type),
-                                count == 1 ? "" : fmt::format(", {}", count)),
+                                extent_of(uniform.array)),
                     fmt::format("{{{}}}", row_++)};
         }
         if (!uniform.array.empty()) {
@@ -178,18 +231,6 @@ class UniformConstants {
         return place->second;
     }
 
-    /// The type of the application's values.
-    static std::string value_type(const std::string& type) {
-        constexpr std::string_view numbers[] = {"float", "std::int32_t", "std::uint32_t", "bool", "double"};
-        const std::optional<GlslType> glsl = glsl_type(type);
-        if (!glsl || glsl->scalar > Scalar::float64) return "void";  // nothing that set() takes: atomic_uint
-        const std::string_view number = numbers[static_cast<std::size_t>(glsl->scalar)];
-        if (glsl->is_matrix())
-            return fmt::format("std140::PlainMatrix<{}, {}, {}>", glsl->columns, glsl->rows, number);
-        return glsl->rows == 1 ? std::string(number)
-                               : fmt::format("std140::Vector<{}, {}>", glsl->rows, number);
-    }
-
     CppScope scope_;
     std::map<std::string, std::string> names_;  ///< of structs, by their members
     std::string structs_;
@@ -214,9 +255,21 @@ Interface with_places(Interface interface) {
 
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
                        const Declarations& declarations, TemplateValues& values) {
-    values["attribute_constants"] = constants_of(interface.inputs, domains);
-    values["output_constants"] = constants_of(interface.outputs, domains);
-    values["sampler_constants"] = constants_of(interface.samplers, {});
+    values["attribute_constants"] = constants_of(interface.inputs, domains, [](const Variable& input) {
+        return Constant{
+            fmt::format("gobo::AttributePlace<{}{}>", value_type(input.type), extent_of(input.array)),
+            fmt::format("{{{}}}", input.location)};
+    });
+    values["output_constants"] = constants_of(interface.outputs, domains, [](const Variable& output) {
+        return Constant{"int", fmt::format(" = {}", output.location)};
+    });
+    values["sampler_constants"] = constants_of(interface.samplers, {}, [&interface](const Sampler& sampler) {
+        // Declarations of a name share the row of the first: its location is that of the name.
+        const auto first = std::ranges::find(interface.samplers, sampler.name, &Sampler::name);
+        return Constant{fmt::format("gobo::SamplerPlace<detail::Tables, {}{}>", target_of(sampler.type),
+                                    extent_of(sampler.array)),
+                        fmt::format("{{{}, {}}}", first - interface.samplers.begin(), sampler.binding)};
+    });
     const auto add_rows = [&](const std::string& name, const std::string& kind, const auto& items) {
         std::vector<std::string> rows;
         for (const auto& item : items) rows.push_back(row_of(item, only_of(items, item, kind, declarations)));

@@ -17,6 +17,7 @@ struct Driver {
     bool compiles = true;  // the fragment stage
     bool links = true;
     unsigned current = 77;
+    unsigned deleted = 0;
 };
 Driver driver;
 
@@ -59,8 +60,9 @@ void BindAttribLocation(unsigned, unsigned location, const char* name) {
 void LinkProgram(unsigned) {
     note("link");
 }
-void GetProgramiv(unsigned, unsigned name, int* value) {
-    *value = status_or_size(name, driver.links);
+void GetProgramiv(unsigned program, unsigned name, int* value) {
+    const bool asks_whether_deleted = name == 0x8B80;
+    *value = asks_whether_deleted ? (program == driver.deleted ? 1 : 0) : status_or_size(name, driver.links);
 }
 void GetProgramInfoLog(unsigned, int size, int* length, char* text) {
     copy_log(size, length, text);
@@ -80,6 +82,27 @@ int GetUniformLocation(unsigned, const char*) {
 void Uniform1iv(int location, int, const int* values) {
     note("unit of " + std::to_string(location) + ": " + std::to_string(*values));
 }
+void Uniform1fv(int location, int, const float* values) {
+    note("uniform " + std::to_string(location) + ": " + std::to_string(*values));
+}
+void ActiveTexture(unsigned unit) {
+    note("active unit " + std::to_string(unit - 0x84C0));
+}
+void BindTexture(unsigned target, unsigned texture) {
+    note("texture " + std::to_string(texture) + " as " + std::to_string(target));
+}
+void EnableVertexAttribArray(unsigned location) {
+    note("enable " + std::to_string(location));
+}
+void VertexAttribPointer(unsigned location, int size, unsigned type, unsigned char normalized, int stride,
+                         const void* offset) {
+    note("pointer " + std::to_string(location) + ": " + std::to_string(size) + " of " +
+         std::to_string(type + normalized) + " each " + std::to_string(stride) + " from " +
+         std::to_string(reinterpret_cast<std::size_t>(offset)));
+}
+void VertexAttribIPointer(unsigned location, int size, unsigned type, int stride, const void* offset) {
+    VertexAttribPointer(location, size, type, 0, stride, offset);
+}
 unsigned GetUniformBlockIndex(unsigned, const char* name) {
     return std::strcmp(name, "Camera") == 0 ? 0xFFFFFFFF : 9;
 }
@@ -91,15 +114,20 @@ void UniformBlockBinding(unsigned, unsigned block, unsigned binding) {
 
 // A loader: pointers in variables, macros with OpenGL's names.
 #define GL_VERSION_2_0 1
-#define LOADER_FUNCTIONS(DO)                                                                    \
-    DO(CreateShader)                                                                            \
-    DO(ShaderSource)                                                                            \
-    DO(CompileShader)                                                                           \
-    DO(GetShaderiv)                                                                             \
-    DO(GetShaderInfoLog)                                                                        \
-    DO(DeleteShader) DO(CreateProgram) DO(AttachShader) DO(BindAttribLocation) DO(LinkProgram)  \
-        DO(GetProgramiv) DO(GetProgramInfoLog) DO(DeleteProgram) DO(UseProgram) DO(GetIntegerv) \
-            DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding)
+#define LOADER_FUNCTIONS(DO)                                                                                \
+    DO(CreateShader)                                                                                        \
+    DO(ShaderSource)                                                                                        \
+    DO(CompileShader)                                                                                       \
+    DO(GetShaderiv)                                                                                         \
+    DO(GetShaderInfoLog)                                                                                    \
+    DO(DeleteShader)                                                                                        \
+    DO(CreateProgram)                                                                                       \
+    DO(AttachShader)                                                                                        \
+    DO(BindAttribLocation)                                                                                  \
+    DO(LinkProgram) DO(GetProgramiv) DO(GetProgramInfoLog) DO(DeleteProgram) DO(UseProgram) DO(GetIntegerv) \
+        DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding)              \
+            DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray)                    \
+                DO(VertexAttribPointer) DO(VertexAttribIPointer)
 #define LOADER_POINTER(name) static decltype(&pretended::name) loader_gl##name = &pretended::name;
 LOADER_FUNCTIONS(LOADER_POINTER)
 #define glCreateShader loader_glCreateShader
@@ -121,8 +149,16 @@ LOADER_FUNCTIONS(LOADER_POINTER)
 #define glUniform1iv loader_glUniform1iv
 #define glGetUniformBlockIndex loader_glGetUniformBlockIndex
 #define glUniformBlockBinding loader_glUniformBlockBinding
+#define glUniform1fv loader_glUniform1fv
+#define glActiveTexture loader_glActiveTexture
+#define glBindTexture loader_glBindTexture
+#define glEnableVertexAttribArray loader_glEnableVertexAttribArray
+#define glVertexAttribPointer loader_glVertexAttribPointer
+#define glVertexAttribIPointer loader_glVertexAttribIPointer
 
 #include <gobo/gl.hpp>
+#include <gobo/gl_uniforms.hpp>
+#include <gobo/gl_vertices.hpp>
 
 namespace {
 
@@ -158,6 +194,10 @@ void test_success() {
     expect_text(pretended::driver.calls, all_bound);
     expect_text(std::to_string(pretended::driver.current), "77");
     pretended::driver = {};
+    pretended::driver.deleted = 77;
+    expect_text(std::to_string(gobo::gl::build_program(permutation()).id), "3");
+    expect_text(std::to_string(pretended::driver.current), "0");
+    pretended::driver = {};
     expect_text(std::to_string(gobo::gl::build_program(permutation(), Table{}).id), "3");
     expect_text(pretended::driver.calls, all_bound);
 }
@@ -180,10 +220,48 @@ void test_link_error() {
                 "the stages do not link\nerror: vNormal is not written");
 }
 
+struct Vertex {
+    float weight;
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+void test_places() {
+    const char* const calls =
+        "uniform 5: 0.500000\nunit of 5: 7\nactive unit 4\ntexture 9 as 35866\n"
+        "enable 0\npointer 0: 3 of 5126 each 28 from 4\nenable 1\npointer 1: 3 of 5126 each 28 from 16\n";
+    pretended::driver = {};
+    const auto locations = gobo::gl::find_locations(permutation(), 3);
+    gobo::gl::set(locations, lit::uniform::exposure, 0.5F);
+    gobo::gl::set(locations, lit::sampler::shadowMaps, 7);
+    gobo::gl::bind_texture(lit::sampler::shadowMaps, 9);
+    gobo::gl::point_to(lit::attribute::position, &Vertex::position);
+    gobo::gl::point_to(lit::attribute::normal, &Vertex::normal);
+    expect_text(pretended::driver.calls, calls);
+    pretended::driver = {};
+    const Table table;
+    gobo::gl::set(locations, lit::uniform::exposure, 0.5F, table);
+    gobo::gl::set(locations, lit::sampler::shadowMaps, 7, table);
+    gobo::gl::bind_texture(lit::sampler::shadowMaps, 9, table);
+    gobo::gl::point_to(lit::attribute::position, &Vertex::position, table);
+    gobo::gl::point_to(lit::attribute::normal, &Vertex::normal, table);
+    expect_text(pretended::driver.calls, calls);
+}
+
+// What set() and point_to() take.
+using gobo::runtime::TakesValue;
+static_assert(TakesValue<gobo::std140::vec3, glm::vec3>::value);
+static_assert(!TakesValue<gobo::std140::vec3, glm::vec4>::value);
+static_assert(!TakesValue<float, double>::value && !TakesValue<std::int32_t, std::uint32_t>::value);
+static_assert(
+    std::is_same_v<decltype(lit::attribute::position), const gobo::AttributePlace<gobo::std140::vec3>>);
+static_assert(lit::sampler::shadowMaps.target == gobo::target::texture_2d_array);
+
 }  // namespace
 
 int main() {
     test_success();
+    test_places();
     // The fragment stage is common.glsl, two lines, then "piece of fog=linear", two lines.
     test_compile_error("0:2(7): error: x\n", "shader_lib/common.glsl:2(7): error: x\n");
     test_compile_error("0:4(1): error: Mesa\n", "piece of fog=linear:2(1): error: Mesa\n");
