@@ -547,7 +547,7 @@ class Composer {
                 library_.generated(varyings_piece(read, placement.key, StageKind::fragment)));
         stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), placement.placed.end());
         const auto [at, is_new] =
-            numbers_.try_emplace(stage.pieces, static_cast<int>(composition_.stages.size()));
+            numbers_.try_emplace({stage.kind, stage.pieces}, static_cast<int>(composition_.stages.size()));
         if (is_new) composition_.stages.push_back(std::move(stage));
         return at->second;
     }
@@ -555,7 +555,7 @@ class Composer {
     const Family& family_;
     Composition composition_;
     PieceLibrary library_;
-    std::map<std::vector<int>, int> numbers_;
+    std::map<std::pair<StageKind, std::vector<int>>, int> numbers_;  ///< one file may be both templates
 };
 
 }  // namespace

@@ -147,6 +147,15 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
     return selection;
 }
 
+/// The file of a stage.
+std::string read_template(const TomlTable& root, const char* stage) {
+    std::string path = root.required_string(stage);
+    if (path.empty() && root.has(stage))
+        root.error(stage, fmt::format("has no file for '{}'", stage),
+                   fmt::format("name the template that holds main(): {} = \"...\"", stage));
+    return path;
+}
+
 /// Follows `extends`, once: a family that is extended stands on its own feet.
 Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base) {
     const toml::node* extends = reader.root().get("extends");
@@ -179,8 +188,8 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     if (!reader.failed() && !is_identifier(family.name))
         reader.error(root.place_of("name"), fmt::format("'{}' cannot name a family", family.name),
                      "use letters, digits and _, not starting with a digit: it names a C++ namespace");
-    family.vertex = root.required_string("vertex");
-    family.fragment = root.required_string("fragment");
+    family.vertex = read_template(root, "vertex");
+    family.fragment = read_template(root, "fragment");
     family.features = read_features(root);
     family.rules = read_rules(root, family.features);
     family.varyings = read_varyings(root, family.features);

@@ -50,6 +50,14 @@ toml::table TomlReader::parse(std::string_view text, const std::string& path) {
 void TomlReader::extend(std::string_view base_text, std::string base_path,
                         const std::vector<std::string>& appended) {
     toml::table base = parse(base_text, base_path);
+    if (const toml::node* extends = root_.get("extends"); extends != nullptr && base.contains("extends")) {
+        const bool is_itself = base_path == path_;
+        return error(*extends,
+                     is_itself ? "a family cannot extend itself"
+                               : fmt::format("cannot extend '{}': it extends a family itself", base_path),
+                     is_itself ? "name another, or leave 'extends' out"
+                               : "extend the family that it extends, and state here what it adds");
+    }
     merge_into(base, root_, appended);
     root_ = std::move(base);
 }
