@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "core/text_template.hpp"
+#include "core/write_together.hpp"
 
 namespace gobo {
 namespace {
@@ -38,6 +41,70 @@ TEST(Diagnostic, ExitStatusIsThatOfTheGravestFault) {
     EXPECT_EQ(exit_status(several), 2);
 }
 
+struct LongRow {
+    const char* name;
+    std::string line;
+    int column;
+    std::string shown;  ///< the quoted line and the caret
+};
+
+TEST(Diagnostic, QuotesOfALongLineWhatStandsAroundTheColumn) {
+    const std::string blanks(119, ' ');
+    const LongRow rows[] = {
+        {"begin", std::string(300, 'a'), 3, "    " + std::string(240, 'a') + "...\n      ^\n"},
+        {"no_column", std::string(300, 'a'), 0, "    " + std::string(240, 'a') + "...\n"},
+        {"beyond_its_end", std::string(300, 'a'), 500, "    " + std::string(240, 'a') + "...\n"},
+        {"middle", std::string(499, 'a') + "b" + std::string(500, 'c'), 500,
+         "    ..." + std::string(119, 'a') + "b" + std::string(120, 'c') + "...\n       " + blanks + "^\n"},
+        {"end", std::string(999, 'a') + "b", 1000,
+         "    ..." + std::string(119, 'a') + "b\n       " + blanks + "^\n"},
+        {"characters_stay_whole", std::string(239, 'a') + "\xC3\xA9" + "b", 0,
+         "    " + std::string(239, 'a') + "...\n"},
+    };
+    for (const LongRow& row : rows) {
+        Diagnostic diagnostic;
+        diagnostic.message = "x";
+        diagnostic.place.column = row.column;
+        diagnostic.quoted_line = row.line;
+        EXPECT_EQ(to_text(diagnostic), "gobo: error: x\n" + row.shown) << row.name;
+    }
+}
+
+TEST(Diagnostic, NeverPrintsMoreThanCanBeRead) {
+    const std::string million(1'000'000, 'm');
+    const Diagnostic diagnostic{.place = {million, 1, 1},
+                                .message = million,
+                                .quoted_line = million,
+                                .help = million,
+                                .subject = million};
+    const std::string text = to_text(diagnostic);
+    EXPECT_LT(text.size(), 6000U);
+    EXPECT_NE(text.find("m [... 998500 bytes ...] m"), std::string::npos) << text;
+}
+
+TEST(Text, OfATerminalDoesNothing) {
+    const std::pair<const char*, const char*> rows[] = {
+        {"plain\ttext\n", "plain\ttext\n"},
+        {"na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80", "na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80"},
+        {"\x1b[1mred\x07\r", "?[1mred??"},
+        {"\xC2\x9B"
+         "1m",
+         "?1m"},  // the escape sequence as one character
+        {"a\xE2\x80\xAE"
+         "b\xE2\x81\xA6"
+         "c",
+         "a?b?c"},  // right to left
+        {"a\xE2\x80\xA8"
+         "b",
+         "a?b"},  // a line end of Unicode
+        {"\x9B"
+         "1m \xFF \xC3",
+         "?1m ? ?"},  // no UTF-8
+        {"\xC3(\xED", "?(?"},
+    };
+    for (const auto& [text, expected] : rows) EXPECT_EQ(printable(text), expected) << expected;
+}
+
 TEST(Text, FolderOfAPath) {
     EXPECT_EQ(folder_of("some/folder/tiny.toml"), "some/folder");
     EXPECT_EQ(folder_of("tiny.toml"), "");
@@ -53,11 +120,21 @@ TEST(ParallelFor, CallsEachIndexOnce) {
     }
 }
 
+TEST(ParallelFor, ThrowsWhereMemoryEnds) {
+    for (const int jobs : {1, 4})
+        EXPECT_THROW(parallel_for(jobs, 100,
+                                  [](std::size_t i) {
+                                      if (i == 30) throw std::bad_alloc();
+                                  }),
+                     std::bad_alloc);
+}
+
 TEST(Text, NearestNeedsFewEdits) {
     const std::vector<std::string> names = {"linear", "exponential", "exponential_squared"};
     EXPECT_EQ(nearest("linaer", names), "linear");
     EXPECT_EQ(nearest("exponental", names), "exponential");
     EXPECT_EQ(nearest("purple", names), std::nullopt);
+    EXPECT_EQ(nearest(std::string(3'000'000, 'a'), {std::string(2'999'999, 'a')}), std::nullopt) << "at once";
 }
 
 TEST(DiskFileSystem, AFullDiskIsAnError) {
@@ -67,6 +144,57 @@ TEST(DiskFileSystem, AFullDiskIsAnError) {
     EXPECT_EQ(to_text(written.error().front()),
               "/dev/full: error: cannot be written: No space left on device\n");
     EXPECT_EQ(exit_status(written.error()), 3);
+}
+
+class Together : public testing::Test {
+  protected:
+    void SetUp() override { std::filesystem::create_directories(root); }
+    void TearDown() override { std::filesystem::remove_all(root); }
+    /// What lies in the folder, with its text.
+    [[nodiscard]] std::string listing() const {
+        std::string text;
+        for (const std::string& file : DiskFileSystem().files_below(root))
+            text += file + "=" + DiskFileSystem().read(root + "/" + file).value() + " ";
+        return text;
+    }
+
+    std::string root =
+        testing::TempDir() + "together_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(Together, AllOrNone) {
+    EXPECT_TRUE(write_together({{root + "/a/one", "1"}, {root + "/two", "2"}}).value());
+    EXPECT_EQ(listing(), "a/one=1 two=2 ");
+    EXPECT_FALSE(write_together({{root + "/a/one", "1"}, {root + "/two", "2"}}).value()) << "nothing to do";
+    EXPECT_TRUE(write_together({{root + "/a/one", "3"}, {root + "/two", "2"}}).value());
+    EXPECT_EQ(listing(), "a/one=3 two=2 ");
+    std::filesystem::create_directory(root + "/folder");
+    const auto refused =
+        write_together({{root + "/a/one", "4"}, {root + "/folder", "5"}, {root + "/two", "6"}});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(to_text(refused.error().front()), root + "/folder: error: cannot be written: Is a directory\n");
+    EXPECT_EQ(listing(), "a/one=3 two=2 ");
+}
+
+TEST_F(Together, WhatADeadWriterLeftGoes) {
+    DiskFileSystem disk;
+    for (const char* text : {"1", "1", "2"}) {
+        for (const char* file : {"/one.gobo-new", "/two.gobo-new"})
+            std::fclose(std::fopen((root + file).c_str(), "w"));
+        ASSERT_TRUE(write_together({{root + "/one", text}, {root + "/two", "2"}}));
+        EXPECT_EQ(listing(), std::string("one=") + text + " two=2 ");
+    }
+}
+
+TEST_F(Together, ALinkIsReplacedNotFollowed) {
+    ASSERT_TRUE(DiskFileSystem().write(root + "/victim", "mine"));
+    std::filesystem::create_symlink("victim", root + "/one");
+    EXPECT_TRUE(write_together({{root + "/one", "1"}}).value());
+    EXPECT_EQ(listing(), "one=1 victim=mine ");
+    std::filesystem::create_symlink("victim", root + "/two.gobo-new");
+    EXPECT_EQ(to_text(write_together({{root + "/two", "2"}}).error().front()),
+              root + "/two.gobo-new: error: cannot be written: Too many levels of symbolic links\n");
+    EXPECT_EQ(DiskFileSystem().read(root + "/victim").value(), "mine");
 }
 
 TEST(TextTemplate, APlaceholderWithoutValueIsAFaultOfOurOwn) {

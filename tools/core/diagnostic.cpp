@@ -17,22 +17,55 @@ constexpr std::array kColors = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
 /// The exit statuses, by Fault.
 constexpr std::array kStatuses = {1, 2, 3, 3, 4};
 
+/// Bytes of each part of a message: what it quotes may be a whole file.
+constexpr std::size_t kLongestMessage = 1500;
+constexpr std::size_t kLongestHelp = 3000;
+constexpr std::size_t kLongestName = 400;
+constexpr std::size_t kLongestLine = 240;
+
+/// Where a character of UTF-8 begins, at `at` or before.
+std::size_t whole_characters(std::string_view text, std::size_t at) {
+    while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) --at;
+    return at;
+}
+
+/// The beginning and the end of a text that is too long.
+std::string shortened(std::string_view text, std::size_t most) {
+    if (text.size() <= most) return std::string(text);
+    const std::size_t begin = whole_characters(text, most * 3 / 4);
+    const std::size_t end = whole_characters(text, text.size() - most / 4);
+    return fmt::format("{} [... {} bytes ...] {}", text.substr(0, begin), end - begin, text.substr(end));
+}
+
 std::string place_text(const Place& place) {
     if (place.file.empty()) return "gobo";
-    const std::string file = one_line(place.file);
+    const std::string file = one_line(shortened(place.file, kLongestName));
     if (place.line <= 0) return file;
     const std::string text = fmt::format("{}:{}", file, place.line);
     return place.column > 0 ? fmt::format("{}:{}", text, place.column) : text;
 }
 
-/// The quoted line and, where the column is known, a caret below it; tabs are kept so that the caret stands
-/// right.
+/// The quoted line, of a long one the part around the column, and where the column is known a caret below it;
+/// tabs are kept so that the caret stands right.
 std::string quotation(const Diagnostic& diagnostic) {
-    std::string text = fmt::format("    {}\n", one_line(diagnostic.quoted_line));
-    const auto column = static_cast<std::size_t>(std::max(diagnostic.place.column, 0));
-    if (column == 0 || column > diagnostic.quoted_line.size() + 1) return text;
-    text += "    ";
-    for (std::size_t i = 0; i + 1 < column; ++i) text += diagnostic.quoted_line[i] == '\t' ? '\t' : ' ';
+    std::string_view line = diagnostic.quoted_line;
+    auto column = static_cast<std::size_t>(std::max(diagnostic.place.column, 0));
+    if (column > line.size() + 1) column = 0;
+    const char* before = "";
+    const char* behind = "";
+    if (line.size() > kLongestLine) {
+        const std::size_t start =
+            whole_characters(line, column > kLongestLine / 2 ? column - kLongestLine / 2 : 0);
+        const std::size_t end = whole_characters(line, std::min(start + kLongestLine, line.size()));
+        if (start > 0) before = "...";
+        if (end < line.size()) behind = "...";
+        if (column > 0) column -= start;
+        line = line.substr(start, end - start);
+    }
+    std::string text = fmt::format("    {}{}{}\n", before, one_line(line), behind);
+    if (column == 0) return text;
+    text += fmt::format("    {:{}}", "", std::string_view(before).size());
+    for (std::size_t i = 0; i + 1 < column; ++i) text += line[i] == '\t' ? '\t' : ' ';
     return text + "^\n";
 }
 
@@ -56,13 +89,15 @@ tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_lin
 
 std::string to_text(const Diagnostic& diagnostic, bool color) {
     const auto severity = static_cast<std::size_t>(diagnostic.severity);
-    std::string text =
-        fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place), color ? kColors[severity] : "",
-                    kNames[severity], color ? "\033[0m" : "", printable(diagnostic.message));
-    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", one_line(diagnostic.subject));
+    std::string text = fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place),
+                                   color ? kColors[severity] : "", kNames[severity], color ? "\033[0m" : "",
+                                   printable(shortened(diagnostic.message, kLongestMessage)));
+    if (!diagnostic.subject.empty())
+        text += fmt::format(" [{}]", one_line(shortened(diagnostic.subject, kLongestName)));
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
-    if (!diagnostic.help.empty()) text += fmt::format("  help: {}\n", printable(diagnostic.help));
+    if (!diagnostic.help.empty())
+        text += fmt::format("  help: {}\n", printable(shortened(diagnostic.help, kLongestHelp)));
     return text;
 }
 

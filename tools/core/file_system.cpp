@@ -8,9 +8,14 @@
 #include <filesystem>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/file_error.hpp"
+#include "core/write_together.hpp"
 
 namespace gobo {
 namespace {
@@ -19,6 +24,23 @@ namespace fs = std::filesystem;
 
 /// Bytes. What is longer is no shader, family or scene, but a device that never ends.
 constexpr std::size_t kLargestFile = std::size_t{1} << 30;
+constexpr std::size_t kLargestStream = std::size_t{1} << 28;  ///< of pipes and devices
+
+/// How long somebody is waited for who writes to a pipe, in milliseconds.
+constexpr int kPatience = 2000;
+
+/// Whether a pipe in a folder has a writer, or had one that left something; its first byte then goes into
+/// `content`. What waits for a writer without end would be a build that hangs.
+bool has_writer(int pipe, std::string& content) {
+    ::pollfd waited{pipe, POLLIN, 0};
+    ::poll(&waited, 1, kPatience);
+    char first = 0;
+    const ::ssize_t count = ::read(pipe, &first, 1);
+    if (count == 1) content += first;
+    return count == 1 || (count < 0 && errno == EAGAIN);
+}
+
+}  // namespace
 
 tl::unexpected<Diagnostics> file_error(const std::string& path, std::string_view action, int error) {
     return fail({.fault = Fault::file,
@@ -26,32 +48,13 @@ tl::unexpected<Diagnostics> file_error(const std::string& path, std::string_view
                  .message = fmt::format("cannot be {}: {}", action, std::strerror(error))});
 }
 
-/// Writes and closes: 0, or errno. Some file systems report a full disk only as the file is closed.
-int write_all(std::FILE* file, std::string_view content) {
+int write_and_close(std::FILE* file, std::string_view content) {
     if (file == nullptr) return errno;
     errno = 0;
     const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
     const int error = is_written ? 0 : errno;
     return std::fclose(file) == 0 || error != 0 ? error : errno;
 }
-
-/// Writes a new file beside `path` and renames it into place. 0, or errno; on an error nothing is left
-/// behind.
-int replace_file(const std::string& path, std::string_view content) {
-    std::string temporary = path + ".XXXXXX";
-    const int descriptor = ::mkstemp(temporary.data());
-    if (descriptor < 0) return errno;
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    int error = ::fchmod(descriptor, 0666 & ~mask) == 0 ? 0 : errno;
-    const int write_error = write_all(::fdopen(descriptor, "w"), content);
-    if (error == 0) error = write_error;
-    if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-    if (error != 0) ::unlink(temporary.c_str());
-    return error;
-}
-
-}  // namespace
 
 bool DiskFileSystem::is_file(const std::string& path) const {
     std::error_code error;
@@ -60,14 +63,26 @@ bool DiskFileSystem::is_file(const std::string& path) const {
 }
 
 Result<std::string> DiskFileSystem::read(const std::string& path) const {
-    std::FILE* const file = std::fopen(path.c_str(), "re");
-    if (file == nullptr) return file_error(path, "read", errno);
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (descriptor < 0) return file_error(path, "read", errno);
     std::string content;
+    struct stat status {};
+    // A pipe that a link of /dev leads to was opened by who started gobo, and has its writer.
+    if (::lstat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode) && !has_writer(descriptor, content)) {
+        ::close(descriptor);
+        return fail({.fault = Fault::file,
+                     .place = {path},
+                     .message = "cannot be read: it is a pipe that nobody writes to"});
+    }
+    const bool is_regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    const std::size_t largest = is_regular ? kLargestFile : kLargestStream;
+    ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+    std::FILE* const file = ::fdopen(descriptor, "r");
     std::array<char, 1 << 16> buffer;
     std::size_t count = 0;
-    while (content.size() <= kLargestFile && (count = std::fread(buffer.data(), 1, buffer.size(), file)) > 0)
+    while (content.size() <= largest && (count = std::fread(buffer.data(), 1, buffer.size(), file)) > 0)
         content.append(buffer.data(), count);
-    const int error = std::ferror(file) != 0 ? errno : content.size() > kLargestFile ? EFBIG : 0;
+    const int error = std::ferror(file) != 0 ? errno : content.size() > largest ? EFBIG : 0;
     std::fclose(file);
     if (error != 0) return file_error(path, "read", error);
     return content;
@@ -86,19 +101,7 @@ std::vector<std::string> DiskFileSystem::files_below(const std::string& folder) 
 }
 
 Result<bool> DiskFileSystem::write(const std::string& path, std::string_view content) {
-    std::error_code kind_error;
-    const bool is_regular = fs::is_regular_file(path, kind_error);
-    if (is_regular && read(path) == content) return false;
-    const fs::path folder = fs::path(path).parent_path();
-    std::error_code folder_error;
-    if (!folder.empty()) fs::create_directories(folder, folder_error);
-    if (folder_error) return file_error(folder.generic_string(), "made", folder_error.value());
-    // /dev/full, a pipe: no renaming onto it
-    const bool is_device = !is_regular && fs::exists(path, kind_error);
-    const int error =
-        is_device ? write_all(std::fopen(path.c_str(), "we"), content) : replace_file(path, content);
-    if (error != 0) return file_error(path, "written", error);
-    return true;
+    return write_together({{path, content}});
 }
 
 std::string DiskFileSystem::real_path(const std::string& path) const {
@@ -110,7 +113,7 @@ std::string DiskFileSystem::real_path(const std::string& path) const {
 Result<void> append_to_disk(const std::string& path, std::string_view content) {
     std::error_code ignored;  // opening tells
     fs::create_directories(fs::path(path).parent_path(), ignored);
-    const int error = write_all(std::fopen(path.c_str(), "ae"), content);
+    const int error = write_and_close(std::fopen(path.c_str(), "ae"), content);
     if (error != 0) return file_error(path, "written", error);
     return {};
 }

@@ -25,6 +25,36 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return distance.back().back();
 }
 
+/// How many bytes the first character takes; 0 where it is no UTF-8.
+std::size_t character_length(std::string_view text) {
+    const auto byte = static_cast<unsigned char>(text.front());
+    const std::size_t length = byte < 0x80   ? 1
+                               : byte < 0xC2 ? 0
+                               : byte < 0xE0 ? 2
+                               : byte < 0xF0 ? 3
+                               : byte < 0xF5 ? 4
+                                             : 0;
+    if (length > text.size()) return 0;
+    for (const char further : text.substr(1, std::max(length, std::size_t{1}) - 1))
+        if ((static_cast<unsigned char>(further) & 0xC0) != 0x80) return 0;
+    return length;
+}
+
+/// Whether a terminal obeys the character instead of showing it, tabs and line ends left aside: controls, and
+/// marks that turn the direction of what follows.
+bool is_control(std::string_view character) {
+    const auto byte = static_cast<unsigned char>(character.front());
+    if (character.size() == 1) return byte == 0x7F || (byte < ' ' && byte != '\t' && byte != '\n');
+    const auto last = static_cast<unsigned char>(character.back());
+    if (byte == 0xC2) return last < 0xA0;   // U+0080 to U+009F
+    if (character.starts_with("\xE2\x80"))  // U+200E, U+200F, U+2028 to U+202E
+        return last == 0x8E || last == 0x8F || (last >= 0xA8 && last <= 0xAE);
+    return character.starts_with("\xE2\x81") && last >= 0xA6 && last <= 0xA9;  // U+2066 to U+2069
+}
+
+/// Names longer than this are not looked for among others: each comparison takes time by both lengths.
+constexpr std::size_t kLongestName = 200;
+
 }  // namespace
 
 std::string_view trim(std::string_view text) {
@@ -50,10 +80,13 @@ std::string join(const std::vector<std::string>& parts, std::string_view separat
 }
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& candidates) {
+    if (name.size() > kLongestName) return std::nullopt;
     std::optional<std::string> best;
     std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
-        if (name.size() >= candidate.size() + best_distance) continue;
+        if (name.size() >= candidate.size() + best_distance ||
+            candidate.size() >= name.size() + best_distance)
+            continue;
         const std::size_t distance = edit_distance(name, candidate);
         if (distance >= best_distance) continue;
         best_distance = distance;
@@ -90,14 +123,13 @@ std::string folder_of(std::string_view path) {
 
 std::string printable(std::string_view text) {
     std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        // U+0080 to U+009F, in UTF-8, are control characters too.
-        const bool is_long =
-            byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-        const bool is_control = is_long || byte == 0x7F || (byte < ' ' && byte != '\t' && byte != '\n');
-        result += is_control ? '?' : text[i];
-        if (is_long) ++i;
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        if (length == 0 || is_control(text.substr(0, length)))
+            result += '?';
+        else
+            result += text.substr(0, length);
+        text.remove_prefix(std::max(length, std::size_t{1}));
     }
     return result;
 }

@@ -1,6 +1,5 @@
-// The manifest and the depfile.
+// The manifest.
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -101,21 +100,6 @@ std::string indented(const std::string& text) {
     return result;
 }
 
-/// As GCC writes names: a blank or '#' takes a backslash, and backslashes just before one are doubled. What
-/// cannot be written there, a line end, is '_': no file then has the name, and make builds anew.
-std::string escaped(std::string_view path) {
-    std::string result;
-    std::size_t backslashes = 0;
-    for (char character : path) {
-        if (character == '\n' || character == '\r') character = '_';
-        if (character == ' ' || character == '\t' || character == '#') result.append(backslashes + 1, '\\');
-        if (character == '$') result += '$';
-        backslashes = character == '\\' ? backslashes + 1 : 0;
-        result += character;
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string emit_manifest(const EmitInput& input) {
@@ -130,16 +114,6 @@ std::string emit_manifest(const EmitInput& input) {
             : fmt::format("  \"differing\": {},\n", array_text(differing_rows(input.differing))),
         array_text(piece_rows(input.composition)), array_text(stage_rows(input.composition)),
         array_text(permutation_rows(input)));
-}
-
-std::string emit_depfile(const std::vector<std::string>& outputs, const std::vector<std::string>& files) {
-    std::vector<std::string> targets;
-    std::ranges::transform(outputs, std::back_inserter(targets), escaped);
-    std::string text = fmt::format("{}:", fmt::join(targets, " "));
-    std::set<std::string_view> named;
-    for (const std::string& file : files)
-        if (named.insert(file).second) text += " \\\n  " + escaped(file);
-    return text + '\n';
 }
 
 }  // namespace gobo

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/write_together.hpp"
+#include "emit/depfile_names.hpp"
 #include "emit/emit.hpp"
 #include "gobo/commands.hpp"
 #include "reflect/interface.hpp"
@@ -77,12 +79,12 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
     if (!world.options.library.empty())
         for (const auto& [name, part] : templates) files.insert(part.name);
     const std::string target = options.depfile_target.empty() ? stem + ".hpp" : options.depfile_target;
-    GOBO_TRY(const bool is_new_header, world.disk.write(stem + ".hpp", header));
-    GOBO_TRY(const bool is_new_manifest, world.disk.write(stem + ".json", emit_manifest(input)));
-    // Last: a build tool that is interrupted before then runs the command again.
-    GOBO_TRY(const bool is_new_depfile,
-             world.disk.write(stem + ".d", emit_depfile({target}, {files.begin(), files.end()})));
-    const bool is_changed = is_new_header || is_new_manifest || is_new_depfile;
+    append(validated.diagnostics, check_depfile_names(target, files));
+    const std::string manifest = emit_manifest(input);
+    const std::string depfile = emit_depfile({target}, {files.begin(), files.end()});
+    // The header is what others are compiled with: where it is new, the rest is.
+    GOBO_TRY(const bool is_changed,
+             write_together({{stem + ".d", depfile}, {stem + ".json", manifest}, {stem + ".hpp", header}}));
     return Outcome{
         {},
         std::move(validated.diagnostics),

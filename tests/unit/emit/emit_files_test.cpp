@@ -1,7 +1,12 @@
 // The manifest and the depfile.
+#include <cstdlib>
+#include <filesystem>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/file_system.hpp"
+#include "emit/depfile_names.hpp"
 #include "emit/emit.hpp"
 #include "sample_family.hpp"
 
@@ -47,6 +52,82 @@ TEST(Depfile, NamesEachFileOnce) {
 TEST(Depfile, EscapesWhatMakeWouldRead) {
     EXPECT_EQ(emit_depfile({"a b.hpp"}, {"c#d", "$HOME/e", "back\\slash", "odd\\ name"}),
               "a\\ b.hpp: \\\n  c\\#d \\\n  $$HOME/e \\\n  back\\slash \\\n  odd\\\\\\ name\n");
+    EXPECT_EQ(emit_depfile({"a.hpp"}, {"d:e", "left;out", "line\nend"}), "a.hpp: \\\n  d\\:e\n");
+}
+
+TEST(Depfile, WarnsOfNamesThatItCannotHold) {
+    const auto texts = [](const std::string& output, const std::set<std::string>& files) {
+        std::string text;
+        for (const Diagnostic& warning : check_depfile_names(output, files)) text += to_text(warning);
+        return text;
+    };
+    const std::string help =
+        "  help: rename the file or its folder: letters, digits, blanks and . _ - + , @ are safe\n";
+    EXPECT_EQ(texts("out/a b#c.hpp", {"a b", "c:d", "e#f", "$g", "h\\i"}), "");
+    EXPECT_EQ(texts("out/lit.hpp", {"Kim's/a.glsl", "Kim's/b.glsl", "x;y"}),
+              "x;y: warning: a depfile cannot hold this name: build tools will not see the file change\n" +
+                  help +
+                  "Kim's/a.glsl: warning: a depfile cannot hold this name (and of 1 more): make reads it, "
+                  "but ninja "
+                  "builds every time\n" +
+                  help);
+    EXPECT_EQ(
+        texts("out\n/lit.hpp", {}),
+        "out /lit.hpp: warning: a depfile cannot hold this name: build tools will not know what it is for\n" +
+            help);
+}
+
+/// How often a tool runs a rule whose depfile names the file: made, asked again, and asked again once the
+/// file is newer.
+std::string runs_of(const std::string& tool, const std::string& name) {
+    DiskFileSystem disk;
+    const std::string folder = testing::TempDir() + "depfile_of_" + tool;
+    std::filesystem::remove_all(folder);
+    const auto put = [&](const std::string& file, const std::string& text) {
+        EXPECT_TRUE(disk.write(folder + "/" + file, text));
+    };
+    put("first", "");
+    put(name, "");
+    put("out.d.in", emit_depfile({"out"}, {"first", name}));
+    if (tool == "make") put("out.d", emit_depfile({"out"}, {"first", name}));
+    put("Makefile", "out:\n\techo ran >>log; touch out\n-include out.d\n");
+    put("build.ninja",
+        "rule r\n  command = cp out.d.in out.d; echo ran >>log; touch out\n  depfile = out.d\nbuild out: "
+        "r\n");
+    std::string runs;
+    for (int i = 0; i < 3; ++i) {
+        if (i == 2)
+            std::filesystem::last_write_time(
+                folder + "/" + name, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+        const std::string command = "cd '" + folder + "' && " + tool + " out >/dev/null 2>&1";
+        EXPECT_EQ(std::system(command.c_str()), 0) << tool << " " << name;
+        const std::string log = disk.read(folder + "/log").value_or("");
+        runs += std::to_string(std::count(log.begin(), log.end(), '\n'));
+    }
+    return runs;
+}
+
+TEST(Depfile, IsReadByMakeAndNinja) {
+    const char* names[] = {"plain.glsl", "a b", " a",  "a#b",   "#a",        "a$b", "$a",
+                           "$$",         "a:b", ":a",  "a: b",  "a\\b",      "\\a", "a\\ b",
+                           "a\\\\ b",    "a=b", "a%b", "a[1]b", "~a",        "a(b", "a!b",
+                           "a@b",        "a,b", "a{b", "-a",    "\xC3\xA4 b"};
+    for (const std::string name : names) {
+        EXPECT_TRUE(check_depfile_names("out", {name}).empty()) << name;
+        for (const std::string tool : {"make", "ninja"})
+            EXPECT_EQ(runs_of(tool, name), "112") << tool << " " << name;
+    }
+    for (const std::string name :
+         {"a'b", "a\"b", "a&b", "a`b", "a?b", "a*b", "a<b", "a\tb", "a\\#b", "a\\:b"}) {
+        EXPECT_EQ(check_depfile_names("out", {name}).size(), 1U) << name;
+        EXPECT_EQ(runs_of("make", name), "112") << name;
+        EXPECT_EQ(runs_of("ninja", name), "123") << name;
+    }
+    for (const std::string name : {"a;b", "a|b", "a\nb", "a\rb", "a\\", "a ", "a(b)"}) {
+        EXPECT_EQ(check_depfile_names("out", {name}).size(), 1U) << name;
+        for (const std::string tool : {"make", "ninja"})
+            EXPECT_EQ(runs_of(tool, name), "111") << tool << " " << name;
+    }
 }
 
 }  // namespace
