@@ -14,6 +14,9 @@ namespace {
 constexpr std::string_view kMarker = "#piece ";
 constexpr std::string_view kExtension = ".glsl";
 
+/// Bytes; no system opens a longer path.
+constexpr std::size_t kLongestPath = 4096;
+
 /// The name behind `#piece`, where the line is such a marker.
 std::optional<std::string_view> marked(std::string_view line) {
     if (!line.starts_with(kMarker)) return std::nullopt;
@@ -99,6 +102,7 @@ void SearchPath::add_file(const FileSystem& files, const std::string& path) {
 
 Result<std::optional<Piece>> SearchPath::find(const std::string& include_path,
                                               const std::string& first_folder) const {
+    if (include_path.size() > kLongestPath) return std::nullopt;
     for (const bool is_first : {true, false}) {
         for (const Root& root : roots_) {
             const bool goes_first =
@@ -134,7 +138,8 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     if (root.on_disk && root.only.empty() &&
         !root.files->real_path(path).starts_with(real_root == "/" ? real_root : real_root + "/")) {
         return fail({path, 0, 0}, "", fmt::format("is a link that leads out of '{}'", root.folder),
-                    "put the piece itself into the folder, or name its folder with -I");
+                    "put the piece itself into the folder, name its folder with -I, or follow such links "
+                    "with --follow");
     }
     GOBO_TRY(const std::string bytes, root.files->read(path));
     const std::string text = unix_lines(bytes);

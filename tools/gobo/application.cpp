@@ -2,18 +2,59 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <new>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/shipped_files.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
+
+/// A pipe without a reader and a file that grows beyond `ulimit -f` become errors of writing, not signals
+/// that end the process. In the place of a stream that is closed stands one that cannot be used: else the
+/// first file that is opened would be taken for it.
+void prepare_process() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0)
+            static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+/// The machine's files, where --follow says so without a look at where links lead.
+class UserFiles final : public FileSystem {
+  public:
+    explicit UserFiles(const CommonOptions& options) : options_(options) {}
+    [[nodiscard]] bool is_file(const std::string& path) const override { return disk_.is_file(path); }
+    [[nodiscard]] Result<std::string> read(const std::string& path) const override {
+        return disk_.read(path);
+    }
+    [[nodiscard]] std::vector<std::string> files_below(const std::string& folder) const override {
+        return disk_.files_below(folder);
+    }
+    Result<bool> write(const std::string& path, std::string_view content) override {
+        return disk_.write(path, content);
+    }
+    [[nodiscard]] std::string real_path(const std::string& path) const override {
+        if (!options_.follow) return disk_.real_path(path);
+        std::error_code error;
+        const auto absolute = (std::filesystem::absolute(path, error) / "").lexically_normal().parent_path();
+        return error ? path : absolute.generic_string();
+    }
+
+  private:
+    const CommonOptions& options_;
+    DiskFileSystem disk_;
+};
 
 /// Asked before the options are read, so that what is wrong with them has colours too.
 bool wants_color(const std::vector<std::string>& arguments) {
@@ -71,7 +112,7 @@ int run(Application application, const std::vector<std::string>& arguments) {
     CommonOptions options;
     for (Command& command : application.commands)
         if (command.run) command.groups.push_back(common_options(options));
-    DiskFileSystem disk;
+    UserFiles disk(options);
     MemoryFileSystem shipped(shipped_files());
     auto outcome = answer(application, {disk, shipped, options, application.measure}, arguments);
     if (!outcome) {
@@ -89,17 +130,22 @@ int run(Application application, const std::vector<std::string>& arguments) {
     if (const auto written = write_output(outcome->output); !written)
         append(outcome->diagnostics, written.error());
     const int status = report(outcome->diagnostics, color);
-    if (!outcome->summary.empty() && !options.quiet) fmt::print(stderr, "{}\n", outcome->summary);
+    if (!outcome->summary.empty() && !options.quiet)
+        std::fputs((printable(outcome->summary) + "\n").c_str(), stderr);
     return status;
 }
 
 }  // namespace
 
 int run_application(const Application& application, int count, char** arguments) {
+    prepare_process();
     try {
         return run(application, {arguments + 1, arguments + count});
+    } catch (const std::bad_alloc&) {
+        std::fputs("gobo: error: the system gives no more memory\n", stderr);
+        return 3;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "gobo: error: internal fault: {}\n", error.what());
+        std::fputs(("gobo: error: internal fault: " + printable(error.what()) + "\n").c_str(), stderr);
         return 4;
     }
 }

@@ -1,7 +1,9 @@
 // Reads the command line: the only file that knows CLI11, which takes seconds to compile.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -19,14 +21,41 @@ std::string range_text(const OptionRule& rule) {
     return std::isfinite(rule.least) ? fmt::format("at least {}", rule.least) : "";
 }
 
-CLI::Validator range_check(const OptionRule& rule) {
-    const auto check = [rule](const std::string& text) {
-        double value = 0;
-        const bool is_in =
-            CLI::detail::lexical_cast(text, value) && value >= rule.least && value <= rule.most;
-        return is_in ? "" : fmt::format("Value {} not in range {}", text, range_text(rule));
-    };
-    return {check, ""};
+/// What is wrong with the text of a number; empty where it is one of the type and within its range.
+template <class Number>
+std::string number_fault(const OptionRule& rule, const std::string& text) {
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    const auto number = static_cast<double>(value);
+    if (error == std::errc() && at == end && std::isfinite(number) && number >= rule.least &&
+        number <= rule.most)
+        return {};
+    const std::string range = range_text(rule);
+    const char* const before = range.empty() || range == "above 0" ? " "
+                               : std::isfinite(rule.most)          ? " from "
+                                                                   : " of ";
+    return fmt::format("'{}' is not a {}number{}{}", text, std::is_integral_v<Number> ? "whole " : "",
+                       range.empty() ? "" : before, range);
+}
+
+/// Whether the value is the name of a file or folder.
+bool names_path(const Option& option) {
+    const std::string& value = option.value;
+    return value == "DIR" || value == "FOLDER" || value.starts_with("FILE") || value.starts_with("MAP");
+}
+
+/// What is wrong with the text of a value; empty where it can be the option's.
+std::string value_fault(const Option& option, const std::string& text) {
+    return std::visit(
+        [&](const auto* target) -> std::string {
+            using Value = std::decay_t<decltype(*target)>;
+            if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>)
+                return number_fault<Value>(option.rule, text);
+            else
+                return text.empty() && names_path(option) ? "the name is empty" : "";
+        },
+        option.target);
 }
 
 std::string default_text(const Option& option) {
@@ -60,7 +89,9 @@ void add_option(CLI::App& app, const Option& option, const std::string& heading)
         added->type_name(option.value);
         if (!option.is_argument()) added->allow_extra_args(false);
     }
-    if (!range_text(rule).empty()) added->check(range_check(rule));
+    if (!option.is_flag())
+        added->check(
+            CLI::Validator([option](const std::string& text) { return value_fault(option, text); }, ""));
     if (rule.one_of) added->check(CLI::IsMember(split(option.value, '|')));
     if (!rule.needs.empty()) added->needs(app.get_option(rule.needs));
     if (!rule.excludes.empty()) added->excludes(app.get_option(rule.excludes));

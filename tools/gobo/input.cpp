@@ -92,6 +92,7 @@ OptionGroup common_options(CommonOptions& options) {
         {{"-I", "FOLDER", "A folder searched for pieces before the family's own", &options.include_folders},
          {"-j,--jobs", "N", "Threads; by default as many as the computer has", &options.jobs,
           between(1, 1024)},
+         {"--follow", "", "Take pieces that links lead to out of the folders searched", &options.follow},
          {"--library", "FOLDER", "A folder that holds shader_lib and templates, instead of those built in",
           &options.library},
          {"--color", "auto|always|never", "Colour in messages; auto is on a terminal only", &options.color,
@@ -133,6 +134,7 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
     const std::string folder = folder_of(source.path);
     std::string base_folder = folder;
     const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
+        if (base_name == "-") return fail(Fault::usage, "'-' is no family's name");
         const bool is_file = base_name.ends_with(".toml");
         const bool is_beside = is_file && !base_name.starts_with('/') && !folder.empty();
         GOBO_TRY(FamilyText base, find_family(world, is_beside ? folder + "/" + base_name : base_name));

@@ -21,6 +21,7 @@ struct CommonOptions {
     std::string library;  ///< a folder to read shader_lib and templates from instead of the embedded ones
     std::string color = "auto";
     bool quiet = false;
+    bool follow = false;  ///< links out of the folders that are searched for pieces
 };
 [[nodiscard]] OptionGroup common_options(CommonOptions& options);
 

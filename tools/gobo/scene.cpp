@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/commands.hpp"
 #include "scene/read_scene.hpp"
@@ -38,14 +39,17 @@ struct SceneReport {
     std::size_t compiled_stages = 0;
 };
 
+/// Names come from the file: on a terminal they must do nothing.
 std::string draw_text(const SceneReport& report, std::size_t index) {
     const scene::Draw& draw = report.draws[index];
-    if (!report.keys[index]) return fmt::format("{}: out, {}\n", draw.name, draw.excluded);
+    if (!report.keys[index]) return one_line(fmt::format("{}: out, {}", draw.name, draw.excluded)) + "\n";
     const scene::DrawKey& key = *report.keys[index];
-    std::string text = fmt::format("{}: {}\n", draw.name, key_text(report.family, key.key));
+    std::string text = one_line(fmt::format("{}: {}", draw.name, key_text(report.family, key.key))) + "\n";
     for (const scene::Effect& effect : draw.effects)
-        text += fmt::format("  {}: {}, {}\n", effect.name, effect.is_in ? "in" : "out", effect.reason);
-    for (const std::string& missing : key.missing) text += fmt::format("  ! {}\n", missing);
+        text +=
+            one_line(fmt::format("  {}: {}, {}", effect.name, effect.is_in ? "in" : "out", effect.reason)) +
+            "\n";
+    for (const std::string& missing : key.missing) text += one_line("  ! " + missing) + "\n";
     return text;
 }
 

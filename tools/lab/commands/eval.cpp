@@ -1,6 +1,7 @@
 // gobo eval: one invocation of a stage, in fp32 and fp64.
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
@@ -51,7 +52,7 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
                 {{"output", answer.output}, {"exact", answer.value}, {"fp32_bound", answer.float_error}});
         return Outcome{json.dump(2) + "\n", notes};
     }
-    const auto quote = [&](const Place& place) { return quoted_line(subject.composition, place); };
+    const auto quote = [&](const Place& place) { return one_line(quoted_line(subject.composition, place)); };
     return Outcome{evaluate::to_text(report, quote) + verify::to_text(answers), notes};
 }
 

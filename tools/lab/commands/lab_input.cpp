@@ -42,14 +42,16 @@ Result<Mesh> load_mesh(const World& world, const std::string& name) {
                 suggestion(name, {"plane", "sphere", "teapot", "torus"}) + "; or name an .obj file");
 }
 
-Result<std::pair<int, int>> read_pair(const std::string& text, char separator, const std::string& what,
-                                      const std::string& help) {
+Result<std::pair<int, int>> read_pair(const std::string& text, char separator, int most,
+                                      const std::string& what, const std::string& help) {
     std::pair<int, int> pair;
     const char* const end = text.data() + text.size();
     const auto first = std::from_chars(text.data(), end, pair.first);
     if (first.ec == std::errc() && first.ptr != end && *first.ptr == separator) {
         const auto second = std::from_chars(first.ptr + 1, end, pair.second);
-        if (second.ec == std::errc() && second.ptr == end && pair.first > 0 && pair.second > 0) return pair;
+        if (second.ec == std::errc() && second.ptr == end && std::min(pair.first, pair.second) > 0 &&
+            std::max(pair.first, pair.second) <= most)
+            return pair;
     }
     return fail(Fault::usage, fmt::format("'{}' is not a valid {}", text, what), help);
 }
@@ -112,8 +114,8 @@ study::Progress progress_on_terminal(const World& world) {
     if (world.options.quiet || isatty(STDERR_FILENO) == 0)
         return [](std::string_view, std::size_t, std::size_t) {};
     return [](std::string_view what, std::size_t done, std::size_t total) {
-        fmt::print(stderr, "\r\x1b[K");
-        if (done < total) fmt::print(stderr, "{}/{} {}", done + 1, total, what);
+        const std::string text = done < total ? fmt::format("{}/{} {}", done + 1, total, one_line(what)) : "";
+        std::fputs(("\r\x1b[K" + text).c_str(), stderr);
         std::fflush(stderr);
     };
 }
@@ -142,6 +144,16 @@ Diagnostic note_in(const std::string& file, std::string message) {
     note.place.file = file;
     note.message = std::move(message);
     return note;
+}
+
+Diagnostics as_warnings(Diagnostics errors) {
+    for (Diagnostic& error : errors) error.severity = Severity::warning;
+    return errors;
+}
+
+Diagnostics keep_file(const World& world, const std::string& path, std::string_view content) {
+    const auto written = world.disk.write(path, content);
+    return written ? Diagnostics{} : as_warnings(written.error());
 }
 
 std::string quoted_line(const Composition& composition, const Place& place) {

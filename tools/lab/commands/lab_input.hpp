@@ -16,11 +16,14 @@ namespace gobo {
 /// A mesh of that name, or of an .obj file.
 [[nodiscard]] Result<Mesh> load_mesh(const World& world, const std::string& name);
 
-/// Two whole numbers from 1 on, as "640x480" or "2/4"; `what` they are, for the error, and an example.
-[[nodiscard]] Result<std::pair<int, int>> read_pair(const std::string& text, char separator,
+/// Two whole numbers from 1 to `most`, as "640x480" or "2/4"; `what` they are, for the error, and an example.
+[[nodiscard]] Result<std::pair<int, int>> read_pair(const std::string& text, char separator, int most,
                                                     const std::string& what, const std::string& help);
+/// Pixels along a side: what OpenGL's renderers in software draw.
+inline constexpr int kLargestSide = 16384;
 inline Result<std::pair<int, int>> read_size(const std::string& text) {
-    return read_pair(text, 'x', "size", "write width x height, such as 640x480");
+    return read_pair(text, 'x', kLargestSide, "size",
+                     "write width x height, such as 640x480, each at most 16384");
 }
 
 /// Cube maps by the name of their sampler.
@@ -57,6 +60,10 @@ using CubeImages = std::map<std::string, Image>;
 
 /// A note about a file, or where the name is empty about none.
 [[nodiscard]] Diagnostic note_in(const std::string& file, std::string message);
+/// Keeps what shows a failure. Where it cannot be written that is a warning: the failure decides the status.
+[[nodiscard]] Diagnostics keep_file(const World& world, const std::string& path, std::string_view content);
+/// The errors as warnings.
+[[nodiscard]] Diagnostics as_warnings(Diagnostics errors);
 /// The line of the piece that a place names; empty where there is none.
 [[nodiscard]] std::string quoted_line(const Composition& composition, const Place& place);
 

@@ -53,6 +53,11 @@ Result<PictureOptions> picture_options(const RenderOptions& options) {
     GOBO_TRY(pictures.format, image_format_of(options.format));
     pictures.view.camera = gallery::gallery_camera();
     pictures.smooth = options.smooth;
+    if (std::max(size.first, size.second) * options.smooth > kLargestSide)
+        return fail(Fault::usage,
+                    fmt::format("--smooth {} of {} x {} pixels draws more than {} pixels a side",
+                                options.smooth, size.first, size.second, kLargestSide),
+                    "draw fewer pixels, or smooth them less");
     pictures.view.width = size.first * options.smooth;
     pictures.view.height = size.second * options.smooth;
     pictures.view.background = {0.05F, 0.06F, 0.08F, 1};

@@ -51,10 +51,12 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
         fmt::format("{}/{}.{}.{}.toml", options.folder, number, name, finding.place.line);
     const std::string follow = fmt::format("gobo eval {} --inputs {} --trace", what, path);
     error.help = "guard the operation; follow the input with: " + follow;
-    if (const auto written = world.disk.write(path, sanitize::eval_input(finding, follow)); !written)
-        append(diagnostics, written.error());
+    append(diagnostics, keep_file(world, path, sanitize::eval_input(finding, follow)));
     return diagnostics;
 }
+
+/// Years of work, yet what is counted from it fits into 64 bits.
+constexpr double kMostPoints = 1e12;
 
 /// "ieee|flushed|...|all".
 std::string machine_words() {
@@ -118,13 +120,15 @@ Command sanitize_command() {
         {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
           &options->names, kRequired},
          keep_option(options->folder, "inputs that show what is found, for gobo eval,"),
-         {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points},
-         {"--total", "N", "Instead, at least so many over all stages", &wanted.total},
-         {"--seed", "N", "Another seed tries other inputs", &wanted.seed},
+         {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points,
+          between(1, kMostPoints)},
+         {"--total", "N", "Instead, at least so many over all stages", &wanted.total,
+          between(1, kMostPoints)},
+         {"--seed", "N", "Another seed tries other inputs", &wanted.seed, between(0, 1e15)},
          {"--guided", "N",
           "Then so many inputs derived from those that reached a new branch or came nearest to a trap",
-          &wanted.guided},
-         {"--minutes", "N", "Go on with such inputs for so long", &wanted.minutes, kNotNegative},
+          &wanted.guided, between(0, kMostPoints)},
+         {"--minutes", "N", "Go on with such inputs for so long", &wanted.minutes, between(0, 60 * 24 * 365)},
          {"--machine", machine_words(),
           "What arithmetic to evaluate with, of those that GLSL allows: ieee; flushed (denormals are 0); "
           "nan_kept, "

@@ -2,6 +2,7 @@
 // the renderer draws with the evaluation, pixel by pixel.
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ struct TestOptions : SelectionOptions {
 Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
     if (text.empty()) return keys;
     const std::string help = "write its number and how many there are, such as 2/4";
-    GOBO_TRY(const auto shard, read_pair(text, '/', "shard", help));
+    GOBO_TRY(const auto shard, read_pair(text, '/', std::numeric_limits<int>::max(), "shard", help));
     const auto [number, count] = shard;
     if (number > count) return fail(Fault::usage, fmt::format("'{}' is not a valid shard", text), help);
     std::vector<Key> part;
@@ -54,8 +55,7 @@ Diagnostics keep_point(const World& world, const TestOptions& options, const std
                        const std::string& input, const std::string& message) {
     if (options.folder.empty()) return {note_in("", message)};
     const std::string path = fmt::format("{}/{}", options.folder, file);
-    Diagnostics diagnostics;
-    if (const auto written = world.disk.write(path, input); !written) append(diagnostics, written.error());
+    Diagnostics diagnostics = keep_file(world, path, input);
     diagnostics.push_back(note_in(path, message));
     return diagnostics;
 }
@@ -194,7 +194,7 @@ Diagnostics report_picture(const World& world, const std::string& folder, const 
     Diagnostics diagnostics = {std::move(error)};
     const auto keep = [&](const char* end, const Image& image) {
         if (const auto written = write_image(world.disk, stem + end, image); !written)
-            append(diagnostics, written.error());
+            append(diagnostics, as_warnings(written.error()));
     };
     keep(".actual.exr", report.actual);
     keep(".expected.exr", report.expected);
