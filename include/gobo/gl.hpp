@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gobo/driver_log.hpp>
@@ -42,6 +44,7 @@ inline constexpr unsigned compile_status = 0x8B81;
 inline constexpr unsigned link_status = 0x8B82;
 inline constexpr unsigned info_log_length = 0x8B84;
 inline constexpr unsigned current_program = 0x8B8D;
+inline constexpr unsigned shader_storage_block = 0x92E6;
 inline constexpr unsigned invalid_index = 0xFFFFFFFF;
 }  // namespace constant
 
@@ -86,10 +89,26 @@ struct LoadedFunctions {
     void UniformBlockBinding(unsigned program, unsigned block, unsigned binding) const {
         glUniformBlockBinding(program, block, binding);
     }
+#ifdef GL_VERSION_4_3
+    [[nodiscard]] unsigned GetProgramResourceIndex(unsigned program, unsigned kind, const char* name) const {
+        return glGetProgramResourceIndex(program, kind, name);
+    }
+    void ShaderStorageBlockBinding(unsigned program, unsigned block, unsigned binding) const {
+        glShaderStorageBlockBinding(program, block, binding);
+    }
+#endif
 };
 #endif
 
 namespace detail {
+
+/// Whether storage blocks can be bound: by OpenGL 4.3. In ES their shaders have to state bindings.
+template <class Functions, class = void>
+struct BindsStorage : std::false_type {};
+template <class Functions>
+struct BindsStorage<
+    Functions, std::void_t<decltype(std::declval<const Functions&>().ShaderStorageBlockBinding(0U, 0U, 0U))>>
+    : std::true_type {};
 
 /// The log of a shader or program. `get_length(int*)`, `get_log(size, int*, char*)`.
 template <class GetLength, class GetLog>
@@ -141,6 +160,15 @@ void set_bindings(unsigned program, const Functions& gl, IsWanted is_wanted) {
         const unsigned index = gl.GetUniformBlockIndex(program, std::string(block.name).c_str());
         if (index == constant::invalid_index) continue;
         gl.UniformBlockBinding(program, index, static_cast<unsigned>(block.binding));
+    }
+    if constexpr (Tables::storage_blocks.size() > 0 && BindsStorage<Functions>::value) {
+        for (const runtime::BlockBinding& block : Tables::storage_blocks) {
+            if (!is_wanted(block.only)) continue;
+            const unsigned index = gl.GetProgramResourceIndex(program, constant::shader_storage_block,
+                                                              std::string(block.name).c_str());
+            if (index == constant::invalid_index) continue;
+            gl.ShaderStorageBlockBinding(program, index, static_cast<unsigned>(block.binding));
+        }
     }
     int previous = 0;
     gl.GetIntegerv(constant::current_program, &previous);

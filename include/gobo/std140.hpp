@@ -1,5 +1,6 @@
-// Members of uniform blocks as std140 lays them out: GLM types, and padded ones where GLM's have no padding.
-// Each is plain data that memcpy takes to a buffer, and converts from and to GLM's own type.
+// Members of uniform blocks as std140 lays them out, and of storage blocks as std430 does: GLM types, and
+// padded ones where GLM's have no padding. Each is plain data that memcpy takes to a buffer, and converts
+// from and to GLM's own type.
 #pragma once
 
 #include <cstddef>
@@ -176,6 +177,28 @@ struct RowMajorMatrix {
         }
         return result;
     }
+};
+
+/// The elements of the array without a size that ends a storage block: a view of the application's buffer.
+template <class Element>
+class Elements {
+  public:
+    using Buffer = std::conditional_t<std::is_const_v<Element>, const void, void>;
+    using Byte = std::conditional_t<std::is_const_v<Element>, const std::byte, std::byte>;
+
+    /// As many as a buffer of so many bytes has from `offset` on.
+    Elements(Buffer* buffer, std::size_t bytes, std::size_t offset)
+        : first_(reinterpret_cast<Element*>(static_cast<Byte*>(buffer) + offset)),
+          size_(bytes > offset ? (bytes - offset) / sizeof(Element) : 0) {}
+
+    [[nodiscard]] Element* begin() const { return first_; }
+    [[nodiscard]] Element* end() const { return first_ + size_; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    Element& operator[](std::size_t index) const { return first_[index]; }
+
+  private:
+    Element* first_;
+    std::size_t size_;
 };
 
 }  // namespace gobo::std140

@@ -17,7 +17,9 @@ constexpr std::string_view kHeaderNames =
     "Key Permutation SceneState Settings Stage State attribute attributes before bits block blocks canonical "
     "changed check combination count declared describe_missing detail find found glm gobo key key_text left "
     "output outputs "
-    "permutations position reason right sampler samplers select settings state std std140 uniform uniforms "
+    "permutations position reason right sampler samplers select settings state std std140 storage_blocks "
+    "uniform "
+    "uniforms "
     "wanted";
 
 Result<std::string> namespace_of(const EmitInput& input) {
@@ -47,7 +49,7 @@ std::string contents_name(const HeaderTemplates& templates, const TemplateValues
 
 Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
     HeaderTemplates templates;
-    for (const char* name : {"bytes", "check", "header", "struct", "taker"}) {
+    for (const char* name : {"bytes", "check", "elements", "header", "struct", "taker"}) {
         TextTemplate& part = templates[name];
         part.name = fmt::format("{}/{}.hpp.in", folder, name);
         GOBO_TRY(part.text, files.read(part.name));

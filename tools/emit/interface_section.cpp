@@ -41,6 +41,39 @@ void fill_places(std::vector<Item>& items, SizeOf size) {
     }
 }
 
+/// The indices of an element of an array of blocks: 2 of "Lights[2]".
+std::vector<int> indices_of(std::string_view name) {
+    std::vector<int> indices;
+    for (std::size_t open = name.find('['); open != std::string_view::npos; open = name.find('[', open + 1)) {
+        int& index = indices.emplace_back(0);
+        for (std::size_t at = open + 1; name[at] >= '0' && name[at] <= '9'; ++at)
+            index = index * 10 + (name[at] - '0');
+    }
+    return indices;
+}
+
+/// Gives blocks the bindings that they lack. The elements of an array take one after the other, in the order
+/// of their indices, which is not that of their names.
+void fill_bindings(std::vector<Block>& blocks) {
+    std::map<std::string, std::set<std::vector<int>>> elements;  // by the array's name
+    const auto array_of = [](const Block& block) { return block.name.substr(0, block.name.find('[')); };
+    for (const Block& block : blocks) elements[array_of(block)].insert(indices_of(block.name));
+    const auto rank_of = [&](const Block& block) {
+        const auto& all = elements[array_of(block)];
+        return static_cast<int>(std::distance(all.begin(), all.find(indices_of(block.name))));
+    };
+    std::vector<Block> arrays;  // and single blocks: one for each declaration
+    for (const Block& block : blocks) {
+        Block first = block;
+        first.name = array_of(block);
+        if (block.binding >= 0) first.binding -= rank_of(block);
+        arrays.push_back(std::move(first));
+    }
+    fill_places(arrays, [&](const Block& array) { return static_cast<int>(elements[array.name].size()); });
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        blocks[i].binding = arrays[i].binding + rank_of(blocks[i]);
+}
+
 /// A constant of the header, without its name.
 struct Constant {
     std::string type;
@@ -244,7 +277,8 @@ Interface with_places(Interface interface) {
     const auto is_built_in = [](const Variable& variable) { return variable.name.starts_with("gl_"); };
     std::erase_if(interface.inputs, is_built_in);
     std::erase_if(interface.outputs, is_built_in);
-    fill_places(interface.blocks, [](const Block&) { return 1; });
+    fill_bindings(interface.blocks);
+    fill_bindings(interface.storage_blocks);
     fill_places(interface.samplers, [](const Sampler& sampler) { return element_count(sampler.array); });
     fill_places(interface.inputs,
                 [](const Variable& input) { return location_count(input.type, input.array); });
@@ -278,6 +312,7 @@ void interface_section(const Interface& interface, const std::vector<Domain>& do
     add_rows("attribute", "input", interface.inputs);
     add_rows("output", "output", interface.outputs);
     add_rows("block", "uniform block", interface.blocks);
+    add_rows("storage_block", "storage block", interface.storage_blocks);
     add_rows("sampler", "sampler", interface.samplers);
     std::vector<std::string> uniforms;
     UniformConstants constants;

@@ -1,5 +1,6 @@
-// Uniform blocks as C++ structs, and the checks of their ranges.
+// Uniform and storage blocks as C++ structs, and the checks of their ranges.
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,8 +14,19 @@ namespace {
 /// std140 rounds structs and whole blocks up to the size of a vec4.
 constexpr int kStructAlignment = 16;
 
-int rounded_up(int size) {
-    return (size + kStructAlignment - 1) / kStructAlignment * kStructAlignment;
+int rounded_up(int size, int alignment = kStructAlignment) {
+    return (size + alignment - 1) / alignment * alignment;
+}
+
+/// What std430 aligns a struct to: the most that any number or column in it needs.
+int alignment_of(const std::vector<Member>& members) {
+    int most = 1;
+    for (const Member& member : members) {
+        std::optional<GlslType> column = glsl_type(member.type);
+        if (column && member.row_major) column->rows = column->columns;
+        most = std::max(most, column ? column->column_alignment() : alignment_of(member.members));
+    }
+    return most;
 }
 
 /// In the order of Scalar, as far as C++ has types for them.
@@ -115,6 +127,14 @@ const Domain* domain_of(const std::vector<Domain>& domains, const std::string& p
     return domain == domains.end() ? nullptr : &*domain;
 }
 
+/// A block, or an array of blocks with one layout.
+struct NamedBlock {
+    std::string name;  ///< without the array's indices
+    Block layout;      ///< that of the first, with members by offset
+    bool is_storage = false;
+    int count = 0;  ///< of the array; 0 where it is none
+};
+
 /// The array that ends the block, if one does: one buffer then serves every extent of it.
 const Member* last_array(const Block& block) {
     return block.members.empty() || block.members.back().array.empty() ? nullptr : &block.members.back();
@@ -132,28 +152,53 @@ class StructWriter {
     StructWriter(const std::vector<Domain>& domains, const HeaderTemplates& templates, CppScope& scope)
         : domains_(domains), templates_(templates), scope_(scope) {}
 
-    /// Adds the block's struct to text(), behind those of its members.
-    /// `number`: which of the block's layouts it is, from 1; `users` says who has it where others have
-    /// another.
-    Result<StructText> write_block(const Block& block, int number, const std::string& users) {
+    /// Adds the block's struct to text(), behind those of its members. `count` is that of the blocks with
+    /// this layout, where they are an array. `number`: which of the block's layouts it is, from 1; `users`
+    /// says who has it where others have another.
+    Result<StructText> write_block(const NamedBlock& block, int number, const std::string& users) {
         std::string identifier = cpp_identifier(block.name);
         if (number > 1) identifier += fmt::format("_{}", number);
         StructText structure{scope_.claim(identifier, "_block")};
         structure.scope = CppScope({structure.name, "binding", "size", "bytes"});
-        GOBO_TRY_DO(add_members(structure, block.members, block.name));
-        const int size = rounded_up(std::max(structure.end, block.size));
-        structure.close(size);
-        std::string constants = fmt::format(
-            "\n    static constexpr int binding = {};\n    static constexpr std::size_t size = {};\n",
-            block.binding, size);
-        if (const Member* last = last_array(block)) {
+        if (block.count > 0) structure.scope.claim("count");
+        std::vector<Member> members = block.layout.members;
+        std::optional<Member> tail;
+        if (!members.empty() && !members.back().array.empty() && members.back().array.front() == 0) {
+            tail = std::move(members.back());
+            members.pop_back();
+        }
+        GOBO_TRY_DO(add_members(structure, members, block.name, block.is_storage));
+        int size = block.is_storage ? rounded_up(structure.end, alignment_of(members))
+                                    : rounded_up(std::max(structure.end, block.layout.size));
+        if (tail) {
+            size = tail->offset;
+            structure.pad_to(size);
+        } else {
+            structure.close(size);
+        }
+        std::string constants =
+            fmt::format("\n    static constexpr int binding = {};\n", block.layout.binding);
+        if (block.count > 0)
+            constants += fmt::format(
+                "    static constexpr int count = {};  ///< blocks in the array, at bindings from that one "
+                "on\n",
+                block.count);
+        constants += fmt::format("    static constexpr std::size_t size = {};\n", size);
+        if (const Member* last = last_array(block.layout)) {
             GOBO_TRY(const std::string bytes,
                      fill(templates_.at("bytes"), {{"array", cpp_comment(last->name)},
                                                    {"offset", std::to_string(last->offset)},
-                                                   {"stride", std::to_string(last->array_stride)}}));
+                                                   {"stride", std::to_string(last->array_stride)},
+                                                   {"rounding", block.is_storage ? "" : " + 15) / 16 * 16"},
+                                                   {"open", block.is_storage ? "" : "("}}));
             constants += bytes;
         }
-        GOBO_TRY_DO(append(structure, fmt::format("The uniform block {}{}.", cpp_comment(block.name), users),
+        if (tail) {
+            GOBO_TRY(const std::string elements, elements_of(structure, *tail, block));
+            constants += elements;
+        }
+        const std::string_view kind = block.is_storage ? "storage" : "uniform";
+        GOBO_TRY_DO(append(structure, fmt::format("The {} block {}{}.", kind, cpp_comment(block.name), users),
                            constants));
         return structure;
     }
@@ -162,40 +207,52 @@ class StructWriter {
 
   private:
     /// The struct that a member's type is, written now unless it has been.
-    Result<StructText> struct_of(const Member& member, const std::string& path) {
-        for (const auto& [mirrored, structure] : written_)
-            if (mirrored.type == member.type && mirrored.members == member.members) return structure;
+    Result<StructText> struct_of(const Member& member, const std::string& path, bool is_storage) {
+        const int alignment = is_storage ? alignment_of(member.members) : kStructAlignment;
+        const auto size_of = [&](int end) {
+            const int stride = element_stride(member);
+            return stride >= end ? stride : rounded_up(end, alignment);
+        };
+        for (const auto& [mirrored, structure, end] : written_)
+            if (mirrored.type == member.type && mirrored.members == member.members &&
+                structure.end == size_of(end))
+                return structure;
         StructText structure{scope_.claim(cpp_identifier(member.type), "_struct")};
         structure.scope.claim(structure.name);
-        GOBO_TRY_DO(add_members(structure, member.members, path));
-        // Rounded up as std140 does; a tighter layout shows in the stride of an array.
-        int size = rounded_up(structure.end);
-        const int stride = element_stride(member);
-        if (stride >= structure.end && stride < size) size = stride;
-        structure.close(size);
+        GOBO_TRY_DO(add_members(structure, member.members, path, is_storage));
+        const int end = structure.end;
+        structure.close(size_of(end));
         GOBO_TRY_DO(append(structure, fmt::format("The shaders' struct {}.", cpp_comment(member.type)), {}));
-        return written_.emplace_back(member, std::move(structure)).second;
+        return written_.emplace_back(Written{member, std::move(structure), end}).structure;
+    }
+
+    /// The C++ type of a member. `parts` becomes what it holds, where it is a struct.
+    Result<CppMemberType> type_of(const Member& member, const std::string& path, bool is_storage,
+                                  std::vector<NamedMember>& parts) {
+        std::optional<CppMemberType> type = cpp_type_of(member);
+        if (!member.members.empty()) {
+            GOBO_TRY(StructText inner, struct_of(member, path + "." + member.name, is_storage));
+            type = cpp_array_of(inner.name, inner.end, member);
+            parts = std::move(inner.named);
+        }
+        if (!type)
+            return fail(
+                Fault::input,
+                fmt::format("no C++ type has the layout of '{}.{}', a {}", path, member.name, member.type),
+                fmt::format("declare the block with layout({}), of numbers of 32 or 64 bits",
+                            is_storage ? "std430" : "std140"));
+        return *type;
     }
 
     Result<void> add_members(StructText& structure, const std::vector<Member>& members,
-                             const std::string& path) {
+                             const std::string& path, bool is_storage) {
         std::vector<std::pair<CppMemberType, std::vector<NamedMember>>> types;
         for (const Member& member : members) {
-            std::optional<CppMemberType> type = cpp_type_of(member);
             std::vector<NamedMember> parts;
-            if (!member.members.empty()) {
-                GOBO_TRY(StructText inner, struct_of(member, path + "." + member.name));
-                type = cpp_array_of(inner.name, inner.end, member);
-                parts = std::move(inner.named);
-            }
-            if (!type)
-                return fail(Fault::input,
-                            fmt::format("no C++ type has the layout of '{}.{}', a {}", path, member.name,
-                                        member.type),
-                            "declare the block with layout(std140), of numbers of 32 or 64 bits");
+            GOBO_TRY(CppMemberType type, type_of(member, path, is_storage, parts));
             // A member may not have the name of a type that its struct uses.
-            structure.scope.claim(type->type);
-            types.emplace_back(std::move(*type), std::move(parts));
+            structure.scope.claim(type.type);
+            types.emplace_back(std::move(type), std::move(parts));
         }
         for (std::size_t i = 0; i < members.size(); ++i) {
             if (members[i].offset < structure.end)
@@ -203,12 +260,26 @@ class StructWriter {
                     Fault::input,
                     fmt::format("'{}.{}' at offset {} overlaps '{}', which ends at {}", path, members[i].name,
                                 members[i].offset, members[i - 1].name, structure.end),
-                    "state other offsets, or none: layout(std140) gives them");
+                    fmt::format("state other offsets, or none: layout({}) gives them",
+                                is_storage ? "std430" : "std140"));
             const std::string domain = domain_text(domains_, path + "." + members[i].name);
             structure.add(members[i], types[i].first, domain.empty() ? "" : "  ///< " + domain,
                           std::move(types[i].second));
         }
         return {};
+    }
+
+    /// A function of the block's struct that gives the elements of its array without a size.
+    Result<std::string> elements_of(StructText& structure, Member tail, const NamedBlock& block) {
+        tail.array.front() = 1;
+        std::vector<NamedMember> parts;
+        GOBO_TRY(const CppMemberType type, type_of(tail, block.name, block.is_storage, parts));
+        structure.scope.claim(type.type);
+        return fill(templates_.at("elements"),
+                    {{"array", cpp_comment(tail.name)},
+                     {"type", type.type + type.extents.substr(std::string_view("[1]").size())},
+                     {"name", structure.scope.claim(cpp_identifier(tail.name))},
+                     {"offset", std::to_string(tail.offset)}});
     }
 
     Result<void> append(const StructText& structure, const std::string& description,
@@ -226,7 +297,12 @@ class StructWriter {
     const std::vector<Domain>& domains_;
     const HeaderTemplates& templates_;
     CppScope& scope_;
-    std::vector<std::pair<Member, StructText>> written_;  ///< with the member that each was written for
+    struct Written {
+        Member mirrored;  ///< the member that it was written for
+        StructText structure;
+        int end;  ///< of its last member
+    };
+    std::vector<Written> written_;
     std::string text_;
 };
 
@@ -274,9 +350,10 @@ std::string member_checks(const NamedMember& named, const Spot& parent, const st
     return body.empty() ? body : head + body + tail;
 }
 
-Result<std::string> block_check(const Block& block, const StructText& structure,
+Result<std::string> block_check(const NamedBlock& block, const StructText& structure,
                                 const std::vector<Domain>& domains, const TextTemplate& check) {
-    const Member* last = last_array(block);
+    const Member* last = last_array(block.layout);
+    if (last != nullptr && last->array.front() == 0) last = nullptr;
     std::string body;
     for (const NamedMember& named : structure.named) {
         const bool is_counted = last != nullptr && &named == &structure.named.back();
@@ -316,24 +393,58 @@ std::string domain_text(const std::vector<Domain>& domains, const std::string& p
     return text;
 }
 
+namespace {
+
+/// Adds the structs of a list of blocks, and their checks. The elements of an array of blocks share a struct
+/// where they have one layout.
+Result<void> add_blocks(const std::vector<Block>& blocks, bool is_storage, const std::vector<Domain>& domains,
+                        const Declarations& declarations, const TextTemplate& check, StructWriter& writer,
+                        std::string& checks) {
+    std::map<std::string_view, std::vector<std::pair<NamedBlock, std::string>>> by_name;  // with who uses it
+    for (const Block& block : blocks) {
+        const std::string_view name = std::string_view(block.name).substr(0, block.name.find('['));
+        const bool is_array = name.size() < block.name.size();
+        const bool is_same = &block != blocks.data() && (&block)[-1].name == block.name;
+        Block sorted = block;
+        sort_by_offset(sorted.members);
+        auto& layouts = by_name[name];
+        const auto place = std::ranges::find_if(layouts, [&](const auto& other) {
+            return is_array && other.first.layout.members == sorted.members;
+        });
+        if (place != layouts.end()) {
+            place->first.count += is_same ? 0 : 1;
+            place->first.layout.binding = std::min(place->first.layout.binding, block.binding);
+            continue;
+        }
+        const auto differing = declarations.find(is_storage ? "storage block" : "uniform block", block.name);
+        int number = 1;
+        for (const Block* other = &block; other != blocks.data() && other[-1].name == block.name; --other)
+            ++number;
+        layouts.emplace_back(
+            NamedBlock{std::string(name), std::move(sorted), is_storage, is_array ? 1 : 0},
+            differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "");
+    }
+    for (const auto& [name, layouts] : by_name)
+        for (std::size_t i = 0; i < layouts.size(); ++i) {
+            const auto& [block, users] = layouts[i];
+            GOBO_TRY(const StructText written, writer.write_block(block, static_cast<int>(i) + 1, users));
+            GOBO_TRY(const std::string text, block_check(block, written, domains, check));
+            checks += text;
+        }
+    return {};
+}
+
+}  // namespace
+
 Result<void> block_section(const Interface& interface, const std::vector<Domain>& domains,
                            const Declarations& declarations, const HeaderTemplates& templates,
                            CppScope& scope, TemplateValues& values) {
     StructWriter writer(domains, templates, scope);
     std::string& checks = values["checks"] = "";
-    int number = 1;
-    for (const Block& declared : interface.blocks) {
-        const bool is_same = &declared != interface.blocks.data() && (&declared)[-1].name == declared.name;
-        number = is_same ? number + 1 : 1;
-        Block block = declared;
-        sort_by_offset(block.members);
-        const auto differing = declarations.find("uniform block", block.name);
-        const std::string users =
-            differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "";
-        GOBO_TRY(const StructText written, writer.write_block(block, number, users));
-        GOBO_TRY(const std::string check, block_check(block, written, domains, templates.at("check")));
-        checks += check;
-    }
+    GOBO_TRY_DO(
+        add_blocks(interface.blocks, false, domains, declarations, templates.at("check"), writer, checks));
+    GOBO_TRY_DO(add_blocks(interface.storage_blocks, true, domains, declarations, templates.at("check"),
+                           writer, checks));
     values["structs"] = writer.text();
     return {};
 }

@@ -1,6 +1,7 @@
 // An application that fills arrays of a block, with GLM's own layout or its aligned one.
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -85,9 +86,70 @@ void test_stated_offsets() {
     expect(at<float>(order, 4) == 1.0F && at<float>(order, 8) == 2.0F && sizeof order == 16, "offsets");
 }
 
+void test_storage() {
+    arrays::Grid grid{};
+    grid.cells[3] = 1.0F;
+    grid.turn = glm::mat2(1, 2, 3, 4);
+    grid.pair.a = glm::vec2(5, 6);
+    grid.after = 7.0F;
+    grid.on[1] = true;
+    grid.pairs[1].a = glm::vec2(8, 9);
+    expect(at<float>(grid, 12) == 1.0F && at<float>(grid, 24) == 3.0F && at<float>(grid, 36) == 6.0F,
+           "std430");
+    expect(at<float>(grid, 40) == 7.0F && at<std::uint32_t>(grid, 48) == 1, "behind a struct of 8 bytes");
+    expect(at<float>(grid, 68) == 9.0F && sizeof grid == 72 && arrays::Grid::binding == 3,
+           "an array of structs");
+    expect(arrays::check(grid).size() == 1, "a storage block has ranges too");
+    static_assert(sizeof(arrays::Pair) == 8 && sizeof(arrays::Loose) == 32, "one struct in two layouts");
+    arrays::Loose loose{};
+    loose.pairs[1].a = glm::vec2(1, 2);
+    expect(at<float>(loose, 20) == 2.0F, "the other layout");
+}
+
+void test_tails() {
+    arrays::Particles head{};
+    head.count = 3;
+    head.awake = true;
+    std::vector<std::byte> buffer(arrays::Particles::bytes(3));
+    expect(buffer.size() == 112 && arrays::Particles::size == 16, "bytes of a block with three elements");
+    std::memcpy(buffer.data(), &head, arrays::Particles::size);
+    const auto particles = arrays::Particles::particles(buffer.data(), buffer.size());
+    expect(particles.size() == 3, "as many as fit");
+    for (arrays::Particle& particle : particles) particle.position = glm::vec3(1, 2, 3);
+    particles[2].fixed = true;
+    particles[2].tint = glm::vec2(4, 5);
+    expect(at<float>(buffer.front(), 16 + 64 + 8) == 3.0F &&
+               at<float>(buffer.front(), 16 + 64 + 20) == 5.0F &&
+               at<std::uint32_t>(buffer.front(), 16 + 64 + 24) == 1,
+           "elements stand where std430 puts them");
+    const std::vector<std::byte>& read = buffer;
+    expect(arrays::Particles::particles(read.data(), read.size())[1].position == glm::vec3(1, 2, 3), "read");
+    expect(arrays::Particles::particles(read.data(), 47).size() == 0, "none where none fits whole");
+
+    std::vector<std::byte> points(arrays::Samples::bytes(2));
+    arrays::Samples::samples(points.data(), points.size())[1] = glm::vec3(1, 2, 3);
+    expect(points.size() == 32 && at<float>(points.front(), 24) == 3.0F, "a block of nothing else");
+    std::vector<std::byte> rows(arrays::Mixed::bytes(2));
+    arrays::Mixed::rest(rows.data(), rows.size())[1][2] = 4.0F;
+    expect(rows.size() == 36 && at<float>(rows.front(), 32) == 4.0F, "arrays, at an offset of four bytes");
+}
+
+void test_arrays_of_blocks() {
+    static_assert(arrays::Shadows::count == 11 && arrays::Shadows::binding == 2);
+    for (const gobo::runtime::BlockBinding& block : arrays::blocks) {
+        if (block.name == "Shadows[10]")
+            expect(block.binding == 12, "the last of the array has the last binding");
+        if (block.name == "Shadows[2]") expect(block.binding == 4, "and the third the third");
+    }
+    expect(arrays::storage_blocks.size() == 5 && arrays::storage_blocks[1].binding == 0, "the lowest free");
+}
+
 }  // namespace
 
 int main() {
+    test_storage();
+    test_tails();
+    test_arrays_of_blocks();
     test_elements();
     test_bools();
     test_matrices();

@@ -194,7 +194,31 @@ Built arrays() {
                member("lit", "bool", 448), member("mask", "bvec2", 456), member("point", "vec3", 464)}),
         // Stated offsets need not rise with the members.
         block("Order", 1, 16, {member("late", "float", 8), member("early", "float", 4)})};
-    built.family.domains = {{"Arrays.on", 0, 1, false, {}, {}, {}},
+    // An array of blocks, by name: "Shadows[10]" stands before "Shadows[2]".
+    for (const char* index : {"0", "1", "10", "2", "3", "4", "5", "6", "7", "8", "9"})
+        built.interface.blocks.push_back(
+            block(fmt::format("Shadows[{}]", index), -1, 64, {matrix("view", "mat4", 0)}));
+    const std::vector<Member> pair = {member("a", "vec2", 0)};
+    const std::vector<Member> particle = {member("position", "vec3", 0), member("mass", "float", 12),
+                                          member("tint", "vec2", 16), member("fixed", "bool", 24)};
+    Member turn = matrix("turn", "mat2", 16);
+    turn.matrix_stride = 8;
+    built.interface.storage_blocks = {
+        // As std430 lays it out: structs and arrays are not rounded up to 16 bytes.
+        block("Grid", 3, 0,
+              {array(member("cells", "float", 0), {4}, 4), turn, structure("pair", "Pair", 32, pair),
+               member("after", "float", 40), array(member("on", "bool", 44), {2}, 4),
+               array(structure("pairs", "Pair", 56, pair), {2}, 8)}),
+        block("Loose", -1, 0, {array(structure("pairs", "Pair", 0, pair), {2}, 16)}),
+        block("Mixed", -1, 0,
+              {member("wide", "double", 0), member("narrow", "float", 8),
+               array(member("rest", "float", 12), {0, 3}, 12)}),
+        block("Particles", -1, 0,
+              {member("count", "uint", 0), member("awake", "bool", 4),
+               array(structure("particles", "Particle", 16, particle), {0}, 32)}),
+        block("Samples", -1, 0, {array(member("samples", "vec3", 0), {0}, 16)})};
+    built.family.domains = {{"Grid.after", 0, 1, false, {}, {}, {}},
+                            {"Arrays.on", 0, 1, false, {}, {}, {}},
                             {"Arrays.masks", 0, 1, false, {}, {}, {}}};
     compose_keys(built, {"default"});
     return built;
