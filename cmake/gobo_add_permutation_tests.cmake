@@ -1,7 +1,8 @@
 # gobo_add_permutation_tests(NAME name FAMILY family
 #                            [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                            [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
-#                            [RENDER] [BACKEND osmesa|egl] [SHARDS n] [INCLUDE folder...] [LIBRARY folder])
+#                            [RENDER] [BACKEND osmesa|egl] [SHARDS n] [INCLUDE folder...] [LIBRARY folder]
+#                            [COST_BASELINE file GPU chip...])
 #
 # Registers tests that run `gobo test` on the selected permutations: with CTest, and so in what `ctest --output-junit`
 # writes. KEYS and KEYS_FROM alone give one test for each key, NAME.KEY; any other selection, or SHARDS, gives n tests
@@ -9,14 +10,17 @@
 # the same keys and hold each pixel against the evaluation. The points and pictures of keys that fail are left in
 # gobo/tests/NAME of the current binary folder.
 #
+# COST_BASELINE adds the test NAME.cost: what the keys cost on the chips, held against a table that
+# `gobo cost --baseline file --update` made.
+#
 # FAMILY, the selection, INCLUDE and LIBRARY are those of gobo_add_permutations(). docs/build_integration.md says more.
 include("${CMAKE_CURRENT_LIST_DIR}/gobo_add_permutations.cmake")
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutation_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;EXCLUDED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;SHARDS;LIBRARY"
-                        "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;EXCLUDED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;SHARDS;LIBRARY;COST_BASELINE"
+                        "GPU;KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_test_arguments()
   if(NOT arg_LIBRARY)
     get_property(arg_LIBRARY GLOBAL PROPERTY GOBO_LIBRARY_FOLDER)
@@ -32,6 +36,14 @@ function(gobo_add_permutation_tests)
       list(APPEND render --backend "${arg_BACKEND}")
     endif()
     _gobo_add_mode_tests("${arg_NAME}.render" "${render}")
+  endif()
+  if(arg_COST_BASELINE)
+    get_filename_component(baseline "${arg_COST_BASELINE}" ABSOLUTE)
+    list(JOIN arg_GPU "," gpus)
+    set(folder "${folder}/cost")
+    _gobo_command_line(arguments inputs)
+    add_test(NAME "${arg_NAME}.cost"
+      COMMAND "$<TARGET_FILE:gobo::gobo>" cost ${arguments} --gpu "${gpus}" --baseline "${baseline}" -o "${folder}" --jobs 1)
   endif()
 endfunction()
 
@@ -54,6 +66,9 @@ function(_gobo_check_test_arguments)
   endforeach()
   if(arg_BACKEND AND NOT arg_RENDER)
     message(FATAL_ERROR "gobo_add_permutation_tests: BACKEND goes with RENDER")
+  endif()
+  if(arg_COST_BASELINE AND NOT arg_GPU OR arg_GPU AND NOT arg_COST_BASELINE)
+    message(FATAL_ERROR "gobo_add_permutation_tests: COST_BASELINE and GPU go together")
   endif()
   if(DEFINED arg_SHARDS AND NOT arg_SHARDS MATCHES "^[1-9][0-9]*$")
     message(FATAL_ERROR "gobo_add_permutation_tests: SHARDS is a whole number from 1, not '${arg_SHARDS}'")

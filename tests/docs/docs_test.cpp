@@ -14,6 +14,10 @@ TEST_P(Page, DoesWhatItSays) {
     const std::vector<PageBlock> blocks =
         blocks_of(text_of_file(fmt::format("{}/{}", GOBO_SOURCE_DIR, GetParam())));
     Reader reader(GOBO_COMMAND);
+    // Its figures are those of one version of a driver.
+    if (GetParam() == "docs/costs.md" &&
+        reader.run("gobo cost --gpu list").printed.find("radv Mesa 22.3.6") == std::string::npos)
+        GTEST_SKIP() << "SKIPPED: no mesa-vulkan-drivers 22.3.6, whose figures the page shows";
     int commands_run = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         const PageBlock& block = blocks[i];
@@ -37,7 +41,7 @@ TEST_P(Page, DoesWhatItSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Docs, Page,
-                         testing::Values("README.md", "docs/adding_an_effect.md", "docs/command_line.md",
+                         testing::Values("README.md", "docs/adding_an_effect.md", "docs/command_line.md", "docs/costs.md",
                                          "docs/family_file.md", "docs/formats.md", "docs/probes.md",
                                          "docs/scene_format.md", "docs/shadows.md", "docs/study.md"),
                          [](const auto& page) { return std::filesystem::path(page.param).stem().string(); });

@@ -24,6 +24,22 @@ if cmp -s "$work/game/game.frag" "$work/wrong_game/game.frag"; then
   exit 1
 fi
 
+gobo="$package/../bin/gobo"
+cost=("$gobo" cost lit --key point=1 --keys-from "$work/more.keys" --gpu navi21 --quiet)
+priced=
+if "${cost[@]}" >"$scratch/costs" 2>&1; then
+  "${cost[@]}" --baseline "$work/costs.csv" --update
+  sed -E 's/(point=1,fragment),[0-9]+/\1,10/' "$work/costs.csv" >"$work/less.csv"
+  priced='
+fail grown.cost
+run grown.point=1
+run priced.cost
+run priced.directional=1
+run priced.point=1'
+else
+  echo "SKIPPED: tests of costs: $(head -n 1 "$scratch/costs")"
+fi
+
 cmake -S "$work" -B "$work/build" -D gobo_DIR="$package" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
 status=0
 ctest --test-dir "$work/build" --output-junit "$work/report.xml" >"$scratch/log" 2>&1 || status=$?
@@ -44,6 +60,7 @@ run shared.1_of_2
 run shared.2_of_2
 run wrong.directional=1
 run wrong_game.fog=on'
+expected=$(echo "$expected$priced" | LC_ALL=C sort)
 found=$(sed -nE 's/.*<testcase name="([^"]*)".* status="(run|fail)".*/\2 \1/p' "$work/report.xml" | LC_ALL=C sort)
 if [ "$found" != "$expected" ] || [ "$status" = 0 ]; then
   cat "$scratch/log"

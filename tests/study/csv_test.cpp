@@ -1,8 +1,8 @@
 // Tables of text, out and in again.
+#include "core/csv.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "lab/study/csv_text.hpp"
 
 namespace gobo::study {
 namespace {

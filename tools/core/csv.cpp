@@ -30,6 +30,20 @@ std::vector<std::string> take_cells(std::string_view& text) {
     return cells;
 }
 
+std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+    std::string text = "\"";
+    for (const char character : cell)
+        text += character == '"' ? std::string("\"\"") : std::string(1, character);
+    return text + '"';
+}
+
+std::string line_of_cells(const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + quoted(cells[i]);
+    return line + '\n';
+}
+
 }  // namespace
 
 std::optional<std::size_t> CsvTable::column(std::string_view name) const {
@@ -47,6 +61,12 @@ CsvTable read_csv(std::string_view text) {
         table.rows.push_back(std::move(cells));
     }
     return table;
+}
+
+std::string csv_text(const CsvTable& table) {
+    std::string text = line_of_cells(table.columns);
+    for (const std::vector<std::string>& row : table.rows) text += line_of_cells(row);
+    return text;
 }
 
 std::optional<double> number_in_cell(std::string_view cell) {

@@ -21,6 +21,9 @@ struct CsvTable {
 /// Rows with fewer cells are filled up with empty ones, further cells left out.
 [[nodiscard]] CsvTable read_csv(std::string_view text);
 
+/// The table as read_csv() reads it.
+[[nodiscard]] std::string csv_text(const CsvTable& table);
+
 /// The number that a cell is as a whole.
 [[nodiscard]] std::optional<double> number_in_cell(std::string_view cell);
 

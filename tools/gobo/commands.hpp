@@ -20,6 +20,8 @@ inline const Title kSanitize = {"sanitize",
                                 "Watch every operation on hard inputs for what GLSL leaves undefined"};
 inline const Title kProbe = {"probe", "Light-probe maps and harmonics from an HDR map of an environment"};
 inline const Title kRender = {"render", "A picture of every key of a selection, or of scenes"};
+inline const Title kCost = {"cost",
+                            "What permutations cost on GPUs, as their drivers' compilers estimate it"};
 inline const Title kStudy = {"study", "Error against cost of every quality: tables and a report"};
 }  // namespace titles
 

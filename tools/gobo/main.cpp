@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
           {titles::kSanitize},
           {titles::kProbe},
           {titles::kRender},
+          {titles::kCost},
           {titles::kStudy}}},
         argc, argv);
 }

@@ -78,6 +78,7 @@ using CubeImages = std::map<std::string, Image>;
 [[nodiscard]] Command sanitize_command();
 [[nodiscard]] Command probe_command();
 [[nodiscard]] Command render_command();
+[[nodiscard]] Command cost_command();
 [[nodiscard]] Command study_command();
 
 }  // namespace gobo

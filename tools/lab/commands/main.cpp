@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
                             "  gobo render lit --key 'spot=1' -o pictures\n"
                             "  gobo COMMAND --help",
                             {eval_command(), test_command(), sanitize_command(), probe_command(),
-                             render_command(), study_command(), build, scene},
+                             render_command(), cost_command(), study_command(), build, scene},
                             measure_qualities},
                            argc, argv);
 }

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "lab/study/csv_text.hpp"
+#include "core/csv.hpp"
 
 namespace gobo::study {
 namespace {

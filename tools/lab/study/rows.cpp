@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "family/key.hpp"
-#include "lab/study/csv_text.hpp"
 #include "lab/study/qualities.hpp"
 
 namespace gobo::study {

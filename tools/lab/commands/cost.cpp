@@ -1,0 +1,300 @@
+// gobo cost: what permutations cost on GPUs, as the compilers of their drivers estimate it.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "core/text.hpp"
+#include "family/key.hpp"
+#include "lab/commands/lab_input.hpp"
+#include "lab/cost/baseline.hpp"
+#include "lab/cost/compile_on_chips.hpp"
+#include "lab/render/render.hpp"
+
+namespace gobo {
+namespace {
+
+struct CostCommandOptions : SelectionOptions {
+    std::vector<std::string> names;  ///< FAMILY, or files
+    std::vector<std::string> gpus;
+    std::string driver = cost::CompileOptions{}.driver;
+    bool json = false;
+    bool csv = false;
+    bool isa = false;
+    std::string against;   ///< a key
+    std::string baseline;  ///< a CSV file
+    double tolerance = 2;  ///< percent
+    bool update = false;
+    std::string folder;  ///< for SPIR-V that a driver does not take; empty: it is not kept
+};
+
+cost::CompileOptions compile_options(const CostCommandOptions& options, const World& world) {
+    return {.driver = options.driver, .jobs = world.jobs()};
+}
+
+Result<Outcome> list_chips(const CostCommandOptions& options, const World& world) {
+    const auto answers = cost::compile_on_chips(cost::chips(), {}, compile_options(options, world));
+    std::string text = fmt::format("{:<10} {:<13} {:<18} {}\n", "GPU", "architecture", "such as", "known to");
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const cost::Chip& chip = cost::chips()[i];
+        text += fmt::format("{:<10} {:<13} {:<18} {}\n", chip.name, chip.architecture, chip.sold_as,
+                            answers[i] ? answers[i]->driver : "-");
+    }
+    const bool has_driver =
+        std::any_of(answers.begin(), answers.end(), [](const auto& answer) { return answer; });
+    if (!has_driver) return tl::unexpected(answers.front().error());
+    return Outcome{text, {}, fmt::format("for chips that are not known here: {}", cost::kInstallNewer)};
+}
+
+/// A permutation's two stages: indices into Composition::stages.
+using Pair = std::pair<int, int>;
+
+/// What is compiled: each distinct pair once.
+struct Pairs {
+    std::vector<cost::Pipeline> pipelines;
+    std::map<Pair, std::size_t> numbers;  ///< index into pipelines
+    Diagnostics errors;                   ///< of pairs that are no pipeline
+};
+
+Pair pair_of(const Permutation& permutation) {
+    return {permutation.vertex, permutation.fragment};
+}
+
+/// "fog=linear", or the files' names.
+std::string text_of(const CostCommandOptions& options, const Subject& subject,
+                    const Permutation& permutation) {
+    return subject.are_files ? join(options.names, " ") : key_text(subject.family.family, permutation.key);
+}
+
+Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const Validated& validated) {
+    Pairs pairs;
+    std::map<Pair, bool> seen;
+    for (const Permutation& permutation : subject.composition.permutations) {
+        if (!seen.try_emplace(pair_of(permutation)).second) continue;
+        auto pipeline = cost::pipeline_of(validated.stage(permutation.vertex).spirv,
+                                          validated.stage(permutation.fragment).spirv);
+        if (pipeline) {
+            pairs.numbers[pair_of(permutation)] = pairs.pipelines.size();
+            pairs.pipelines.push_back(*std::move(pipeline));
+            continue;
+        }
+        for (Diagnostic& error : pipeline.error()) {
+            error.subject = text_of(options, subject, permutation);
+            pairs.errors.push_back(std::move(error));
+        }
+    }
+    return pairs;
+}
+
+std::string_view bytes_of(const cost::Words& words) {
+    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])};
+}
+
+/// A pair that a driver did not compile, its SPIR-V where -o says.
+Diagnostics report_failure(const World& world, const CostCommandOptions& options, const cost::Chip& chip,
+                           const cost::Pipeline& pipeline, const std::string& key,
+                           const std::string& reason) {
+    Diagnostics diagnostics(1);
+    Diagnostic& error = diagnostics.front();
+    error.message = fmt::format("{} has no figures: the driver {}", chip.name, reason);
+    error.subject = key;
+    error.help = "keep its two stages as SPIR-V with -o DIR, for a report to the driver's makers";
+    if (options.folder.empty()) return diagnostics;
+    const std::string path = fmt::format("{}/{}.{}", options.folder, chip.name, picture_name(key));
+    error.help =
+        fmt::format("its stages, for a report to the driver's makers: {0}.vert.spv, {0}.frag.spv", path);
+    for (const auto& [end, words] :
+         {std::pair(".vert.spv", &pipeline.vertex), {".frag.spv", &pipeline.fragment}})
+        if (const auto written = world.disk.write(path + end, bytes_of(*words)); !written)
+            append(diagnostics, written.error());
+    return diagnostics;
+}
+
+/// The costs of every permutation that a chip's driver compiles; what fails is added to `diagnostics`.
+std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOptions& options,
+                                     const Subject& subject, const Pairs& pairs,
+                                     const std::vector<cost::Chip>& chips, Diagnostics& diagnostics) {
+    std::vector<cost::ChipCost> costs;
+    if (pairs.pipelines.empty()) return costs;
+    const auto answers = cost::compile_on_chips(chips, pairs.pipelines, compile_options(options, world));
+    for (std::size_t i = 0; i < chips.size(); ++i) {
+        if (!answers[i]) {
+            append(diagnostics, answers[i].error());
+            continue;
+        }
+        std::vector<std::vector<cost::StageCost>> stages(pairs.pipelines.size());
+        for (std::size_t pair = 0; pair < stages.size(); ++pair)
+            if (const auto& compiled = answers[i]->pipelines[pair])
+                std::transform(compiled->begin(), compiled->end(), std::back_inserter(stages[pair]),
+                               cost::cost_of);
+        cost::ChipCost& cost = costs.emplace_back(cost::ChipCost{chips[i], answers[i]->driver, {}});
+        std::vector<bool> is_reported(stages.size());
+        for (const Permutation& permutation : subject.composition.permutations) {
+            const auto number = pairs.numbers.find(pair_of(permutation));
+            if (number == pairs.numbers.end()) continue;
+            const std::size_t pair = number->second;
+            const std::string key = text_of(options, subject, permutation);
+            if (const auto& compiled = answers[i]->pipelines[pair]) {
+                cost.keys.push_back({key, stages[pair]});
+            } else if (!is_reported[pair]) {
+                is_reported[pair] = true;
+                append(diagnostics, report_failure(world, options, chips[i], pairs.pipelines[pair], key,
+                                                   compiled.error()));
+            }
+        }
+    }
+    return costs;
+}
+
+/// The names of the pieces of both stages.
+std::vector<std::string> pieces_of(const Composition& composition, const Permutation& permutation) {
+    std::vector<std::string> names;
+    for (const int stage : {permutation.vertex, permutation.fragment})
+        for (const int piece : composition.stage(stage).pieces) {
+            const std::string& name = composition.piece(piece).name;
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+    return names;
+}
+
+std::string pieces_text(const std::vector<std::string>& pieces, const std::vector<std::string>& others,
+                        const std::string& key) {
+    std::vector<std::string> own;
+    for (const std::string& piece : pieces)
+        if (std::find(others.begin(), others.end(), piece) == others.end()) own.push_back(piece);
+    return own.empty() ? "" : fmt::format("only in '{}': {}\n", key, join(own, ", "));
+}
+
+/// How the figures of each permutation differ from those of the first.
+std::string differences(const CostCommandOptions& options, const Subject& subject,
+                        const std::vector<cost::ChipCost>& costs) {
+    const Composition& composition = subject.composition;
+    const Permutation& first = composition.permutations.front();
+    const std::string before = text_of(options, subject, first);
+    const auto pieces_before = pieces_of(composition, first);
+    std::string text;
+    for (const Permutation& permutation : composition.permutations) {
+        const std::string after = text_of(options, subject, permutation);
+        if (after == before) continue;
+        if (!text.empty()) text += '\n';
+        const auto pieces = pieces_of(composition, permutation);
+        text += fmt::format(
+            "'{}' against '{}'\n{}{}{}", after, before, pieces_text(pieces, pieces_before, after),
+            pieces_text(pieces_before, pieces, before), cost::difference_text(costs, before, after));
+    }
+    return text;
+}
+
+/// The keys with the one that they are compared with before them.
+Result<void> put_first(Subject& subject, const std::string& against) {
+    if (subject.are_files)
+        return fail(Fault::usage, "--against compares keys of a family, and files have none",
+                    "cost both sets of files with --csv and compare the tables, or use --baseline");
+    GOBO_TRY(std::vector<Key> keys,
+             select(subject.family.family, Selection{.keys = {{against}}}, name_of(subject.family.dialect)));
+    for (const Permutation& permutation : subject.composition.permutations)
+        if (permutation.key != keys.front()) keys.push_back(permutation.key);
+    GOBO_TRY(subject.composition, compose_keys(subject.family, keys));
+    return {};
+}
+
+Result<Outcome> hold_to_baseline(const World& world, const CostCommandOptions& options,
+                                 const std::vector<cost::ChipCost>& costs, Diagnostics diagnostics) {
+    if (options.update) {
+        if (exit_status(diagnostics) != 0)
+            return tl::unexpected(std::move(diagnostics));  // it would lack rows
+        GOBO_TRY(const bool is_new, world.disk.write(options.baseline, csv_text(cost::to_table(costs))));
+        return Outcome{{}, std::move(diagnostics), options.baseline + (is_new ? "" : " (unchanged)")};
+    }
+    const Result<std::string> text = read_input(world, options.baseline);
+    if (!text) return with_help(text.error(), "make it with --update");
+    GOBO_TRY(const auto comparison,
+             cost::compare_with_baseline(costs, read_csv(*text), options.baseline, options.tolerance));
+    append(diagnostics, comparison.diagnostics);
+    return Outcome{fmt::format("{} stages compared with {}, {} grown by more than {} %\n", comparison.stages,
+                               options.baseline, comparison.grown, short_number(options.tolerance)),
+                   std::move(diagnostics)};
+}
+
+Result<Outcome> run(const CostCommandOptions& options, const World& world) {
+    const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
+    if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
+    GOBO_TRY(const std::vector<cost::Chip> chips, cost::chips_named(gpus));
+    if (options.names.empty())
+        return fail(Fault::usage, "there is nothing to cost",
+                    "name a family, or shader files: gobo cost lit");
+    GOBO_TRY(Subject subject, load_subject(world, options.names, "", &options));
+    if (subject.composition.permutations.empty())
+        return Outcome{{},
+                       {{.severity = Severity::warning,
+                         .message = "the selection holds no keys, so there is nothing to cost",
+                         .help = "see what a selection holds with 'gobo list'"}}};
+    const Permutation& any = subject.composition.permutations.front();
+    if (any.vertex < 0 || any.fragment < 0)
+        return fail(Fault::usage,
+                    fmt::format("there is no {} stage, and drivers compile both together",
+                                name_of(any.vertex < 0 ? StageKind::vertex : StageKind::fragment)),
+                    "name the files of both stages: gobo cost game.vert game.frag --gpu navi21");
+    if (!options.against.empty()) GOBO_TRY_DO(put_first(subject, options.against));
+    GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true}));
+    Pairs pairs = pairs_of(options, subject, validated);
+    Diagnostics diagnostics = std::move(validated.diagnostics);
+    append(diagnostics, pairs.errors);
+    const auto costs = costs_of(world, options, subject, pairs, chips, diagnostics);
+    if (!options.baseline.empty()) return hold_to_baseline(world, options, costs, std::move(diagnostics));
+    std::string text;
+    if (!options.against.empty())
+        text = differences(options, subject, costs);
+    else if (options.json)
+        text = cost::to_json(costs, options.isa).dump(2) + "\n";
+    else if (options.csv)
+        text = csv_text(cost::to_table(costs));
+    else
+        text = options.isa ? cost::assembly_text(costs) : cost::to_text(costs);
+    return Outcome{std::move(text), std::move(diagnostics)};
+}
+
+}  // namespace
+
+Command cost_command() {
+    const auto options = std::make_shared<CostCommandOptions>();
+    return {
+        titles::kCost,
+        {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
+          &options->names},
+         {"--gpu", "A,B,...",
+          "Chips, such as navi21,vega10; list prints those that this machine's driver knows", &options->gpus,
+          kRequired},
+         {"--against", "KEY", "How the figures of each key differ from those of this one", &options->against},
+         {"--baseline", "FILE", "Compare with a table that was kept: what has grown is an error",
+          &options->baseline},
+         {"--tolerance",
+          "PERCENT",
+          "With --baseline: how much figures may grow",
+          &options->tolerance,
+          {.least = 0, .needs = "--baseline"}},
+         {"--update",
+          "",
+          "With --baseline: write the table instead",
+          &options->update,
+          {.needs = "--baseline"}},
+         {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
+         {"--json", "", "Print JSON", &options->json},
+         {"--csv", "", "Print CSV, with instructions by kind", &options->csv, {.excludes = "--json"}},
+         keep_option(options->folder, "the SPIR-V of pairs that a driver crashes on"),
+         {"--driver", "FILE", "The Vulkan driver: a shared library by its name or path", &options->driver}},
+        {selection_options(*options)},
+        "  gobo cost lit --cover 2 --gpu polaris10,vega10,navi21\n"
+        "  gobo cost lit --key 'point=1 specular=blinn' --gpu navi21 --isa\n"
+        "  gobo cost lit --key 'point=1 light_sum=plain' --against 'point=1' --gpu navi21\n"
+        "  gobo cost game.vert game.frag --gpu navi21\n"
+        "  gobo cost lit --gpu navi21 --baseline costs.csv --update\n"
+        "  gobo cost --gpu list",
+        [options](const World& world) { return run(*options, world); },
+        "Figures are a compiler's static estimates: no time was measured, and no GPU is needed. Cycles are "
+        "those "
+        "of 64 vertices or fragments. Where 'loop' stands, the compiler guesses how often it runs."};
+}
+
+}  // namespace gobo

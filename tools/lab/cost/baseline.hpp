@@ -1,0 +1,21 @@
+// Costs held against a table of them that was kept.
+#pragma once
+
+#include "lab/cost/cost_table.hpp"
+
+namespace gobo::cost {
+
+struct Comparison {
+    int stages = 0;           ///< that the baseline has too
+    int grown = 0;            ///< by more than the tolerance
+    Diagnostics diagnostics;  ///< an error for each that has grown; a warning where the baseline lacks some
+};
+
+/// Compares with the table at `path`, as to_table() makes it: instructions, registers, and cycles where there
+/// is no loop, may each grow by so many percent. Errors: a table without the columns or with cells that are
+/// no number, one of another driver version, or one that holds nothing of what was measured.
+[[nodiscard]] Result<Comparison> compare_with_baseline(const std::vector<ChipCost>& costs,
+                                                       const CsvTable& baseline, const std::string& path,
+                                                       double percent);
+
+}  // namespace gobo::cost

@@ -1,0 +1,237 @@
+#include "lab/cost/pipeline.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/text.hpp"
+#include "spirv/module.hpp"
+
+namespace gobo::cost {
+namespace {
+
+using spirv::Id;
+using spirv::Module;
+using spirv::Type;
+using spirv::Variable;
+
+/// By variable.
+using Numbers = std::map<Id, std::uint32_t>;
+
+/// The type without its arrays, and how many elements these have.
+std::pair<Id, std::uint32_t> element_of(const Module& module, Id type) {
+    std::uint32_t count = 1;
+    while (module.type(type).is_array()) {
+        count *= std::max(module.type(type).count, 1U);
+        type = module.type(type).element;
+    }
+    return {type, count};
+}
+
+bool is_resource(const Variable& variable) {
+    return variable.storage == spv::StorageClassUniformConstant ||
+           variable.storage == spv::StorageClassUniform || variable.storage == spv::StorageClassStorageBuffer;
+}
+
+/// What OpenGL knows a resource by: a block's name, or a variable's.
+std::string name_of(const Module& module, const Variable& variable) {
+    if (variable.storage == spv::StorageClassUniformConstant) return module.name(variable.id);
+    return "block " + module.name(element_of(module, variable.type).first);
+}
+
+/// Nothing for what Vulkan cannot bind.
+std::optional<Descriptor> descriptor_of(const Module& module, const Variable& variable) {
+    using enum Descriptor::Kind;
+    const auto [element, count] = element_of(module, variable.type);
+    const Type& type = module.type(element);
+    if (type.is_image()) {
+        const bool is_buffer = type.image.dimension == spv::DimBuffer;
+        if (type.image.storage) return Descriptor{is_buffer ? image_buffer : image, count};
+        return Descriptor{is_buffer ? texel_buffer : texture, count};
+    }
+    if (variable.storage == spv::StorageClassUniformConstant) return std::nullopt;
+    const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
+                            module.decoration(element, spv::DecorationBufferBlock).has_value();
+    return Descriptor{is_storage ? storage_buffer : uniform_buffer, count};
+}
+
+tl::unexpected<Diagnostics> fail_unbound(const std::vector<std::string>& names) {
+    return fail(Fault::input,
+                fmt::format("Vulkan has no uniforms outside blocks, and here {} such: {}",
+                            names.size() == 1 ? "is one" : "are some", join(names, ", ")),
+                "put them into a block, such as layout(std140, binding = 0) uniform Settings { vec4 tint; }; "
+                "samplers of a struct become variables of their own");
+}
+
+/// The variables that stages pass on.
+std::vector<const Variable*> varyings_of(const Module& module, spv::StorageClass storage) {
+    std::vector<const Variable*> varyings;
+    for (const Variable& variable : module.variables)
+        if (variable.storage == storage && module.decoration(variable.id, spv::DecorationLocation))
+            varyings.push_back(&variable);
+    return varyings;
+}
+
+/// What OpenGL matches a varying by.
+std::string varying_name(const Module& module, const Variable& variable) {
+    const Id element = element_of(module, variable.type).first;
+    const bool is_block = module.decoration(element, spv::DecorationBlock).has_value();
+    return is_block ? module.name(element) : module.name(variable.id);
+}
+
+std::uint32_t location_of(const Module& module, const Variable& variable) {
+    return module.decoration(variable.id, spv::DecorationLocation).value_or(0);
+}
+
+std::uint32_t locations_taken(const Module& module, Id id) {
+    const Type& type = module.type(id);
+    if (type.is_array()) return std::max(type.count, 1U) * locations_taken(module, type.element);
+    if (type.opcode == spv::OpTypeStruct) {
+        std::uint32_t sum = 0;
+        for (const Id member : type.members) sum += locations_taken(module, member);
+        return sum;
+    }
+    const std::uint32_t columns = static_cast<std::uint32_t>(type.value.columns);
+    return type.value.column_size() > 16 ? 2 * columns : columns;
+}
+
+/// Locations by which each input of the fragment stage meets the output of its name. Empty where they meet
+/// already: locations that the source states may share a register.
+std::pair<Numbers, Numbers> matched_locations(const Module& vertex, const Module& fragment) {
+    const auto outputs = varyings_of(vertex, spv::StorageClassOutput);
+    const auto inputs = varyings_of(fragment, spv::StorageClassInput);
+    const auto output_of = [&](const Variable& input) -> const Variable* {
+        for (const Variable* output : outputs)
+            if (varying_name(vertex, *output) == varying_name(fragment, input)) return output;
+        for (const Variable* output : outputs)
+            if (location_of(vertex, *output) == location_of(fragment, input)) return output;
+        return nullptr;
+    };
+    const bool all_meet = std::all_of(inputs.begin(), inputs.end(), [&](const Variable* input) {
+        const Variable* output = output_of(*input);
+        return output == nullptr || location_of(vertex, *output) == location_of(fragment, *input);
+    });
+    std::pair<Numbers, Numbers> locations;
+    if (all_meet) return locations;
+    std::uint32_t next = 0;
+    for (const Variable* output : outputs) {
+        locations.first[output->id] = next;
+        next += locations_taken(vertex, output->type);
+    }
+    for (const Variable* input : inputs) {
+        const Variable* output = output_of(*input);
+        locations.second[input->id] = output != nullptr ? locations.first[output->id] : next;
+        if (output == nullptr) next += locations_taken(fragment, input->type);
+    }
+    return locations;
+}
+
+bool declares_type(spv::Op opcode) {
+    return opcode >= spv::OpTypeVoid && opcode <= spv::OpTypeForwardPointer;
+}
+
+/// The module in Vulkan's words, with those bindings in set 0 and those locations.
+Words rewritten(const Module& module, const Words& words, const Numbers& bindings, const Numbers& locations) {
+    Words out(words.begin(), words.begin() + 5);
+    const auto decorate = [&](Id id, spv::Decoration kind, std::uint32_t value) {
+        out.insert(out.end(), {4U << spv::WordCountShift | spv::OpDecorate, static_cast<std::uint32_t>(id),
+                               static_cast<std::uint32_t>(kind), value});
+    };
+    bool has_decorated = false;
+    for (const spirv::Instruction& instruction : module.instructions) {
+        if (!has_decorated && declares_type(instruction.opcode)) {
+            has_decorated = true;
+            for (const auto& [id, binding] : bindings) {
+                decorate(id, spv::DecorationDescriptorSet, 0);
+                decorate(id, spv::DecorationBinding, binding);
+            }
+            for (const auto& [id, location] : locations) decorate(id, spv::DecorationLocation, location);
+        }
+        const auto kind = instruction.as<spv::Decoration>(2);
+        if (instruction.opcode == spv::OpDecorate) {
+            const Id id = instruction.id(1);
+            const bool binds = kind == spv::DecorationBinding || kind == spv::DecorationDescriptorSet;
+            if (binds && bindings.contains(id)) continue;
+            const bool has_place = bindings.contains(id) || locations.contains(id);
+            if (kind == spv::DecorationLocation && has_place) continue;
+        }
+        const std::size_t at = out.size();
+        out.insert(out.end(), instruction.words.begin(), instruction.words.end());
+        if (instruction.opcode == spv::OpDecorate && kind == spv::DecorationBuiltIn) {
+            if (out[at + 3] == spv::BuiltInVertexId) out[at + 3] = spv::BuiltInVertexIndex;
+            if (out[at + 3] == spv::BuiltInInstanceId) out[at + 3] = spv::BuiltInInstanceIndex;
+        }
+        if (instruction.opcode == spv::OpExecutionMode && out[at + 2] == spv::ExecutionModeOriginLowerLeft)
+            out[at + 2] = spv::ExecutionModeOriginUpperLeft;
+    }
+    return out;
+}
+
+Result<std::vector<VertexInput>> inputs_of(const Module& module) {
+    std::vector<VertexInput> inputs;
+    for (const Variable* variable : varyings_of(module, spv::StorageClassInput)) {
+        const auto [element, count] = element_of(module, variable->type);
+        const GlslType& type = module.type(element).value;
+        if (type.scalar != Scalar::float32 && !is_integer(type.scalar))
+            return fail(Fault::input,
+                        fmt::format("vertex input {} is a {}: only components of 32 bits can be asked about",
+                                    module.name(variable->id), type.name()));
+        const std::uint32_t columns = count * static_cast<std::uint32_t>(type.columns);
+        for (std::uint32_t i = 0; i < columns; ++i)
+            inputs.push_back({location_of(module, *variable) + i, type.scalar, type.rows});
+    }
+    return inputs;
+}
+
+std::vector<std::optional<Scalar>> outputs_of(const Module& module) {
+    std::vector<std::optional<Scalar>> outputs;
+    for (const Variable* variable : varyings_of(module, spv::StorageClassOutput)) {
+        const auto [element, count] = element_of(module, variable->type);
+        const std::size_t first = location_of(module, *variable);
+        outputs.resize(std::max(outputs.size(), first + count));
+        for (std::size_t i = 0; i < count; ++i) outputs[first + i] = module.type(element).value.scalar;
+    }
+    return outputs;
+}
+
+}  // namespace
+
+Result<Pipeline> pipeline_of(const Words& vertex_words, const Words& fragment_words) {
+    GOBO_TRY(const Module vertex, spirv::read_module(vertex_words));
+    GOBO_TRY(const Module fragment, spirv::read_module(fragment_words));
+    Pipeline pipeline;
+    GOBO_TRY(pipeline.inputs, inputs_of(vertex));
+    pipeline.outputs = outputs_of(fragment);
+    std::map<std::string, Descriptor> by_name;
+    std::vector<std::string> unbound;
+    for (const Module* module : {&vertex, &fragment})
+        for (const Variable& variable : module->variables) {
+            if (!is_resource(variable)) continue;
+            const std::string name = name_of(*module, variable);
+            const auto descriptor = descriptor_of(*module, variable);
+            if (descriptor)
+                by_name.try_emplace(name, *descriptor);
+            else if (std::find(unbound.begin(), unbound.end(), name) == unbound.end())
+                unbound.push_back(name);
+        }
+    if (!unbound.empty()) return fail_unbound(unbound);
+    std::map<std::string, std::uint32_t> binding_of;
+    for (const auto& [name, descriptor] : by_name) {
+        binding_of[name] = static_cast<std::uint32_t>(pipeline.descriptors.size());
+        pipeline.descriptors.push_back(descriptor);
+    }
+    const auto bindings_of = [&](const Module& module) {
+        Numbers bindings;
+        for (const Variable& variable : module.variables)
+            if (is_resource(variable)) bindings[variable.id] = binding_of.at(name_of(module, variable));
+        return bindings;
+    };
+    const auto [outputs, inputs] = matched_locations(vertex, fragment);
+    pipeline.vertex = rewritten(vertex, vertex_words, bindings_of(vertex), outputs);
+    pipeline.fragment = rewritten(fragment, fragment_words, bindings_of(fragment), inputs);
+    return pipeline;
+}
+
+}  // namespace gobo::cost

@@ -1,0 +1,42 @@
+// A pair of stages as a Vulkan driver takes it: gobo's SPIR-V is for OpenGL.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/diagnostic.hpp"
+#include "spirv/glsl_type.hpp"
+
+namespace gobo::cost {
+
+using Words = std::vector<std::uint32_t>;
+
+struct Descriptor {
+    enum class Kind { uniform_buffer, storage_buffer, texture, texel_buffer, image, image_buffer };
+    Kind kind = Kind::uniform_buffer;
+    std::uint32_t count = 1;  ///< elements of an array
+};
+
+struct VertexInput {
+    std::uint32_t location = 0;
+    Scalar scalar = Scalar::float32;  ///< float32, int32 or uint32
+    int components = 4;
+};
+
+/// Two stages and what they are linked with. Everything is bound in set 0; the binding of a descriptor is its
+/// index.
+struct Pipeline {
+    Words vertex;
+    Words fragment;
+    std::vector<Descriptor> descriptors;
+    std::vector<VertexInput> inputs;
+    std::vector<std::optional<Scalar>> outputs;  ///< of the fragment stage, by location; nothing: none there
+};
+
+/// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one
+/// space of bindings for blocks and samplers, varyings matched by location instead of by name, gl_VertexID
+/// and the origin of gl_FragCoord. Errors: what Vulkan lacks, such as uniforms outside blocks.
+[[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex, const Words& fragment);
+
+}  // namespace gobo::cost
