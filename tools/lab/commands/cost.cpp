@@ -101,7 +101,9 @@ Diagnostics report_failure(const World& world, const CostCommandOptions& options
     error.subject = key;
     error.help = "keep its two stages as SPIR-V with -o DIR, for a report to the driver's makers";
     if (options.folder.empty()) return diagnostics;
-    const std::string path = fmt::format("{}/{}.{}", options.folder, chip.name, picture_name(key));
+    std::string name = picture_name(key);
+    std::replace(name.begin(), name.end(), '/', '+');  // of files
+    const std::string path = fmt::format("{}/{}.{}", options.folder, chip.name, name);
     error.help =
         fmt::format("its stages, for a report to the driver's makers: {0}.vert.spv, {0}.frag.spv", path);
     for (const auto& [end, words] :
@@ -143,6 +145,7 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
                                                    compiled.error()));
             }
         }
+        if (cost.keys.empty()) costs.pop_back();
     }
     return costs;
 }
@@ -271,14 +274,10 @@ Command cost_command() {
           &options->baseline},
          {"--tolerance",
           "PERCENT",
-          "With --baseline: how much figures may grow",
+          "How much figures may grow",
           &options->tolerance,
           {.least = 0, .needs = "--baseline"}},
-         {"--update",
-          "",
-          "With --baseline: write the table instead",
-          &options->update,
-          {.needs = "--baseline"}},
+         {"--update", "", "Write the table instead", &options->update, {.needs = "--baseline"}},
          {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
          {"--json", "", "Print JSON", &options->json},
          {"--csv", "", "Print CSV, with instructions by kind", &options->csv, {.excludes = "--json"}},
@@ -287,7 +286,7 @@ Command cost_command() {
         {selection_options(*options)},
         "  gobo cost lit --cover 2 --gpu polaris10,vega10,navi21\n"
         "  gobo cost lit --key 'point=1 specular=blinn' --gpu navi21 --isa\n"
-        "  gobo cost lit --key 'point=1 light_sum=plain' --against 'point=1' --gpu navi21\n"
+        "  gobo cost lit --key 'point=2 light_sum=compensated' --against point=2 --gpu navi21\n"
         "  gobo cost game.vert game.frag --gpu navi21\n"
         "  gobo cost lit --gpu navi21 --baseline costs.csv --update\n"
         "  gobo cost --gpu list",
