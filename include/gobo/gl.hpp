@@ -37,8 +37,8 @@ struct Program {
 
 /// OpenGL's constants, which a table of functions does not bring along.
 namespace constant {
-inline constexpr unsigned fragment_shader = 0x8B30;
-inline constexpr unsigned vertex_shader = 0x8B31;
+/// By runtime::StageKind: vertex, tess_control, tess_evaluation, geometry, fragment, compute.
+inline constexpr unsigned shader_of_stage[] = {0x8B31, 0x8E88, 0x8E87, 0x8DD9, 0x8B30, 0x91B9};
 inline constexpr unsigned delete_status = 0x8B80;
 inline constexpr unsigned compile_status = 0x8B81;
 inline constexpr unsigned link_status = 0x8B82;
@@ -125,15 +125,15 @@ template <class GetLength, class GetLog>
 
 /// A compiled shader, or 0 with `error` set.
 template <class Tables, class Functions>
-[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, unsigned kind, const Functions& gl,
-                               std::string& error) {
+[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, runtime::StageKind kind,
+                               const Functions& gl, std::string& error) {
     std::vector<const char*> texts;
     std::vector<int> lengths;
     stage.for_each_piece([&texts, &lengths](std::string_view text) {
         texts.push_back(text.data());
         lengths.push_back(static_cast<int>(text.size()));
     });
-    const unsigned shader = gl.CreateShader(kind);
+    const unsigned shader = gl.CreateShader(constant::shader_of_stage[static_cast<std::size_t>(kind)]);
     gl.ShaderSource(shader, stage.piece_count(), texts.data(), lengths.data());
     gl.CompileShader(shader);
     int compiled = 0;
@@ -142,8 +142,8 @@ template <class Tables, class Functions>
     const std::string log =
         read_log([&](int* size) { gl.GetShaderiv(shader, constant::info_log_length, size); },
                  [&](int size, int* length, char* text) { gl.GetShaderInfoLog(shader, size, length, text); });
-    error = std::string(kind == constant::vertex_shader ? "vertex" : "fragment") +
-            " stage does not compile\n" + runtime::translated_log(stage, log);
+    error = std::string(runtime::name_of(kind)) + " stage does not compile\n" +
+            runtime::translated_log(stage, log);
     gl.DeleteShader(shader);
     return 0;
 }
@@ -206,26 +206,25 @@ void set_bindings(unsigned program, const Functions& gl) {
 template <class Permutation, class Functions>
 [[nodiscard]] Program build_program(const Permutation& permutation, const Functions& gl) {
     Program program;
-    const unsigned vertex = detail::compile(permutation.vertex, constant::vertex_shader, gl, program.error);
-    if (vertex == 0) return program;
-    const unsigned fragment =
-        detail::compile(permutation.fragment, constant::fragment_shader, gl, program.error);
-    if (fragment == 0) {
-        gl.DeleteShader(vertex);
+    std::vector<unsigned> shaders;
+    runtime::for_each_stage(permutation, [&](runtime::StageKind kind, const auto& stage) {
+        const unsigned shader = program.error.empty() ? detail::compile(stage, kind, gl, program.error) : 0;
+        if (shader != 0) shaders.push_back(shader);
+    });
+    if (!program.error.empty()) {
+        for (const unsigned shader : shaders) gl.DeleteShader(shader);
         return program;
     }
     const unsigned id = gl.CreateProgram();
-    gl.AttachShader(id, vertex);
-    gl.AttachShader(id, fragment);
+    for (const unsigned shader : shaders) gl.AttachShader(id, shader);
     for (const runtime::VariableLocation& attribute : Permutation::Tables::attributes) {
         if (!attribute.only.applies_to(permutation)) continue;
         gl.BindAttribLocation(id, static_cast<unsigned>(attribute.location),
                               std::string(attribute.name).c_str());
     }
     gl.LinkProgram(id);
-    // Both live on within the program until it is deleted.
-    gl.DeleteShader(vertex);
-    gl.DeleteShader(fragment);
+    // They live on within the program until it is deleted.
+    for (const unsigned shader : shaders) gl.DeleteShader(shader);
     int linked = 0;
     gl.GetProgramiv(id, constant::link_status, &linked);
     if (linked == 0) {

@@ -45,11 +45,25 @@ struct StageTable {
     std::uint32_t columns;
 };
 
+/// In the order in which a pipeline runs them. A compute stage is a program of its own.
+enum class StageKind { vertex, tess_control, tess_evaluation, geometry, fragment, compute };
+
+/// "vertex" or "tess_control".
+[[nodiscard]] constexpr std::string_view name_of(StageKind kind) {
+    constexpr std::string_view names[] = {"vertex",   "tess_control", "tess_evaluation",
+                                          "geometry", "fragment",     "compute"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
 /// A stage of a permutation: an index into the tables of its generated header.
 template <class Tables>
 struct Stage {
     std::uint32_t number = 0;
 
+    /// Whether the permutation has the stage: others of its family may have one that it lacks.
+    [[nodiscard]] constexpr bool exists() const {
+        return piece_count() > 0;
+    }
     /// How many texts for_each_piece() passes.
     [[nodiscard]] constexpr int piece_count() const {
         int count = 0;
@@ -101,6 +115,28 @@ struct Stage {
         }
     }
 };
+
+namespace detail {
+
+/// Of a family with other stages than the usual two.
+template <class Permutation, class Callback>
+constexpr auto call_for_each_stage(const Permutation& permutation, Callback& callback, int)
+    -> decltype(permutation.for_each_stage(callback)) {
+    permutation.for_each_stage(callback);
+}
+template <class Permutation, class Callback>
+constexpr void call_for_each_stage(const Permutation& permutation, Callback& callback, long) {
+    callback(StageKind::vertex, permutation.vertex);
+    callback(StageKind::fragment, permutation.fragment);
+}
+
+}  // namespace detail
+
+/// Calls `callback(StageKind, stage)` for each stage of a permutation, in the order of the pipeline.
+template <class Permutation, class Callback>
+constexpr void for_each_stage(const Permutation& permutation, Callback&& callback) {
+    detail::call_for_each_stage(permutation, callback, 0);
+}
 
 /// A packed key of a family whose features need more than 64 bits. The first word weighs most.
 template <std::size_t Words>

@@ -141,8 +141,9 @@ double link_milliseconds(const Context& context, const Rival& rival) {
     const double start = milliseconds();
     const Composition& composition = rival.shaders.composition;
     for (const Permutation& permutation : composition.permutations)
-        static_cast<void>(must(link_program(context, {stage_text(composition, permutation.vertex),
-                                                      stage_text(composition, permutation.fragment)})));
+        static_cast<void>(
+            must(link_program(context, {stage_text(composition, permutation.stages[StageKind::vertex]),
+                                        stage_text(composition, permutation.stages[StageKind::fragment])})));
     return milliseconds() - start;
 }
 

@@ -45,8 +45,9 @@ void find_permutation(Pair& pair, const std::string& piece) {
     const Composition& composition = pair.guarded.composition();
     for (const bool is_in_fragment : {true, false})
         for (std::size_t i = 0; i < pair.guarded.size(); ++i) {
-            const Permutation& stages = composition.permutations[i];
-            if (!has_piece(composition, is_in_fragment ? stages.fragment : stages.vertex, piece)) continue;
+            const StageNumbers& stages = composition.permutations[i].stages;
+            const StageKind kind = is_in_fragment ? StageKind::fragment : StageKind::vertex;
+            if (!has_piece(composition, stages[kind], piece)) continue;
             pair.permutation = i;
             pair.is_in_fragment = is_in_fragment;
             return;

@@ -133,9 +133,9 @@ LitDrawing::LitDrawing(const Context& context, const LitUnderTest& lit, std::siz
     : context_(context), lit_(lit), permutation_(permutation) {
     context_.make_current();
     const Composition& composition = lit.composition();
-    const Permutation& stages = composition.permutations[permutation];
-    const StageText fragment = stage_text(composition, stages.fragment);
-    own_ = linked(context, {stage_text(composition, stages.vertex), fragment});
+    const StageNumbers& stages = composition.permutations[permutation].stages;
+    const StageText fragment = stage_text(composition, stages[StageKind::fragment]);
+    own_ = linked(context, {stage_text(composition, stages[StageKind::vertex]), fragment});
     const StageText feeding =
         stage_text(StageKind::vertex, "feeding.vert", feeding_stage(lit.fragment(permutation)));
     handed_on_ = linked(context, {feeding, fragment});

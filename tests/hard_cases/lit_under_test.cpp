@@ -218,11 +218,11 @@ std::string LitUnderTest::key(std::size_t permutation) const {
 }
 
 const evaluate::Program& LitUnderTest::vertex(std::size_t permutation) const {
-    return program(composition_.permutations[permutation].vertex);
+    return program(composition_.permutations[permutation].stages[StageKind::vertex]);
 }
 
 const evaluate::Program& LitUnderTest::fragment(std::size_t permutation) const {
-    return program(composition_.permutations[permutation].fragment);
+    return program(composition_.permutations[permutation].stages[StageKind::fragment]);
 }
 
 StageInputs LitUnderTest::inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const {

@@ -39,7 +39,7 @@ evaluate::Program fragment_of(const Family& family, const Key& key) {
     options.keep_spirv = true;
     options.debug_information = true;
     const Validated validated = validate(family, composition, options);
-    const auto stage = static_cast<std::size_t>(composition.permutations.front().fragment);
+    const auto stage = static_cast<std::size_t>(composition.permutations.front().stages[StageKind::fragment]);
     return evaluate::decode(validated.stages[stage].spirv).value();
 }
 

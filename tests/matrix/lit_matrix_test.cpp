@@ -108,7 +108,8 @@ TEST_P(LitMatrix, DifferentKeysAreDifferentPrograms) {
             return source_of(composition, composition.stages[static_cast<std::size_t>(stage)]);
         };
         const auto [at, is_new] = programs.try_emplace(
-            {source(permutation.vertex), source(permutation.fragment)}, key_text(family, permutation.key));
+            {source(permutation.stages[StageKind::vertex]), source(permutation.stages[StageKind::fragment])},
+            key_text(family, permutation.key));
         EXPECT_TRUE(is_new) << at->second << " and " << key_text(family, permutation.key);
     }
 }

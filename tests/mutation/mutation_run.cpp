@@ -74,7 +74,8 @@ std::map<std::string, std::vector<Key>> keys_by_piece(const Family& family) {
     std::map<std::string, std::vector<Key>> result;
     for (const Permutation& permutation : composition.permutations) {
         std::set<std::string> names;
-        for (const int stage : {permutation.vertex, permutation.fragment})
+        for (const int stage :
+             {permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]})
             for (const int piece : composition.stages[static_cast<std::size_t>(stage)].pieces)
                 names.insert(composition.pieces[static_cast<std::size_t>(piece)].name);
         for (const std::string& name : names) result[name].push_back(permutation.key);

@@ -51,8 +51,8 @@ DepthPass shipped_depth_pass(int side) {
     EXPECT_TRUE(shaders) << text_of(shaders.error());
     const Composition& composition = shaders->composition;
     DepthPass pass;
-    pass.stages = {stage_text(composition, composition.permutations[0].vertex),
-                   stage_text(composition, composition.permutations[0].fragment)};
+    pass.stages = {stage_text(composition, composition.permutations[0].stages[StageKind::vertex]),
+                   stage_text(composition, composition.permutations[0].stages[StageKind::fragment])};
     pass.interface = shaders->interfaces[0];
     pass.values = depth.family.render;
     pass.side = side;

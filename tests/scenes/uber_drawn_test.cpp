@@ -22,8 +22,8 @@ Drawable drawable(const ShippedFamily& shipped, const Key& key) {
     auto shaders = shaders_of(shipped.family, shipped.search, std::vector<Draw>(1), {key}, Dialect::own, 1);
     EXPECT_TRUE(shaders) << text_of(shaders.error());
     const Permutation& permutation = shaders->composition.permutations.front();
-    return {{stage_text(shaders->composition, permutation.vertex),
-             stage_text(shaders->composition, permutation.fragment)},
+    return {{stage_text(shaders->composition, permutation.stages[StageKind::vertex]),
+             stage_text(shaders->composition, permutation.stages[StageKind::fragment])},
             shaders->interfaces.front()};
 }
 

@@ -6,8 +6,8 @@
 
 #include "compose/compose.hpp"
 #include "family/key.hpp"
-#include "lab/verify/relations.hpp"
 #include "lab/verify/inputs.hpp"
+#include "lab/verify/relations.hpp"
 #include "lab/verify/sample.hpp"
 #include "settings.hpp"
 #include "uber_ports.hpp"
@@ -32,7 +32,7 @@ class Fragments {
 
     /// The permutation's programs, decoded.
     [[nodiscard]] evaluate::Outputs run(std::size_t permutation, const std::vector<Sample>& samples) const {
-        const int stage = composition_.permutations[permutation].fragment;
+        const int stage = composition_.permutations[permutation].stages[StageKind::fragment];
         const auto program =
             evaluate::decode(validated_.stages[static_cast<std::size_t>(stage)].spirv).value();
         return evaluate::run<float>(program, verify::bind_inputs(program, samples).value()).value();

@@ -44,7 +44,7 @@ class Compose : public testing::Test {
     Composed stage(const std::string& key, StageKind kind, Dialect dialect = Dialect::glsl450) {
         const Composition composition = all_of({key}, dialect).value();
         const Permutation& permutation = composition.permutations.front();
-        const int index = kind == StageKind::vertex ? permutation.vertex : permutation.fragment;
+        const int index = permutation.stages[kind];
         const Stage& found = composition.stages.at(static_cast<std::size_t>(index));
         Composed composed{{}, source_of(composition, found)};
         for (const int piece : found.pieces)
@@ -86,7 +86,7 @@ TEST_F(Compose, ShipsCommentsOnlyOnRequest) {
     files["tiny.frag"] = "// head\nvoid main() {} // b\n";
     const auto source = [&](Comments comments) {
         const Composition composition = all_of({"default"}, Dialect::glsl450, comments).value();
-        const int stage = composition.permutations.front().fragment;
+        const int stage = composition.permutations.front().stages[StageKind::fragment];
         return source_of(composition, composition.stages.at(static_cast<std::size_t>(stage)));
     };
     EXPECT_EQ(source(Comments::remove), "#version 450 core\n\nvoid main() {}\n");
@@ -167,10 +167,14 @@ TEST_F(Compose, EqualListsAreTheSameStage) {
     const Composition composition =
         all_of({"default", "fog=linear", "point=1", "point=1 fog=linear", "point=1 bump=on"}).value();
     EXPECT_EQ(composition.stages.size(), 4u) << "two vertex, two fragment stages";
-    EXPECT_EQ(composition.permutations[0].vertex, composition.permutations[1].vertex);
-    EXPECT_EQ(composition.permutations[0].fragment, composition.permutations[2].fragment);
-    EXPECT_EQ(composition.permutations[2].vertex, composition.permutations[4].vertex);
-    EXPECT_NE(composition.permutations[0].vertex, composition.permutations[2].vertex);
+    EXPECT_EQ(composition.permutations[0].stages[StageKind::vertex],
+              composition.permutations[1].stages[StageKind::vertex]);
+    EXPECT_EQ(composition.permutations[0].stages[StageKind::fragment],
+              composition.permutations[2].stages[StageKind::fragment]);
+    EXPECT_EQ(composition.permutations[2].stages[StageKind::vertex],
+              composition.permutations[4].stages[StageKind::vertex]);
+    EXPECT_NE(composition.permutations[0].stages[StageKind::vertex],
+              composition.permutations[2].stages[StageKind::vertex]);
 }
 
 const char* const varyings =

@@ -66,8 +66,8 @@ where = "point < 2"
                                       "some/folder/tiny.toml", {})
                               .value();
     EXPECT_EQ(family.name, "tiny");
-    EXPECT_EQ(family.vertex, "tiny.vert");
-    EXPECT_EQ(family.fragment, "tiny.frag");
+    EXPECT_EQ(family.programs.front()[StageKind::vertex], std::vector<std::string>{"tiny.vert"});
+    EXPECT_EQ(family.programs.front()[StageKind::fragment], std::vector<std::string>{"tiny.frag"});
 
     ASSERT_EQ(family.features.size(), 3u) << "sorted by name";
     EXPECT_EQ(family.features[0].name, "bump");

@@ -31,7 +31,8 @@ class Includes : public testing::Test {
         const Result<Composition> composition = composed(key);
         if (!composition) return first_text(composition.error());
         std::string text;
-        for (const int piece : composition->stage(composition->permutations.front().fragment).pieces)
+        for (const int piece :
+             composition->stage(composition->permutations.front().stages[StageKind::fragment]).pieces)
             text += composition->piece(piece).text;
         std::string dense;
         for (std::size_t at = text.find('\n') + 1; at < text.size(); ++at)
@@ -59,7 +60,8 @@ TEST_F(Includes, KeepTheLinesOfTheFile) {
     files["b.glsl"] = "int b;\n";
     const Composition composition = composed("default").value();
     std::vector<std::string> texts;
-    for (const int number : composition.stage(composition.permutations.front().fragment).pieces) {
+    for (const int number :
+         composition.stage(composition.permutations.front().stages[StageKind::fragment]).pieces) {
         const Piece& piece = composition.piece(number);
         texts.push_back(piece.path + "|" + piece.text);
         if (piece.path == "tiny.frag") {
@@ -241,9 +243,11 @@ TEST_F(Includes, OfLooseFilesLieBesideThem) {
     SearchPath search;
     const Family family = family_of_files({"one/a.vert", "two/b.frag"}, disk, search).value();
     const Composition composition = compose(family, {Key()}, search, Dialect::own).value();
-    EXPECT_EQ(source_of(composition, composition.stage(composition.permutations.front().vertex)),
-              "#version 450 core\nint one;\n\nvoid main() {}\n");
-    EXPECT_EQ(source_of(composition, composition.stage(composition.permutations.front().fragment)),
+    EXPECT_EQ(
+        source_of(composition, composition.stage(composition.permutations.front().stages[StageKind::vertex])),
+        "#version 450 core\nint one;\n\nvoid main() {}\n");
+    EXPECT_EQ(source_of(composition,
+                        composition.stage(composition.permutations.front().stages[StageKind::fragment])),
               "#version 450 core\nint two;\n\nvoid main() {}\n");
 }
 
@@ -259,9 +263,11 @@ TEST_P(ExtensionsOf, StandBehindTheVersion) {
     files["tiny.frag"] = "#version 330 core\n#extension GL_B : enable\n#include \"a.glsl\"\nvoid main() {}\n";
     files["a.glsl"] = GetParam().file;
     const Composition composition = composed("default").value();
-    EXPECT_EQ(
-        composition.piece(composition.stage(composition.permutations.front().fragment).pieces.front()).text,
-        "#version 330 core\n" + std::string(GetParam().prologue));
+    EXPECT_EQ(composition
+                  .piece(composition.stage(composition.permutations.front().stages[StageKind::fragment])
+                             .pieces.front())
+                  .text,
+              "#version 330 core\n" + std::string(GetParam().prologue));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -292,7 +298,9 @@ TEST_F(Includes, MayStateTheVersion) {
     files["a.glsl"] = "#version 330 core\nint a;\n";
     const auto prologue = [&] {
         const Composition composition = composed("default").value();
-        return composition.piece(composition.stage(composition.permutations.front().fragment).pieces.front())
+        return composition
+            .piece(composition.stage(composition.permutations.front().stages[StageKind::fragment])
+                       .pieces.front())
             .text;
     };
     EXPECT_EQ(prologue(), "#version 330 core\n") << "where the template states none";

@@ -48,8 +48,9 @@ testing::Compiled compiled(const Composition& composition, const gobo::Stage& st
 /// Where OpenGL's account of the linked permutation differs from `interface`.
 std::vector<std::string> differences_from_opengl(const Context& context, const Composition& composition,
                                                  const Permutation& permutation, const Interface& interface) {
-    const Result<Program> program = link_program(context, {stage_text(composition, permutation.vertex),
-                                                           stage_text(composition, permutation.fragment)});
+    const Result<Program> program =
+        link_program(context, {stage_text(composition, permutation.stages[StageKind::vertex]),
+                               stage_text(composition, permutation.stages[StageKind::fragment])});
     if (!program) return {to_text(program.error().front())};
     return differences(interface, interface_of_program(context, *program));
 }
@@ -74,8 +75,9 @@ TEST(Lit, IsReflectedAsBothWitnessesSay) {
     const Result<Context> context = open_context(Backend::osmesa);
     ASSERT_TRUE(context) << to_text(context.error().front());
     for (const Permutation& permutation : lit.permutations) {
-        const Interface program = merge({stages[static_cast<std::size_t>(permutation.vertex)],
-                                         stages[static_cast<std::size_t>(permutation.fragment)]});
+        const Interface program =
+            merge({stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])],
+                   stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])]});
         EXPECT_THAT(differences_from_opengl(*context, lit, permutation, program), IsEmpty());
     }
 }
@@ -88,8 +90,9 @@ TEST(Lit, HasOneInterfaceForAllPermutations) {
     // Programs, not stages: what a vertex stage hands on is nobody's but its fragment stage's.
     std::vector<Interface> programs;
     for (const Permutation& permutation : lit.permutations)
-        programs.push_back(merge({stages[static_cast<std::size_t>(permutation.vertex)],
-                                  stages[static_cast<std::size_t>(permutation.fragment)]}));
+        programs.push_back(
+            merge({stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])],
+                   stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])]}));
     const Interface family = unite(programs).interface;
     const auto lights = std::ranges::find(family.blocks, "PointLights", &Block::name);
     ASSERT_NE(lights, family.blocks.end());

@@ -296,7 +296,8 @@ TEST_P(HostileComment, MeansTheSameWhenItIsGone) {
     for (const Comments comments : {Comments::keep, Comments::remove}) {
         const Composition composition = compose(family, {{}}, search, dialect, comments).value();
         const Validated validated = validate(family, composition, options);
-        const auto fragment = static_cast<std::size_t>(composition.permutations.front().fragment);
+        const auto fragment =
+            static_cast<std::size_t>(composition.permutations.front().stages[StageKind::fragment]);
         modules.push_back(validated.stages[fragment].spirv);
         sources.push_back(source_of(composition, composition.stages[fragment]));
         EXPECT_EQ(exit_status(validated.diagnostics) == 0, row.compiles)

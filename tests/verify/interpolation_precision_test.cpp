@@ -85,14 +85,16 @@ double largest_error(const Context& context, const Row& row, int side) {
     view.width = view.height = side;
     const std::vector<Object> objects = demo_objects(
         read_obj(DiskFileSystem(), std::string(GOBO_SOURCE_DIR) + "/data/meshes/teapot.obj").value());
-    const Image picture = render_permutation(context,
-                                             {stage_text(shown.composition, permutation.vertex),
-                                              stage_text(shown.composition, permutation.fragment)},
-                                             interface, objects, shown.family.render, view)
-                              .value()
-                              .color;
-    const auto program =
-        raster::pipeline_of(shown.spirv_of(permutation.vertex), shown.spirv_of(permutation.fragment)).value();
+    const Image picture =
+        render_permutation(context,
+                           {stage_text(shown.composition, permutation.stages[StageKind::vertex]),
+                            stage_text(shown.composition, permutation.stages[StageKind::fragment])},
+                           interface, objects, shown.family.render, view)
+            .value()
+            .color;
+    const auto program = raster::pipeline_of(shown.spirv_of(permutation.stages[StageKind::vertex]),
+                                             shown.spirv_of(permutation.stages[StageKind::fragment]))
+                             .value();
     const std::vector<raster::RasterObject> rasterised =
         raster::rasterise_objects(program, interface, objects, shown.family.render, view).value();
     std::vector<Nearest> pixels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));

@@ -29,7 +29,7 @@ Colors evaluate_at(const std::string& key, StageKind stage, const std::string& o
     options.keep_spirv = true;
     const Validated validated = validate(family, composition, options);
     const Permutation& permutation = composition.permutations.front();
-    const int index = stage == StageKind::vertex ? permutation.vertex : permutation.fragment;
+    const int index = permutation.stages[stage];
     const auto program = evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv).value();
     const auto outputs =
         evaluate::run<double>(program, verify::bind_inputs(program, samples).value()).value();

@@ -22,13 +22,14 @@ verify::ShadowPass shadow_pass() {
     const Validated validated = validate(family, composition, options);
     const Permutation& permutation = composition.permutations.front();
     verify::ShadowPass result;
-    result.pass.stages = {stage_text(composition, permutation.vertex),
-                          stage_text(composition, permutation.fragment)};
+    result.pass.stages = {stage_text(composition, permutation.stages[StageKind::vertex]),
+                          stage_text(composition, permutation.stages[StageKind::fragment])};
     result.pass.interface = interface_of(validated, permutation);
     result.pass.values = family.render;
     result.pass.side = 64;
-    result.vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
-    result.fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
+    result.vertex = validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])].spirv;
+    result.fragment =
+        validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv;
     return result;
 }
 

@@ -36,7 +36,8 @@ Drawable compose_drawable(const std::string& family_name, const std::string& key
     const Composition composition = compose_lit(family, keys_of(family, {key}), {}).value();
     const Validated validated = validate(family, composition, {});
     const Permutation& permutation = composition.permutations.front();
-    return {{stage_text(composition, permutation.vertex), stage_text(composition, permutation.fragment)},
+    return {{stage_text(composition, permutation.stages[StageKind::vertex]),
+             stage_text(composition, permutation.stages[StageKind::fragment])},
             interface_of(validated, permutation),
             family,
             permutation.key};

@@ -143,7 +143,7 @@ TEST(Verify, AsksTheOracleAboutAnyInvocation) {
     ValidateOptions options;
     options.keep_spirv = true;
     const Validated validated = validate(family, composition, options);
-    const auto fragment = static_cast<std::size_t>(composition.permutations[0].fragment);
+    const auto fragment = static_cast<std::size_t>(composition.permutations[0].stages[StageKind::fragment]);
     const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
     const oracle::Model model = oracle::model_of(family, keys[0]).value();
     const auto samples = verify::make_samples(model, StageKind::fragment, 1, 3);

@@ -140,8 +140,7 @@ class PieceLibrary {
         const auto dot = path.rfind('.');
         const auto slash = path.rfind('/');
         if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path;
-        return fmt::format("{}.{}{}", path.substr(0, dot), stage == StageKind::vertex ? "vert" : "frag",
-                           path.substr(dot));
+        return fmt::format("{}.{}{}", path.substr(0, dot), names_of(stage).infix, path.substr(dot));
     }
 
     Result<std::optional<int>> load(const std::string& path, const std::string& root) {
@@ -313,22 +312,28 @@ class Composer {
     }
 
     Result<void> add(const Key& key) {
+        // The fragment stage comes first: the vertex stage writes what it reads.
         Placement fragment{key, StageKind::fragment, nullptr};
-        GOBO_TRY_DO(follow_template(fragment, family_.fragment));
+        GOBO_TRY_DO(follow_templates(fragment));
         const std::vector<int> read = varyings_read(fragment.placed);
-        Placement vertex{key, StageKind::vertex, &read};
-        GOBO_TRY_DO(follow_template(vertex, family_.vertex));
-        const int vertex_stage = finish(vertex, read);
-        composition_.permutations.push_back({key, vertex_stage, finish(fragment, read)});
+        Permutation permutation{key};
+        for (const StageNames& stage : kStages) {
+            Placement placement{key, stage.kind, stage.kind == StageKind::vertex ? &read : nullptr};
+            const bool is_fragment = stage.kind == StageKind::fragment;
+            if (!is_fragment) GOBO_TRY_DO(follow_templates(placement));
+            permutation.stages[stage.kind] = finish(is_fragment ? fragment : placement, read);
+        }
+        composition_.permutations.push_back(std::move(permutation));
         return {};
     }
 
     Composition result() && { return std::move(composition_); }
 
   private:
-    Result<void> follow_template(Placement& placement, const std::string& path) {
-        return path.empty() ? Result<void>()
-                            : follow(placement, {false, path, {family_.path, 0, 0}, ""}, nullptr);
+    Result<void> follow_templates(Placement& placement) {
+        for (const std::string& path : family_.templates_of(placement.key)[placement.stage])
+            GOBO_TRY_DO(follow(placement, {false, path, {family_.path, 0, 0}, ""}, nullptr));
+        return {};
     }
 
     /// Places a file: what it includes at its top, then its text.
@@ -560,10 +565,6 @@ class Composer {
 
 }  // namespace
 
-std::string_view name_of(StageKind kind) {
-    return kind == StageKind::vertex ? "vertex" : "fragment";
-}
-
 std::string_view line_of(const Piece& piece, int number) {
     return line_of(piece.file_text.empty() ? piece.text : piece.file_text, number);
 }
@@ -589,12 +590,11 @@ Result<Composition> compose(const Family& family, const std::vector<Key>& keys, 
 }
 
 Diagnostics same_stages(const Family& family, const Composition& composition) {
-    std::map<std::pair<int, int>, const Permutation*> first_of;
+    std::map<StageNumbers, const Permutation*> first_of;
     std::string example;
     int more = -1;
     for (const Permutation& permutation : composition.permutations) {
-        const auto [at, is_new] =
-            first_of.try_emplace({permutation.vertex, permutation.fragment}, &permutation);
+        const auto [at, is_new] = first_of.try_emplace(permutation.stages, &permutation);
         if (is_new || ++more > 0) continue;
         example = fmt::format("the keys '{}' and '{}' compose to the same stages",
                               key_text(family, at->second->key), key_text(family, permutation.key));

@@ -7,14 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/stage.hpp"
 #include "family/family.hpp"
 
 namespace gobo {
-
-enum class StageKind { vertex, fragment };
-
-/// "vertex" or "fragment".
-[[nodiscard]] std::string_view name_of(StageKind kind);
 
 /// The GLSL dialect that a permutation is composed for.
 enum class Dialect {
@@ -55,11 +51,10 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
-/// A canonical key with its two stages.
+/// A canonical key with its stages.
 struct Permutation {
     Key key;
-    int vertex = 0;  ///< index into Composition::stages
-    int fragment = 0;
+    StageNumbers stages = {};  ///< indices into Composition::stages
 };
 
 /// The permutations of one family, with every distinct piece and stage once.

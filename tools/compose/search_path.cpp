@@ -69,15 +69,6 @@ std::string name_of_file(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
 }
 
-/// The stage that a file's name tells: .vert or .frag, also with .glsl behind; nothing for any other name.
-std::optional<StageKind> stage_of_file(const std::string& path) {
-    std::string_view name = path;
-    if (name.ends_with(".glsl")) name.remove_suffix(5);
-    if (name.ends_with(".vert")) return StageKind::vertex;
-    if (name.ends_with(".frag")) return StageKind::fragment;
-    return std::nullopt;
-}
-
 }  // namespace
 
 bool stays_inside(std::string_view include_path) {
@@ -180,27 +171,27 @@ std::vector<std::string> SearchPath::all_include_paths() const {
 }
 
 bool is_shader_file(const std::string& path) {
-    constexpr std::string_view extensions[] = {".vert", ".frag", ".glsl", ".geom", ".comp",
-                                               ".tesc", ".tese", ".vs",   ".fs"};
-    return std::ranges::any_of(extensions,
-                               [&](std::string_view extension) { return path.ends_with(extension); });
+    return path.ends_with(kExtension) || stage_of_file(path);
 }
 
 Result<Family> family_of_files(const std::vector<std::string>& paths, const FileSystem& files,
-                               SearchPath& search) {
+                               SearchPath& search, const std::vector<StageKind>& stages) {
     Family family;
     family.name = "files";
+    Templates& templates = family.programs.emplace_back();
+    auto next = stages.begin();
     for (const std::string& path : paths) {
-        const auto stage = stage_of_file(path);
+        std::optional<StageKind> stage = stage_of_file(path);
+        if (!stage && next != stages.end()) stage = *next++;
         if (!stage)
             return fail(Fault::usage, fmt::format("the stage of '{}' is unknown", path),
-                        "name vertex stages *.vert or *.vert.glsl, fragment stages *.frag or *.frag.glsl");
+                        "give it with -S vert, tesc, tese, geom, frag or comp, or name the file *.vert or "
+                        "*.vert.glsl");
         if (!files.is_file(path)) return tl::unexpected(files.read(path).error());
-        std::string& slot = *stage == StageKind::vertex ? family.vertex : family.fragment;
-        if (!slot.empty())
+        if (!templates[*stage].empty())
             return fail(Fault::usage, fmt::format("'{}' is a second {} stage", path, name_of(*stage)),
                         "name at most one file of each stage");
-        slot = name_of_file(path);
+        templates[*stage] = {name_of_file(path)};
         search.add_file(files, path);
         search.add(files, folder_of(path), "", true);
         if (family.path.empty()) family.path = path;

@@ -59,8 +59,9 @@ class SearchPath {
 [[nodiscard]] bool is_shader_file(const std::string& path);
 
 /// Shader files that belong to no family, as a family of one key: they are its templates, and their folders
-/// are added to `search`. At most one file of each stage; Fault::usage otherwise.
+/// are added to `search`. `stages` are, in order, those of the files whose names tell none. At most one file
+/// of each stage; Fault::usage otherwise.
 [[nodiscard]] Result<Family> family_of_files(const std::vector<std::string>& paths, const FileSystem& files,
-                                             SearchPath& search);
+                                             SearchPath& search, const std::vector<StageKind>& stages = {});
 
 }  // namespace gobo

@@ -71,6 +71,14 @@ std::string choice_text(const std::vector<QualityChoice>& qualities, const Key& 
     return "";
 }
 
+/// The numbers of the stages that a permutation has, as further members of its row.
+std::string stages_text(const StageNumbers& stages) {
+    std::string text;
+    for (const StageNames& stage : kStages)
+        if (stages[stage.kind] >= 0) text += fmt::format(",\"{}\":{}", stage.name, stages[stage.kind]);
+    return text;
+}
+
 std::vector<std::string> permutation_rows(const EmitInput& input) {
     std::vector<std::pair<std::string, const Permutation*>> sorted;
     for (const Permutation& permutation : input.composition.permutations)
@@ -79,8 +87,8 @@ std::vector<std::string> permutation_rows(const EmitInput& input) {
     std::vector<std::string> rows;
     for (const auto& [key, permutation] : sorted)
         rows.push_back(fmt::format(
-            "{{\"key\":{},\"vertex\":{},\"fragment\":{}{}{}}}", text_of(key), permutation->vertex,
-            permutation->fragment, choice_text(input.qualities, permutation->key),
+            "{{\"key\":{}{}{}{}}}", text_of(key), stages_text(permutation->stages),
+            choice_text(input.qualities, permutation->key),
             declared_text(input.differing,
                           static_cast<std::size_t>(permutation - input.composition.permutations.data()))));
     return rows;

@@ -112,6 +112,47 @@ std::set<std::string_view> names_to_cut(const Composition& composition, const st
     return names;
 }
 
+/// The stages that the permutations have, in the order of the pipeline, and whether some lack one of them.
+struct HeaderStages {
+    std::vector<StageKind> kinds;
+    bool some_lack = false;
+};
+
+HeaderStages stages_of(const Composition& composition) {
+    HeaderStages stages;
+    for (const StageNames& stage : kStages) {
+        const auto has = [&](const Permutation& permutation) { return permutation.stages[stage.kind] >= 0; };
+        const auto count = std::ranges::count_if(composition.permutations, has);
+        if (count > 0) stages.kinds.push_back(stage.kind);
+        stages.some_lack |= count > 0 && count < std::ssize(composition.permutations);
+    }
+    const bool has_none = stages.kinds.empty();
+    if (has_none) stages.kinds = {StageKind::vertex, StageKind::fragment};
+    return stages;
+}
+
+/// The members of Permutation, and where they are not just the usual two a function that calls for each.
+void add_members(const HeaderStages& stages, TemplateValues& values) {
+    std::string& members = values["stage_members"];
+    std::string calls;
+    for (const StageKind kind : stages.kinds) {
+        const std::string_view name = name_of(kind);
+        members += fmt::format("    Stage {};\n", name);
+        calls += fmt::format("        {0}callback(gobo::runtime::StageKind::{1}, {1});\n",
+                             stages.some_lack ? fmt::format("if ({}.exists()) ", name) : "", name);
+    }
+    const bool are_usual = stages.kinds == std::vector{StageKind::vertex, StageKind::fragment};
+    if (are_usual && !stages.some_lack) {
+        values["stage_calls"] = "";
+        return;
+    }
+    values["stage_calls"] = fmt::format(
+        "    /// Calls `callback(gobo::runtime::StageKind, Stage)` for each stage that it has.\n"
+        "    template <class Callback>\n"
+        "    constexpr void for_each_stage(Callback&& callback) const {{\n{}    }}\n",
+        calls);
+}
+
 }  // namespace
 
 void permutation_section(const Composition& composition, const CppKey& key, const Declarations& declarations,
@@ -119,7 +160,8 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
     std::set<int> used;  // stages
     std::vector<std::pair<PackedKey, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
-        used.insert({permutation.vertex, permutation.fragment});
+        for (const int stage : permutation.stages.values)
+            if (stage >= 0) used.insert(stage);
         sorted.emplace_back(pack(permutation.key, key), &permutation);
     }
     std::ranges::sort(sorted);
@@ -167,6 +209,12 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
         }
     }
     list_begins.push_back(list_pieces.size());
+    const HeaderStages stages = stages_of(composition);
+    if (stages.some_lack) {  // a stage without texts
+        tables.push_back(fmt::format("{{{}, 0, 0, 0}}", stage_numbers.size()));
+        stage_numbers.emplace(-1, stage_numbers.size());
+    }
+    add_members(stages, values);
 
     std::vector<std::string> keys;
     std::vector<std::string> rows;
@@ -176,9 +224,10 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
                                             ? std::string()
                                             : fmt::format(", {}", declarations.combination_of(number));
         keys.push_back(packed_text(packed));
-        rows.push_back(fmt::format("{{{}, {{{}}}, {{{}}}{}}}", rows.size(),
-                                   stage_numbers[permutation->vertex], stage_numbers[permutation->fragment],
-                                   combination));
+        std::string numbers;
+        for (const StageKind kind : stages.kinds)
+            numbers += fmt::format(", {{{}}}", stage_numbers.at(permutation->stages[kind]));
+        rows.push_back(fmt::format("{{{}{}{}}}", rows.size(), numbers, combination));
     }
     values["stage_digits"] = numbers_text("stage_digits", digits);
     values["first_lists"] = numbers_text("first_lists", first_lists);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
+#include "core/stage.hpp"
 #include "family/expression.hpp"
 
 namespace gobo {
@@ -141,13 +142,19 @@ struct Selection {
     [[nodiscard]] bool names_nothing() const { return keys.empty() && !all && cover == 0; }
 };
 
-/// A set of shaders that share templates.
+/// One value per feature of a family: the index of the value, in the order of Family::features.
+using Key = std::vector<int>;
+
+/// The templates of a program, by their include paths. The files of a stage are joined in order; a stage
+/// without files is none of the program's.
+using Templates = PerStage<std::vector<std::string>>;
+
+/// A set of shaders that share features.
 struct Family {
     std::string name;
-    std::string path;      ///< of the family file, as given
-    std::string vertex;    ///< template, by its include path; empty where loose files give no vertex stage
-    std::string fragment;  ///< likewise
-    std::vector<Feature> features;  ///< sorted by name
+    std::string path;                 ///< of the family file, as given
+    std::vector<Templates> programs;  ///< one, or one for each value of the feature `program`
+    std::vector<Feature> features;    ///< sorted by name
     std::vector<Rule> rules;
     std::vector<Varying> varyings;  ///< single ones by location, then counted ones by name
     std::vector<Domain> domains;    ///< sorted by name
@@ -158,9 +165,8 @@ struct Family {
     [[nodiscard]] std::optional<int> index_of(std::string_view feature) const {
         return gobo::index_of(features, feature);
     }
+    /// The templates of the program that a key chooses.
+    [[nodiscard]] const Templates& templates_of(const Key& key) const;
 };
-
-/// One value per feature of a family: the index of the value, in the order of Family::features.
-using Key = std::vector<int>;
 
 }  // namespace gobo

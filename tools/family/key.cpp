@@ -21,6 +21,11 @@ std::string Feature::help_for(std::string_view value) const {
     return suggestion(value, values);
 }
 
+const Templates& Family::templates_of(const Key& key) const {
+    const auto chosen = programs.size() > 1 ? index_of("program") : std::nullopt;
+    return programs[chosen ? static_cast<std::size_t>(key[static_cast<std::size_t>(*chosen)]) : 0];
+}
+
 std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name) {
     const auto found = std::ranges::find(features, name, &Feature::name);
     if (found == features.end()) return std::nullopt;

@@ -147,13 +147,66 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
     return selection;
 }
 
-/// The file of a stage.
-std::string read_template(const TomlTable& root, const char* stage) {
-    std::string path = root.required_string(stage);
-    if (path.empty() && root.has(stage))
-        root.error(stage, fmt::format("has no file for '{}'", stage),
-                   fmt::format("name the template that holds main(): {} = \"...\"", stage));
-    return path;
+/// `vertex = "a.vert"` or `fragment = ["a.frag", "b.frag"]`, for each stage. Only the program of a pass that
+/// draws no colours may lack the fragment stage.
+Templates read_templates(const TomlTable& table, bool needs_fragment) {
+    Templates templates;
+    for (const StageNames& stage : kStages) {
+        if (!table.has(stage.name)) continue;
+        std::vector<std::string>& files = templates[stage.kind];
+        const bool are_several = table.entries.get(stage.name)->is_array();
+        files = are_several ? table.strings(stage.name) : std::vector{table.string(stage.name).value_or("")};
+        if (files.empty() || std::ranges::count(files, "") > 0)
+            table.error(stage.name, fmt::format("has no file for '{}'", stage.name),
+                        fmt::format("name the template that holds main(): {} = \"...\"", stage.name));
+    }
+    const auto has = [&](StageKind stage) { return !templates[stage].empty(); };
+    if (has(StageKind::compute)) {
+        if (std::ranges::count_if(templates.values, [](const auto& files) { return !files.empty(); }) > 1)
+            table.error("compute", "has a compute stage beside others",
+                        "a compute stage is a program of its own: write it under [programs.NAME]");
+        return templates;
+    }
+    if (!has(StageKind::vertex)) static_cast<void>(table.required_string("vertex"));
+    if (!has(StageKind::fragment) && needs_fragment) static_cast<void>(table.required_string("fragment"));
+    if (has(StageKind::tess_control) && !has(StageKind::tess_evaluation))
+        table.error("tess_control", "has a tess_control stage without a tess_evaluation stage",
+                    "add tess_evaluation = \"NAME.tese\"");
+    return templates;
+}
+
+/// The templates at the top of the file, then those of each of [programs].
+std::vector<Templates> read_programs(const TomlTable& root) {
+    std::vector<Templates> programs = {read_templates(root, true)};
+    const auto tables = root.table("programs");
+    if (!tables) return programs;
+    for (const auto& [key, node] : tables->entries) {
+        const std::string what = fmt::format("program '{}'", key.str());
+        if (!node.is_table() || !is_identifier(key.str()) || key.str() == "main") {
+            root.reader.error(
+                node, what + " must be an identifier other than 'main' with a table",
+                "write [programs.NAME] with its stages; those at the top of the file are 'main'");
+            break;
+        }
+        const TomlTable table(root.reader, *node.as_table(), what);
+        std::vector<std::string> known = {"features"};
+        for (const StageNames& stage : kStages) known.emplace_back(stage.name);
+        table.only(known);
+        programs.push_back(read_templates(table, false));
+    }
+    return programs;
+}
+
+/// A stage that lies between would have to hand them on.
+void refuse_varyings_across_stages(const TomlTable& root, const Family& family) {
+    for (const Templates& program : family.programs)
+        for (const StageNames& stage : kStages)
+            if (lies_between(stage.kind) && !program[stage.kind].empty() && !family.varyings.empty())
+                root.reader.error(family.varyings.front().place,
+                                  fmt::format("[varyings] lead from the vertex to the fragment stage, but "
+                                              "the family has a {} stage between",
+                                              stage.name),
+                                  "declare them as in and out variables in each stage");
 }
 
 /// Follows `extends`, once: a family that is extended stands on its own feet.
@@ -182,17 +235,19 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     Family family;
     family.path = path;
     const TomlTable root(reader, reader.root(), "the family");
-    root.only({"name", "extends", "vertex", "fragment", "features", "rules", "varyings", "domain", "render",
-               "relations", "default_set", "renamed"});
+    std::vector<std::string> known = {"name",   "extends", "programs",  "features",    "rules",  "varyings",
+                                      "domain", "render",  "relations", "default_set", "renamed"};
+    for (const StageNames& stage : kStages) known.emplace_back(stage.name);
+    root.only(known);
     family.name = root.required_string("name");
     if (!reader.failed() && !is_identifier(family.name))
         reader.error(root.place_of("name"), fmt::format("'{}' cannot name a family", family.name),
                      "use letters, digits and _, not starting with a digit: it names a C++ namespace");
-    family.vertex = read_template(root, "vertex");
-    family.fragment = read_template(root, "fragment");
+    family.programs = read_programs(root);
     family.features = read_features(root);
     family.rules = read_rules(root, family.features);
     family.varyings = read_varyings(root, family.features);
+    refuse_varyings_across_stages(root, family);
     family.domains = read_domains(root);
     family.render = read_render_values(root, "render");
     family.relations = read_relations(root, family.features);

@@ -15,6 +15,9 @@ namespace {
 /// A count above this would make shaders no driver takes; it also bounds what a hostile file can ask for.
 constexpr std::int64_t kLargestCount = 4096;
 
+constexpr const char* kProgramFeature = "program";
+constexpr const char* kMainProgram = "main";
+
 /// Keys hold indices, and everywhere index 0 is the default: where the family names another than the first
 /// value, that one moves to the front.
 void put_default_first(const TomlTable& table, Feature& feature) {
@@ -137,6 +140,44 @@ void read_renamed(const TomlTable& root, std::vector<Feature>& features) {
                               "only the new one exists");
         }
     }
+}
+
+/// The choice between the templates at the top of the file, called `main`, and those of [programs].
+void add_program_feature(const TomlTable& programs, std::vector<Feature>& features) {
+    Feature feature;
+    feature.name = kProgramFeature;
+    feature.role = Role::pipeline;
+    feature.place = programs.place_of();
+    feature.values = {kMainProgram};
+    for (const auto& [key, node] : programs.entries) feature.values.emplace_back(key.str());
+    const auto before = std::ranges::lower_bound(features, feature.name, {}, &Feature::name);
+    if (before != features.end() && before->name == feature.name)
+        return programs.reader.error(before->place, "the feature 'program' chooses between [programs]",
+                                     "give this feature another name");
+    features.insert(before, std::move(feature));
+}
+
+/// Where a program names its features, the others make no difference to it.
+std::vector<Rule> rules_of_programs(const TomlTable& root, const std::vector<Feature>& features) {
+    std::vector<Rule> rules;
+    const auto programs = root.table("programs");
+    if (!programs || root.reader.failed()) return rules;
+    for (const auto& [key, node] : programs->entries) {
+        const TomlTable table(root.reader, *node.as_table(), fmt::format("program '{}'", key.str()));
+        if (!table.has("features")) continue;
+        std::set<int> used = {*index_of(features, kProgramFeature)};
+        for (const std::string& name : table.strings("features"))
+            used.insert(read_feature_name(table, "features", name, features));
+        Rule rule;
+        rule.place = table.place_of("features");
+        rule.when = parse_expression(fmt::format("{} == {}", kProgramFeature, key.str()), features,
+                                     rule.place, Fault::input)
+                        .value();
+        for (int feature = 0; feature < static_cast<int>(features.size()); ++feature)
+            if (!used.contains(feature)) rule.defaults.push_back(feature);
+        if (!rule.defaults.empty()) rules.push_back(std::move(rule));
+    }
+    return rules;
 }
 
 Rule read_rule(const TomlTable& table, const std::vector<Feature>& features) {
@@ -286,10 +327,10 @@ std::vector<RenderValue> read_render_values(const TomlTable& table, std::string_
 
 std::vector<Feature> read_features(const TomlTable& root) {
     std::vector<Feature> features;  // TOML tables come sorted by name
-    const auto table = root.table("features");
-    if (!table) return features;
-    for (const auto& [key, node] : table->entries)
-        features.push_back(read_feature(root.reader, std::string(key.str()), node));
+    if (const auto table = root.table("features"))
+        for (const auto& [key, node] : table->entries)
+            features.push_back(read_feature(root.reader, std::string(key.str()), node));
+    if (const auto programs = root.table("programs")) add_program_feature(*programs, features);
     std::set<std::string> macros;
     for (const Feature& feature : features)
         if (!feature.macro.empty() && !macros.insert(feature.macro).second)
@@ -302,7 +343,7 @@ std::vector<Feature> read_features(const TomlTable& root) {
 }
 
 std::vector<Rule> read_rules(const TomlTable& root, const std::vector<Feature>& features) {
-    std::vector<Rule> rules;
+    std::vector<Rule> rules = rules_of_programs(root, features);
     for (const TomlTable& rule : root.tables("rules", "a rule")) rules.push_back(read_rule(rule, features));
     return rules;
 }

@@ -11,10 +11,11 @@ namespace gobo {
 
 // Errors go to the reader.
 
-/// Sorted by name, with the names of [renamed].
+/// Sorted by name, with the names of [renamed]; with [programs] also the choice `program` between them.
 [[nodiscard]] std::vector<Feature> read_features(const TomlTable& root);
 
-/// Rules and relations in the order of the file, their conditions parsed.
+/// Rules and relations in the order of the file, their conditions parsed; before them the rules by which a
+/// program has only the features that it names.
 [[nodiscard]] std::vector<Rule> read_rules(const TomlTable& root, const std::vector<Feature>& features);
 [[nodiscard]] std::vector<Relation> read_relations(const TomlTable& root,
                                                    const std::vector<Feature>& features);

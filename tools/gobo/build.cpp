@@ -36,12 +36,15 @@ Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
 /// composition.
 United united_interface(const Composition& composition, const Validated& validated) {
     std::vector<Interface> programs;
-    std::map<std::pair<int, int>, std::size_t> numbers;
+    std::map<StageNumbers, std::size_t> numbers;
     std::vector<std::size_t> program_of;
     for (const Permutation& permutation : composition.permutations) {
-        const auto [place, is_new] =
-            numbers.try_emplace({permutation.vertex, permutation.fragment}, programs.size());
-        if (is_new) programs.push_back(interface_of(validated, permutation));
+        const auto [place, is_new] = numbers.try_emplace(permutation.stages, programs.size());
+        if (is_new) {
+            Interface& program = programs.emplace_back(interface_of(validated, permutation));
+            // The header lists the outputs of fragment stages.
+            if (permutation.stages[StageKind::fragment] < 0) program.outputs.clear();
+        }
         program_of.push_back(place->second);
     }
     United united = unite(programs);

@@ -107,7 +107,23 @@ Option family_argument(std::string& name) {
 
 Option subject_argument(std::vector<std::string>& names) {
     return {"NAMES", "FAMILY KEY|FILES...",
-            "A family and a key, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)", &names, kRequired};
+            "A family and a key, or shader files (.vert, .frag, .geom, .comp, .vert.glsl, ...)", &names,
+            kRequired};
+}
+
+std::string stage_words() {
+    std::vector<std::string> words;
+    for (const StageNames& stage : kStages) words.emplace_back(stage.name);
+    for (const StageNames& stage : kStages) words.emplace_back(stage.infix);
+    return join(words, "|");
+}
+
+Option stages_option(std::vector<std::string>& stages) {
+    return {
+        "-S", "STAGE",
+        "The stage of a shader file whose name does not tell it (vert, tesc, tese, geom, frag or comp); for "
+        "several files once each, in order",
+        &stages};
 }
 
 Option comments_option(bool& comments) {
@@ -213,13 +229,22 @@ Result<Validated> compile(const World& world, const Family& family, const Compos
 }
 
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
-                             const std::string& dialect, const SelectionOptions* selection) {
+                             const std::vector<std::string>& stages, const std::string& dialect,
+                             const SelectionOptions* selection) {
     Subject subject;
-    if (std::any_of(names.begin(), names.end(), is_shader_file)) {
+    if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file)) {
+        std::vector<StageKind> kinds;
+        for (const std::string& name : stages) {
+            const std::optional<StageKind> kind = stage_named(name);
+            if (!kind)
+                return fail(Fault::usage, fmt::format("-S: there is no stage '{}'", name),
+                            suggestion(name, split(stage_words(), '|')));
+            kinds.push_back(*kind);
+        }
         subject.are_files = true;
         GOBO_TRY(subject.family.dialect, read_dialect(dialect));
         add_include_folders(world, subject.family.search);
-        GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search));
+        GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search, kinds));
         GOBO_TRY(subject.composition, compose_keys(subject.family, {Key{}}));
         return subject;
     }

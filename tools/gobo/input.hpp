@@ -118,12 +118,17 @@ struct Subject {
     bool are_files = false;  ///< there is no key to speak of
 };
 /// `names` are files, told by their ends; or FAMILY [KEY], or FAMILY alone where there is a selection.
+/// `stages` are the values of -S.
 [[nodiscard]] Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
-                                           const std::string& dialect,
+                                           const std::vector<std::string>& stages, const std::string& dialect,
                                            const SelectionOptions* selection = nullptr);
 [[nodiscard]] Result<Validated> compile(const World& world, const Subject& subject,
                                         const ValidateOptions& options = {});
 [[nodiscard]] Option subject_argument(std::vector<std::string>& names);
+/// -S of commands that take shader files.
+[[nodiscard]] Option stages_option(std::vector<std::string>& stages);
+/// "vertex|tess_control|...|vert|tesc|...", the choices of an option.
+[[nodiscard]] std::string stage_words();
 
 /// A file, or standard input where the path is `-`.
 [[nodiscard]] Result<std::string> read_input(const World& world, const std::string& path);

@@ -9,12 +9,13 @@ namespace {
 
 struct ReflectOptions {
     std::vector<std::string> names;  ///< FAMILY KEY, or files
+    std::vector<std::string> stages;
     std::string dialect;
     bool json = false;
 };
 
 Result<Outcome> run(const ReflectOptions& options, const World& world) {
-    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.dialect));
+    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.stages, options.dialect));
     GOBO_TRY(Validated validated, compile(world, subject));
     const Interface interface = interface_of(validated, subject.composition.permutations.front());
     return Outcome{options.json ? to_json(interface).dump(2) + "\n" : to_text(interface),
@@ -27,6 +28,7 @@ Command reflect_command() {
     const auto options = std::make_shared<ReflectOptions>();
     return {{"reflect", "The interface of a permutation, or of GLSL files"},
             {subject_argument(options->names),
+             stages_option(options->stages),
              {"--json", "", "Print JSON", &options->json},
              dialect_option(options->dialect)},
             {},

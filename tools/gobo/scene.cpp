@@ -178,9 +178,8 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     }
     // Only composing tells which keys are the same program.
     GOBO_TRY(const Composition composition, compose_keys(loaded, keys));
-    std::set<std::pair<int, int>> programs;
-    for (const Permutation& permutation : composition.permutations)
-        programs.emplace(permutation.vertex, permutation.fragment);
+    std::set<StageNumbers> programs;
+    for (const Permutation& permutation : composition.permutations) programs.insert(permutation.stages);
     report.distinct_programs = programs.size();
     report.compiled_stages = composition.stages.size();
     ValidateOptions validate_options;

@@ -1,6 +1,8 @@
 // gobo show: the composed source of one key.
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+#include "family/key.hpp"
 #include "gobo/commands.hpp"
 
 namespace gobo {
@@ -28,12 +30,19 @@ Result<Outcome> run(const ShowOptions& options, const World& world) {
     if (options.comments) family.comments = Comments::keep;
     GOBO_TRY(const Composition composition, compose_selection(world, family, {.keys = {options.key}}));
     const Permutation& permutation = composition.permutations.front();
-    const std::string vertex = shown(composition, permutation.vertex, options.pieces);
-    const std::string fragment = shown(composition, permutation.fragment, options.pieces);
-    if (options.stage.starts_with("vert")) return Outcome{vertex};
-    if (options.stage.starts_with("frag")) return Outcome{fragment};
-    return Outcome{
-        fmt::format("{0}vertex:\n{1}\n{0}fragment:\n{2}", options.pieces ? "" : "// ", vertex, fragment)};
+    const std::optional<StageKind> only = stage_named(options.stage);
+    if (only && permutation.stages[*only] < 0)
+        return fail(Fault::usage, fmt::format("the key '{}' has no {} stage",
+                                              key_text(family.family, permutation.key), name_of(*only)));
+    std::vector<std::string> texts;
+    for (const StageNames& stage : kStages) {
+        const int number = permutation.stages[stage.kind];
+        if (number < 0 || only.value_or(stage.kind) != stage.kind) continue;
+        const std::string text = shown(composition, number, options.pieces);
+        texts.push_back(only ? text
+                             : fmt::format("{}{}:\n{}", options.pieces ? "" : "// ", stage.name, text));
+    }
+    return Outcome{join(texts, "\n")};
 }
 
 }  // namespace
@@ -43,7 +52,7 @@ Command show_command() {
     return {{"show", "The composed source of a key"},
             {family_argument(options->family),
              {"KEY", "", "A key, such as 'fog=linear point=3', or default", &options->key, kRequired},
-             {"--stage", "vertex|fragment|vert|frag", "Only this stage", &options->stage, kOneOf},
+             {"--stage", stage_words(), "Only this stage", &options->stage, kOneOf},
              {"--pieces", "", "Print the pieces' names instead of their text", &options->pieces},
              comments_option(options->comments),
              dialect_option(options->dialect)},

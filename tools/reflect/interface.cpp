@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "core/stage.hpp"
+
 namespace gobo {
 namespace {
 
 /// Where the stage stands in the pipeline.
 std::size_t rank(const std::string& stage) {
-    return static_cast<std::size_t>(std::ranges::find(kStages, stage) - kStages.begin());
+    return static_cast<std::size_t>(std::ranges::find(kStages, stage, &StageNames::name) - kStages.begin());
 }
 
 void add_stages(std::vector<std::string>& stages, const std::vector<std::string>& more) {

@@ -1,7 +1,6 @@
 // The interface of a program as applications see it: blocks, uniforms, samplers, inputs and outputs.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -86,9 +85,11 @@ struct Variable {
     std::string name;  ///< in a block or struct the path, as OpenGL has it: "Surface.normal", "ray[1].origin"
     std::string type;
     int location = -1;
-    std::vector<int> array;
-    int component = 0;  ///< the first it takes of its location
+    std::vector<int> array;  ///< without the extent that counts the vertices, where it has one
+    int component = 0;       ///< the first it takes of its location
     Interpolation interpolation = {};
+    bool per_vertex = false;  ///< an array with an element for each vertex of the primitive or patch
+    bool patch = false;       ///< one for all vertices of a patch
     Usage usage = {};
 
     friend bool operator==(const Variable&, const Variable&) = default;
@@ -106,10 +107,6 @@ struct Interface {
 
     friend bool operator==(const Interface&, const Interface&) = default;
 };
-
-/// The stages in the order in which a pipeline runs them, which is that of SPIR-V's execution models.
-inline constexpr std::array<std::string_view, 6> kStages = {"vertex",   "tess_control", "tess_evaluation",
-                                                            "geometry", "fragment",     "compute"};
 
 /// Where an entry is bound: its binding if it can have one, else its location.
 template <class Entry>

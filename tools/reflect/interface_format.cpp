@@ -46,6 +46,10 @@ Json json_of(const Entry& entry) {
     Json json = {{"name", entry.name}, {"type", entry.type}, {kPlaceName<Entry>, place_of(entry)}};
     if (!std::is_same_v<Entry, Variable> || !entry.array.empty()) json["array"] = entry.array;
     if constexpr (std::is_same_v<Entry, Uniform>) json["members"] = array_of(entry.members);
+    if constexpr (std::is_same_v<Entry, Variable>) {
+        if (entry.per_vertex) json["per_vertex"] = true;
+        if (entry.patch) json["patch"] = true;
+    }
     if (entry.usage.unused) json["unused"] = true;
     return json;
 }
@@ -132,6 +136,10 @@ std::string entries_text(std::string_view kind, const std::vector<Entry>& entrie
     std::vector<Row> rows;
     for (const Entry& entry : entries) {
         Row row{entry.type, with_extents(entry.name, entry.array), stated_place(entry)};
+        if constexpr (std::is_same_v<Entry, Variable>) {
+            if (entry.per_vertex) row[1] = with_extents(entry.name + "[]", entry.array);
+            if (entry.patch) row[0].insert(0, "patch ");
+        }
         if constexpr (requires { entry.stages; }) row.push_back(join(entry.stages, ", "));
         if (entry.usage.unused) row.emplace_back("unused");
         rows.push_back(std::move(row));

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/stage.hpp"
+
 namespace gobo {
 namespace {
 
@@ -167,7 +169,7 @@ class Reflection {
         const spv::ExecutionModel model = module_.entry_points.front().model;
         if (model >= kStages.size())
             return fail(Fault::internal, "the SPIR-V module is of an unknown kind of stage");
-        interface_.stages = {std::string(kStages[model])};
+        interface_.stages = {std::string(kStages[model].name)};
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
         if (!problem_.empty()) return fail(fault_, problem_);
@@ -285,17 +287,33 @@ class Reflection {
         }
     }
 
+    /// Whether it is declared `patch`; of a block the members are.
+    [[nodiscard]] bool is_patch(const spirv::Variable& variable) const {
+        const Id element = array_element(module_, variable.type);
+        return module_.decoration(variable.id, spv::DecorationPatch) ||
+               module_.decoration(element, spv::DecorationPatch, 0);
+    }
+
     void add_variables(const spirv::Variable& variable, std::vector<gobo::Variable>& list) {
-        const bool is_attribute =
-            variable.storage == spv::StorageClassInput && interface_.stages.front() == "vertex";
+        const bool is_input = variable.storage == spv::StorageClassInput;
+        const spv::ExecutionModel stage = module_.entry_points.front().model;
+        const bool is_attribute = is_input && stage == spv::ExecutionModelVertex;
+        const bool has_vertices = is_input ? stage == spv::ExecutionModelTessellationControl ||
+                                                 stage == spv::ExecutionModelTessellationEvaluation ||
+                                                 stage == spv::ExecutionModelGeometry
+                                           : stage == spv::ExecutionModelTessellationControl;
+        const bool is_of_patch = is_patch(variable);
+        const bool is_per_vertex = has_vertices && !is_of_patch && module_.type(variable.type).is_array();
+        const Id type = is_per_vertex ? module_.type(variable.type).element : variable.type;
         const std::string name = interface_name(module_, variable);
-        if (locations_of(module_, variable.type, is_attribute) > kMostPlaces)
+        if (locations_of(module_, type, is_attribute) > kMostPlaces)
             return stop("variable '{}' takes too many locations", name);
         int location = stated(module_, spv::DecorationLocation, variable.id);
         const std::size_t first = list.size();
-        add_paths(name, variable.type, location, is_attribute, list);
-        const bool is_input = variable.storage == spv::StorageClassInput;
+        add_paths(name, type, location, is_attribute, list);
         for (std::size_t i = first; i < list.size(); ++i) {
+            list[i].per_vertex = is_per_vertex;
+            list[i].patch = is_of_patch;
             list[i].component = decorated(module_, spv::DecorationComponent, variable.id);
             list[i].usage.unused = is_input ? !used_.reads(variable.id) : !used_.writes(variable.id);
             add_interpolation(list[i].interpolation, variable.id, kWhole);

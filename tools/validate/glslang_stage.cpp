@@ -75,6 +75,12 @@ void explain(Diagnostic& diagnostic) {
         diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
         diagnostic.help = "OpenGL ES has it by GL_EXT_conservative_depth only, which glslang does not know";
+    if (diagnostic.message.starts_with("'subroutine' : not allowed")) {
+        diagnostic.message = "'subroutine' : SPIR-V, by which shaders are checked, has no subroutines";
+        diagnostic.help =
+            "make each subroutine uniform a feature: [features.NAME] with define = \"UNIFORM\" and values = "
+            "[\"FUNCTION\", \"FUNCTION\"]";
+    }
     // The alignment of an array, a struct or a matrix is left to the reader.
     static const std::regex member(R"(\boffset\s*=\s*(\d{1,9})\s*\)\s*(\w+)\s+\w+\s*;)");
     std::smatch match;
@@ -96,7 +102,8 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
     const bool gave_up = log.find(given_up) != std::string_view::npos;
     const auto says_nothing = [&](std::string_view line) {
         const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
-        return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
+        return holds(given_up) || holds("'subroutine' : feature not yet implemented") ||
+               holds(" compilation errors.") || holds("No code generated.") ||
                (gave_up && (holds("'' : missing #endif") || holds("'#extension' : extra tokens")));
     };
     Diagnostics diagnostics;
@@ -119,8 +126,19 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
 }
 
 EShLanguage language_of(StageKind kind) {
-    return kind == StageKind::vertex ? EShLangVertex : EShLangFragment;
+    static_assert(static_cast<int>(StageKind::compute) == EShLangCompute);  // the pipeline's order
+    return static_cast<EShLanguage>(kind);
 }
+
+/// The first versions that have a stage, and the end of the extensions by which earlier ones do.
+struct Since {
+    int desktop;
+    int es;
+    std::string_view extension;
+};
+constexpr Since kTessellation = {400, 320, "_tessellation_shader"};
+constexpr PerStage<Since> kSince = {
+    {{{}, kTessellation, kTessellation, {150, 320, "_geometry_shader"}, {}, {430, 310, "_compute_shader"}}}};
 
 bool has_errors(const Diagnostics& diagnostics) {
     return exit_status(diagnostics) != 0;
@@ -253,6 +271,16 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
 Diagnostics GlslangStage::parse() {
     const std::string& prologue = pieces_.front()->text;
     const GlslVersion version = version_of(prologue);
+    const Since& since = kSince[kind_];
+    const int first = version.es ? since.es : since.desktop;
+    if (version.number < first &&
+        (since.extension.empty() || prologue.find(since.extension) == std::string::npos))
+        return fail(Place{pieces_.back()->path}, "",
+                    fmt::format("a {} stage needs GLSL {}{}, but this is {}", name_of(kind_),
+                                version.es ? "ES " : "", first, version.number),
+                    fmt::format("state #version {}{}, or build it for another dialect", first,
+                                version.es ? " es" : ""))
+            .value();
     if (makes_spirv(version)) {
         const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
         const Diagnostics found = parse_as(prologue, true, !can_state_bindings);
@@ -265,18 +293,18 @@ Diagnostics GlslangStage::parse() {
     return has_errors(raised) ? explained(raised, version) : own;
 }
 
-Diagnostics link(GlslangStage& vertex, GlslangStage& fragment) {
+Diagnostics link(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
-    program.addShader(&vertex.shader_->shader);
-    program.addShader(&fragment.shader_->shader);
+    for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
     const bool is_fine = program.link(kSpirvRules);
-    Diagnostics found = diagnostics_of_log(program.getInfoLog(), {}, {fragment.pieces_.back()->path, 0, 0});
+    Diagnostics found =
+        diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0});
     if (!is_fine && found.empty())
         return fail(Fault::internal, "glslang refuses to link without saying why").value();
     return found;
 }
 
-Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
+Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool places_vertices) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
     if (!program.link(kSpirvRules)) {  // no main(), recursion
@@ -294,7 +322,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information) {
     Result<Interface> interface = reflect_stage(module, usage);
     if (!interface) return at_file(std::move(interface).error(), pieces_.back()->path);
     stage.interface = *std::move(interface);
-    stage.diagnostics = check_stage(module, usage, pieces_);
+    stage.diagnostics = check_stage(module, usage, pieces_, places_vertices);
     const bool asks_for_bindings = bindings_mapped_ || may_lack_bindings(stage.interface);
     if (asks_for_bindings || may_hold_bools(stage.interface)) {
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |

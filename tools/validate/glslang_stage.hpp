@@ -24,10 +24,11 @@ class GlslangStage {
 
     /// The SPIR-V of the parsed stage, unstated locations and bindings assigned, and its interface, where
     /// unstated ones are -1.
-    [[nodiscard]] Result<ValidatedStage> generate(bool debug_information);
+    /// `places_vertices` as check_stage() wants it.
+    [[nodiscard]] Result<ValidatedStage> generate(bool debug_information, bool places_vertices);
 
-    /// What glslang says of the two as one program. Both must have been parsed.
-    friend Diagnostics link(GlslangStage& vertex, GlslangStage& fragment);
+    /// What glslang says of the stages as one program. All must have been parsed.
+    friend Diagnostics link(const std::vector<GlslangStage*>& stages);
 
   private:
     /// glslang's shader with the strings it points into.

@@ -53,25 +53,36 @@ int component_count(const std::string& type, const std::vector<int>& array,
     return static_cast<int>(std::min<std::int64_t>(all, 1 << 30));
 }
 
+/// "GEOMETRY" and "TESS_CONTROL", as OpenGL's constants have them.
+std::string upper(std::string_view name) {
+    std::string text(name);
+    for (char& letter : text)
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    return text;
+}
+
 class LimitCheck {
   public:
-    LimitCheck(const StageView* vertex, const StageView* fragment, Dialect dialect)
-        : vertex_(vertex), fragment_(fragment) {
-        const GlslVersion version = version_of((vertex != nullptr ? vertex : fragment)->pieces.front()->text);
+    LimitCheck(const std::vector<StageView>& stages, Dialect dialect) : stages_(stages) {
+        const GlslVersion version = version_of(stages.front().pieces.front()->text);
         is_es_ = version.es;
         block_bindings_ = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
         units_ = is_es_ ? 32 : version.number < 400 ? 48 : 80;
     }
 
     Diagnostics run() {
-        if (vertex_ != nullptr) check_stage(*vertex_, "vertex");
-        if (fragment_ != nullptr) check_stage(*fragment_, "fragment");
-        if (fragment_ != nullptr) check_varyings();
-        if (vertex_ != nullptr)
-            check_locations(*vertex_, vertex_->interface.inputs, 16, "vertex attribute",
-                            "MAX_VERTEX_ATTRIBS");
-        if (fragment_ != nullptr)
-            check_locations(*fragment_, fragment_->interface.outputs, is_es_ ? 4 : 8, "fragment output",
+        for (const StageView& stage : stages_) check_stage(stage);
+        const StageView* before = nullptr;
+        for (const StageView& stage : stages_) {
+            if (stage.kind == StageKind::fragment) check_varyings(before, stage);
+            before = &stage;
+        }
+        const StageView& first = stages_.front();
+        if (first.kind == StageKind::vertex)
+            check_locations(first, first.interface.inputs, 16, "vertex attribute", "MAX_VERTEX_ATTRIBS");
+        const StageView& last = stages_.back();
+        if (last.kind == StageKind::fragment)
+            check_locations(last, last.interface.outputs, is_es_ ? 4 : 8, "fragment output",
                             "MAX_DRAW_BUFFERS");
         return std::move(found_);
     }
@@ -87,14 +98,15 @@ class LimitCheck {
             "use fewer, or forbid the combination by a rule of the family"));
     }
 
-    void check_stage(const StageView& stage, std::string_view name) {
+    void check_stage(const StageView& stage) {
+        const std::string_view name = name_of(stage.kind);
         constexpr int kBlockBytes = 16384;
         constexpr int kBlocksOfStage = 12;
         constexpr int kSamplersOfStage = 16;
         const Interface& interface = stage.interface;
         at_most(kBlocksOfStage, static_cast<int>(interface.blocks.size()), stage, "",
                 fmt::format("uniform blocks in the {} stage:", name),
-                "MAX_VERTEX_UNIFORM_BLOCKS, MAX_FRAGMENT_UNIFORM_BLOCKS");
+                fmt::format("MAX_{}_UNIFORM_BLOCKS", upper(name)));
         int samplers = 0;
         for (const Sampler& sampler : interface.samplers) {
             if (sampler.usage.unused) continue;
@@ -123,29 +135,34 @@ class LimitCheck {
             if (own > most) largest = uniform.name;
             most = std::max(most, own);
         }
-        const bool is_vertex = name == "vertex";
-        at_most(is_es_ && !is_vertex ? 896 : 1024, components, stage, largest,
+        const bool is_fragment = stage.kind == StageKind::fragment;
+        const bool is_usual = is_fragment || stage.kind == StageKind::vertex;
+        at_most(!is_usual               ? 512
+                : is_es_ && is_fragment ? 896
+                                        : 1024,
+                components, stage, largest,
                 fmt::format("components of plain uniforms in the {} stage:", name),
-                is_vertex ? "MAX_VERTEX_UNIFORM_COMPONENTS" : "MAX_FRAGMENT_UNIFORM_COMPONENTS",
+                fmt::format("MAX_{}_UNIFORM_COMPONENTS", upper(name)),
                 Severity::warning);  // most offer 4096, and the bones of animated models need them
     }
 
-    void check_varyings() {
-        const std::vector<Variable>& inputs = fragment_->interface.inputs;
+    /// `before` is the stage whose outputs reach the fragment stage, if there is one.
+    void check_varyings(const StageView* before, const StageView& fragment) {
+        const std::vector<Variable>& inputs = fragment.interface.inputs;
         int components = 0;
         for (const Variable& input : inputs)
             if (!input.usage.unused)
                 components +=
                     glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
-        at_most(kVaryingComponents, components, *fragment_, "",
+        at_most(kVaryingComponents, components, fragment, "",
                 "varying components:", "MAX_VARYING_COMPONENTS");
-        const std::size_t before = found_.size();
+        const std::size_t found = found_.size();
         if (components <= kVaryingComponents) {
-            if (vertex_ != nullptr) check_varying_locations(*vertex_, vertex_->interface.outputs);
-            if (found_.size() == before) check_varying_locations(*fragment_, inputs);
+            if (before != nullptr) check_varying_locations(*before, before->interface.outputs);
+            if (found_.size() == found) check_varying_locations(fragment, inputs);
         }
-        if (is_es_ && found_.size() == before && components <= kVaryingComponents)
-            at_most(kRowsOfVaryings, packed_rows(inputs), *fragment_, "",
+        if (is_es_ && found_.size() == found && components <= kVaryingComponents)
+            at_most(kRowsOfVaryings, packed_rows(inputs), fragment, "",
                     "varying vectors:", "MAX_VARYING_VECTORS");
     }
 
@@ -180,8 +197,7 @@ class LimitCheck {
         at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
     }
 
-    const StageView* vertex_;
-    const StageView* fragment_;
+    const std::vector<StageView>& stages_;
     bool is_es_ = false;
     int block_bindings_ = 0;
     int units_ = 0;
@@ -190,8 +206,8 @@ class LimitCheck {
 
 }  // namespace
 
-Diagnostics check_limits(const StageView* vertex, const StageView* fragment, Dialect dialect) {
-    return LimitCheck(vertex, fragment, dialect).run();
+Diagnostics check_limits(const std::vector<StageView>& stages, Dialect dialect) {
+    return LimitCheck(stages, dialect).run();
 }
 
 }  // namespace gobo

@@ -69,15 +69,20 @@ std::vector<GlobalName> global_names(const Interface& interface) {
 
 class LinkCheck {
   public:
-    LinkCheck(const StageView& vertex, const StageView& fragment)
-        : vertex_(vertex), fragment_(fragment), version_(version_of(vertex.pieces.front()->text)) {}
+    explicit LinkCheck(const std::vector<StageView>& stages)
+        : stages_(stages), version_(version_of(stages.front().pieces.front()->text)) {}
 
     Diagnostics run() {
-        check_versions();
-        check_varyings();
-        check_names();
-        check_blocks(vertex_.interface.blocks, fragment_.interface.blocks);
-        check_blocks(vertex_.interface.storage_blocks, fragment_.interface.storage_blocks);
+        for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
+            earlier_ = stages_.begin();
+            if (later_ != earlier_) check_versions();
+            for (; earlier_ != later_; ++earlier_) {
+                if (earlier_ + 1 == later_) check_varyings();
+                check_names();
+                check_blocks(earlier_->interface.blocks, later_->interface.blocks);
+                check_blocks(earlier_->interface.storage_blocks, later_->interface.storage_blocks);
+            }
+        }
         check_shared_bindings();
         check_shared_units();
         check_uniform_locations();
@@ -91,30 +96,29 @@ class LinkCheck {
 
     /// A program is of OpenGL or of OpenGL ES, and there of one version (GLSL ES 3.00, 3.3).
     void check_versions() {
-        const Piece& vertex = *vertex_.pieces.back();
-        const GlslVersion here = version_of(fragment_.pieces.front()->text);
+        const GlslVersion here = version_of(later_->pieces.front()->text);
         if (here.es == version_.es && (!here.es || here.number == version_.number)) return;
         const auto text = [](const GlslVersion& version) {
             return fmt::format("GLSL {}{}", version.es ? "ES " : "", version.number);
         };
-        add({{fragment_.pieces.back()->path, 0, 0}, ""}, Severity::error,
-            fmt::format("this stage is {}, but {} is {}: they make no program", text(here), vertex.path,
-                        text(version_)),
+        add({{later_->pieces.back()->path, 0, 0}, ""}, Severity::error,
+            fmt::format("this stage is {}, but {} is {}: they make no program", text(here),
+                        earlier_->pieces.back()->path, text(version_)),
             "state the same #version in both");
     }
 
-    [[nodiscard]] Declaration in_vertex(std::string_view name, std::string_view type) const {
-        return declaration_of(name, type, vertex_.pieces);
+    [[nodiscard]] Declaration in_earlier(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, earlier_->pieces);
     }
-    [[nodiscard]] Declaration in_fragment(std::string_view name, std::string_view type) const {
-        return declaration_of(name, type, fragment_.pieces);
+    [[nodiscard]] Declaration in_later(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, later_->pieces);
     }
 
     [[nodiscard]] bool is_before(int desktop, int es) const {
         return version_.number < (version_.es ? es : desktop);
     }
 
-    // ---- from the vertex stage to the fragment stage
+    // ---- from one stage to the next
 
     /// By location where both state one, by name where neither does (GLSL 4.50, 4.4.1).
     [[nodiscard]] static bool match(const Variable& input, const Variable& output) {
@@ -125,12 +129,12 @@ class LinkCheck {
 
     void check_varyings() {
         std::set<std::string_view> told;  // of a struct or block one member will do
-        for (const Variable& input : fragment_.interface.inputs) {
-            const auto output = std::ranges::find_if(vertex_.interface.outputs,
+        for (const Variable& input : later_->interface.inputs) {
+            const auto output = std::ranges::find_if(earlier_->interface.outputs,
                                                      [&](const Variable& one) { return match(input, one); });
             const std::size_t before = found_.size();
             if (told.contains(root_of(input.name))) continue;
-            if (output != vertex_.interface.outputs.end())
+            if (output != earlier_->interface.outputs.end())
                 check_varying(input, *output);
             else if (!input.usage.unused)
                 check_missing(input);
@@ -140,36 +144,40 @@ class LinkCheck {
 
     void check_missing(const Variable& input) {
         std::string message =
-            fmt::format("the fragment stage reads '{}', which the vertex stage does not write",
-                        with_extents(input.type + " " + input.name, input.array));
-        std::string help = "declare and write it as an output of the vertex stage";
-        for (const Variable& output : vertex_.interface.outputs) {
+            fmt::format("the {} stage reads '{}', which the {} stage does not write", name_of(later_->kind),
+                        with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
+        std::string help =
+            fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
+        for (const Variable& output : earlier_->interface.outputs) {
             if (output.name != input.name) continue;
             const auto located = [](int location) {
                 return location < 0 ? std::string("no location") : fmt::format("location {}", location);
             };
             message += fmt::format(": it has {} here, and {} in {}", located(input.location),
-                                   located(output.location), in_vertex(output.name, output.type).text());
+                                   located(output.location), in_earlier(output.name, output.type).text());
             help = "state the same location in both stages, or none in both";
         }
-        add(in_fragment(input.name, input.type), Severity::error, message, help);
+        add(in_later(input.name, input.type), Severity::error, message, help);
     }
 
     void check_varying(const Variable& input, const Variable& output) {
         const std::string what = input.name == output.name
                                      ? fmt::format("'{}'", input.name)
-                                     : fmt::format("'{}' (location {}, '{}' in the vertex stage)", input.name,
-                                                   input.location, output.name);
+                                     : fmt::format("'{}' (location {}, '{}' in the {} stage)", input.name,
+                                                   input.location, output.name, name_of(earlier_->kind));
         const auto differ = [&](Severity severity, std::string_view mine, std::string_view theirs,
                                 std::string_view rule, std::string help) {
-            add(in_fragment(input.name, input.type), severity,
+            add(in_later(input.name, input.type), severity,
                 fmt::format("{} is {} here, but {} in {}{}", what, mine, theirs,
-                            in_vertex(output.name, output.type).text(), rule),
+                            in_earlier(output.name, output.type).text(), rule),
                 std::move(help));
         };
         if (input.type != output.type || input.array != output.array)
             return differ(Severity::error, with_extents(input.type, input.array),
                           with_extents(output.type, output.array), "", "declare it alike in both stages");
+        if (input.patch != output.patch)
+            return differ(Severity::error, input.patch ? "patch" : "not patch",
+                          output.patch ? "patch" : "not", "", "write patch in both stages, or in neither");
         if (interpolation_differs(input, output))
             return differ(Severity::error, shading_of(input.interpolation), shading_of(output.interpolation),
                           version_.es ? ": OpenGL ES wants the same interpolation in both stages"
@@ -187,11 +195,11 @@ class LinkCheck {
                           output.interpolation.centroid ? "centroid" : "not",
                           ": some drivers refuse to link it", "write centroid in both stages");
         if (!input.usage.unused && output.usage.unused)
-            add(in_fragment(input.name, input.type), Severity::warning,
-                fmt::format(
-                    "the fragment stage reads {}, which the vertex stage declares in {} and never writes",
-                    what, in_vertex(output.name, output.type).text()),
-                "write it in the vertex stage: its value is undefined");
+            add(in_later(input.name, input.type), Severity::warning,
+                fmt::format("the {} stage reads {}, which the {} stage declares in {} and never writes",
+                            name_of(later_->kind), what, name_of(earlier_->kind),
+                            in_earlier(output.name, output.type).text()),
+                fmt::format("write it in the {} stage: its value is undefined", name_of(earlier_->kind)));
     }
 
     [[nodiscard]] bool interpolation_differs(const Variable& input, const Variable& output) const {
@@ -208,11 +216,11 @@ class LinkCheck {
     // ---- names that both stages declare
 
     void check_names() {
-        std::map<std::string_view, const GlobalName*> of_vertex;
-        const std::vector<GlobalName> vertex = global_names(vertex_.interface);
-        for (const GlobalName& name : vertex) of_vertex.emplace(name.name, &name);
-        for (const GlobalName& name : global_names(fragment_.interface))
-            if (const auto other = of_vertex.find(name.name); other != of_vertex.end())
+        std::map<std::string_view, const GlobalName*> of_earlier;
+        const std::vector<GlobalName> earlier = global_names(earlier_->interface);
+        for (const GlobalName& name : earlier) of_earlier.emplace(name.name, &name);
+        for (const GlobalName& name : global_names(later_->interface))
+            if (const auto other = of_earlier.find(name.name); other != of_earlier.end())
                 check_name(name, *other->second);
     }
 
@@ -224,9 +232,9 @@ class LinkCheck {
                                       : declaration_of_member(name.block, name.name, pieces);
         };
         const auto differ = [&](const std::string& mine, const std::string& theirs, std::string help) {
-            add(declared(here, fragment_.pieces), Severity::error,
+            add(declared(here, later_->pieces), Severity::error,
                 fmt::format("'{}' is {} here, but {} in {}", here.name, mine, theirs,
-                            declared(there, vertex_.pieces).text()),
+                            declared(there, earlier_->pieces).text()),
                 std::move(help));
         };
         if (!here.block.empty() || !there.block.empty())
@@ -248,12 +256,12 @@ class LinkCheck {
 
     // ---- blocks
 
-    void check_blocks(const std::vector<Block>& of_vertex, const std::vector<Block>& of_fragment) {
+    void check_blocks(const std::vector<Block>& of_earlier, const std::vector<Block>& of_later) {
         std::string_view last;
-        for (const Block& here : of_fragment) {
+        for (const Block& here : of_later) {
             if (root_of(here.name) == last) continue;  // of an array of blocks one will do
-            const auto there = std::ranges::find(of_vertex, here.name, &Block::name);
-            if (there == of_vertex.end()) continue;
+            const auto there = std::ranges::find(of_earlier, here.name, &Block::name);
+            if (there == of_earlier.end()) continue;
             const std::size_t before = found_.size();
             check_block(here, *there);
             if (found_.size() > before) last = root_of(here.name);
@@ -262,9 +270,9 @@ class LinkCheck {
 
     void check_block(const Block& here, const Block& there) {
         const auto differ = [&](const std::string& mine, const std::string& theirs, std::string help) {
-            add(in_fragment(here.name, ""), Severity::error,
+            add(in_later(here.name, ""), Severity::error,
                 fmt::format("the block '{}' has {} here, but {} in {}", root_of(here.name), mine, theirs,
-                            in_vertex(there.name, "").text()),
+                            in_earlier(there.name, "").text()),
                 std::move(help));
         };
         const std::string once = "declare the block once, in a piece that both stages include";
@@ -318,10 +326,10 @@ class LinkCheck {
     void check_shared_bindings() {
         for (const auto blocks : {&Interface::blocks, &Interface::storage_blocks}) {
             std::vector<Taken> places;
-            for (const StageView* const stage : {&vertex_, &fragment_})
-                for (const Block& block : stage->interface.*blocks)
+            for (const StageView& stage : stages_)
+                for (const Block& block : stage.interface.*blocks)
                     if (block.binding >= 0 && !block.usage.unused)
-                        places.push_back({block.name, "", block.binding, 1, stage});
+                        places.push_back({block.name, "", block.binding, 1, &stage});
             for_each_overlap(places, [&](const Taken& one, const Taken& other, int binding) {
                 if (root_of(one.name) == root_of(other.name)) return;
                 add(declared(one), Severity::warning,
@@ -334,12 +342,12 @@ class LinkCheck {
 
     void check_shared_units() {
         std::vector<Taken> places;
-        for (const StageView* const stage : {&vertex_, &fragment_})
-            for (const Sampler& sampler : stage->interface.samplers)
+        for (const StageView& stage : stages_)
+            for (const Sampler& sampler : stage.interface.samplers)
                 if (sampler.binding >= 0 && !sampler.usage.unused &&
                     sampler.type.find("sampler") != std::string::npos)
                     places.push_back(
-                        {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), stage});
+                        {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), &stage});
         for_each_overlap(places, [&](const Taken& one, const Taken& other, int unit) {
             const bool is_refused = one.type != other.type;
             add(declared(one), is_refused ? Severity::error : Severity::warning,
@@ -360,11 +368,11 @@ class LinkCheck {
 
     void check_uniform_locations() {
         std::vector<Taken> places;
-        for (const StageView* const stage : {&vertex_, &fragment_})
-            for (const Uniform& uniform : stage->interface.uniforms)
+        for (const StageView& stage : stages_)
+            for (const Uniform& uniform : stage.interface.uniforms)
                 if (uniform.location >= 0)
                     places.push_back({uniform.name, uniform.type, uniform.location,
-                                      locations_of(uniform.array, uniform.members), stage});
+                                      locations_of(uniform.array, uniform.members), &stage});
         for_each_overlap(places, [&](const Taken& one, const Taken& other, int location) {
             add(declared(one), Severity::error,
                 fmt::format("the uniforms '{}' and '{}' ({}) share location {}", one.name, other.name,
@@ -373,16 +381,17 @@ class LinkCheck {
         });
     }
 
-    const StageView& vertex_;
-    const StageView& fragment_;
+    const std::vector<StageView>& stages_;
+    std::vector<StageView>::const_iterator earlier_ = {};  ///< of the two that are compared
+    std::vector<StageView>::const_iterator later_ = {};
     GlslVersion version_;
     Diagnostics found_;
 };
 
 }  // namespace
 
-Diagnostics check_link(const StageView& vertex, const StageView& fragment) {
-    return LinkCheck(vertex, fragment).run();
+Diagnostics check_link(const std::vector<StageView>& stages) {
+    return LinkCheck(stages).run();
 }
 
 }  // namespace gobo

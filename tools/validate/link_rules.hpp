@@ -1,4 +1,4 @@
-// What two stages must agree about to make one program, and what a program may take of a device: the rules
+// What stages must agree about to make one program, and what a program may take of a device: the rules
 // that glslang does not check, or checks without saying where.
 #pragma once
 
@@ -12,18 +12,20 @@ namespace gobo {
 
 /// A stage as the rules see it.
 struct StageView {
+    StageKind kind;
     const Interface& interface;
     std::vector<const Piece*> pieces;
 };
 
 /// Inputs that nothing writes, types and qualifiers that differ, names and blocks declared in two ways,
 /// places taken twice: errors where OpenGL refuses to link or to draw, warnings where it only surprises.
-[[nodiscard]] Diagnostics check_link(const StageView& vertex, const StageView& fragment);
+/// The stages stand in the order of the pipeline.
+[[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
 /// What the stages need beyond the least that every driver of the dialect offers (OpenGL 4.5 core, tables
 /// 23.53 to 23.64; OpenGL 3.3 core, table 6.40 ff.; OpenGL ES 3.0, tables 6.29 to 6.33). Only what is used
 /// counts, but for uniform blocks, which are active in any case (OpenGL 4.5, 7.6), and for stated locations.
-/// Either stage may be null.
-[[nodiscard]] Diagnostics check_limits(const StageView* vertex, const StageView* fragment, Dialect dialect);
+/// There is at least one stage.
+[[nodiscard]] Diagnostics check_limits(const std::vector<StageView>& stages, Dialect dialect);
 
 }  // namespace gobo

@@ -19,12 +19,15 @@ class StageCheck {
   public:
     StageCheck(const spirv::Module& module, const spirv::Usage& usage,
                const std::vector<const Piece*>& pieces)
-        : module_(module), usage_(usage), pieces_(pieces) {}
+        : module_(module),
+          usage_(usage),
+          pieces_(pieces),
+          kind_(static_cast<StageKind>(module.entry_points.front().model)) {}
 
-    Diagnostics run() {
-        const bool is_fragment = module_.entry_points.front().model == spv::ExecutionModelFragment;
-        if (module_.entry_points.front().model == spv::ExecutionModelVertex) check_position();
-        if (is_fragment) {
+    Diagnostics run(bool places_vertices) {
+        if (places_vertices) check_position();
+        if (kind_ == StageKind::compute) check_local_size();
+        if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
             check_early_tests();
@@ -44,11 +47,22 @@ class StageCheck {
     void check_position() {
         const Part position = spirv::built_in_output(module_, spv::BuiltInPosition);
         if (position.first == Id::none || !usage_.written.contains(position))
-            warn({{pieces_.back()->path, 0, 0}, "", false}, "the vertex stage never writes gl_Position",
+            warn({{pieces_.back()->path, 0, 0}, "", false},
+                 fmt::format("the {} stage never writes gl_Position", name_of(kind_)),
                  "write it in main(): where the vertex is drawn is undefined");
-        else if (!usage_.always_written.contains(position))
+        else if (kind_ != StageKind::geometry && !usage_.always_written.contains(position))
             warn(use_of("gl_Position", pieces_), "some paths through main() do not write gl_Position",
                  "write it on all of them: where the vertex is drawn is undefined");
+    }
+
+    /// glslang takes 1 where nothing is stated, OpenGL does not (GLSL 4.50, 4.4.1.4).
+    void check_local_size() {
+        for (const std::string_view name : {"local_size_x", "local_size_y", "local_size_z"})
+            if (use_of(name, pieces_).place.line > 0) return;
+        found_.push_back(
+            diagnostic_at({{pieces_.back()->path, 0, 0}, "", false}, Severity::error,
+                          "the compute stage does not state the size of its work groups",
+                          "write layout(local_size_x = 64) in; with the number of invocations in a group"));
     }
 
     void check_output(const spirv::Variable& variable) {
@@ -100,14 +114,15 @@ class StageCheck {
     const spirv::Module& module_;
     const spirv::Usage& usage_;
     const std::vector<const Piece*>& pieces_;
+    StageKind kind_;
     Diagnostics found_;
 };
 
 }  // namespace
 
 Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
-                        const std::vector<const Piece*>& pieces) {
-    return StageCheck(module, usage, pieces).run();
+                        const std::vector<const Piece*>& pieces, bool places_vertices) {
+    return StageCheck(module, usage, pieces).run(places_vertices);
 }
 
 }  // namespace gobo

@@ -11,8 +11,8 @@ namespace gobo {
 
 /// Outputs that no path or only some paths through main() write, gl_Position that is never written, and
 /// depths and discards that early_fragment_tests makes useless, as warnings; depth_* without its extension
-/// is an error.
+/// is an error. `places_vertices`: what the stage writes to gl_Position is where its vertices are drawn.
 [[nodiscard]] Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
-                                      const std::vector<const Piece*>& pieces);
+                                      const std::vector<const Piece*>& pieces, bool places_vertices);
 
 }  // namespace gobo

@@ -21,15 +21,13 @@
 namespace gobo {
 namespace {
 
-/// A vertex and a fragment stage that some permutation puts together; -1 where it has none.
-using Pair = std::pair<int, int>;
-
-/// A stage's way through glslang. Parsed by the first pair that needs it, dropped by the last: so no more
+/// A stage's way through glslang. Parsed by the first program that needs it, dropped by the last: so no more
 /// stages are alive than threads and stages that are shared.
 struct Job {
     std::mutex mutex;
     std::unique_ptr<GlslangStage> glslang;
-    std::atomic<int> pairs_left = 0;
+    std::atomic<int> programs_left = 0;
+    bool places_vertices = false;  ///< in some program no stage follows that places them anew
     bool is_parsed = false;
     bool is_fine = false;
     Diagnostics diagnostics;
@@ -37,10 +35,6 @@ struct Job {
 
 void append(Diagnostics& all, const Diagnostics& more) {
     all.insert(all.end(), more.begin(), more.end());
-}
-
-Interface stage_interface(const Validated& validated, int stage) {
-    return stage < 0 ? Interface{} : validated.stage(stage).interface;
 }
 
 /// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
@@ -67,22 +61,29 @@ class Validator {
         : composition_(composition), options_(options), jobs_(composition.stages.size()) {
         validated_.stages.resize(composition.stages.size());
         for (const Permutation& permutation : composition.permutations) {
-            const Pair pair(permutation.vertex, permutation.fragment);
-            if (!numbers_.try_emplace(pair, pairs_.size()).second) continue;
-            pairs_.push_back(pair);
-            for (const int stage : {pair.first, pair.second})
-                if (stage >= 0) ++job(stage).pairs_left;
+            if (!numbers_.try_emplace(permutation.stages, programs_.size()).second) continue;
+            std::vector<int>& program = programs_.emplace_back();
+            int last = -1;  // before the rasteriser
+            for (const StageNames& stage : kStages) {
+                const int number = permutation.stages[stage.kind];
+                if (number < 0) continue;
+                program.push_back(number);
+                ++job(number).programs_left;
+                if (stage.kind < StageKind::fragment && stage.kind != StageKind::tess_control) last = number;
+            }
+            if (last >= 0) job(last).places_vertices = true;
         }
-        of_pairs_.resize(pairs_.size());
+        of_programs_.resize(programs_.size());
     }
 
-    /// Works off all pairs by several threads.
+    /// Works off all programs by several threads.
     Validated run(const Family& family) {
-        if (!pairs_.empty()) {
-            validate_pair(0);  // alone: it builds glslang's tables for the version, once
-            parallel_for(options_.jobs, pairs_.size() - 1, [&](std::size_t i) { validate_pair(i + 1); });
+        if (!programs_.empty()) {
+            validate_program(0);  // alone: it builds glslang's tables for the version, once
+            parallel_for(options_.jobs, programs_.size() - 1,
+                         [&](std::size_t i) { validate_program(i + 1); });
         }
-        parallel_for(options_.jobs, pairs_.size(), [&](std::size_t i) { check_pair(i); });
+        parallel_for(options_.jobs, programs_.size(), [&](std::size_t i) { check_program(i); });
         DiagnosticGroups groups(family);
         for (const Permutation& permutation : composition_.permutations)
             for (const Diagnostic& diagnostic : diagnostics_of(permutation))
@@ -94,37 +95,30 @@ class Validator {
   private:
     Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
 
-    /// What is wrong with a permutation's stages, or else with the pair.
+    /// What is wrong with a permutation's stages, or else with the program.
     [[nodiscard]] Diagnostics diagnostics_of(const Permutation& permutation) {
-        const auto [vertex, fragment] = Pair(permutation.vertex, permutation.fragment);
+        const std::size_t index = numbers_.at(permutation.stages);
         Diagnostics all;
-        if (vertex >= 0) append(all, job(vertex).diagnostics);
-        if (fragment >= 0) append(all, job(fragment).diagnostics);
-        if (exit_status(all) == 0) append(all, of_pairs_[numbers_.at({vertex, fragment})]);
+        for (const int stage : programs_[index]) append(all, job(stage).diagnostics);
+        if (exit_status(all) == 0) append(all, of_programs_[index]);
         return all;
     }
 
-    /// The rules that glslang forgets. Where they find why a pair does not link they say it with both places,
-    /// so what glslang said goes.
-    void check_pair(std::size_t index) {
-        const auto [vertex, fragment] = pairs_[index];
-        const auto is_fine = [&](int stage) { return stage < 0 || job(stage).is_fine; };
-        if (!is_fine(vertex) || !is_fine(fragment)) return;
-        const auto view = [&](int stage) {
-            return stage < 0 ? std::nullopt
-                             : std::optional(StageView{validated_.stage(stage).interface, pieces_of(stage)});
-        };
-        const std::optional<StageView> of_vertex = view(vertex);
-        const std::optional<StageView> of_fragment = view(fragment);
-        Diagnostics& all = of_pairs_[index];
-        if (of_vertex && of_fragment) {
-            const Diagnostics found = check_link(*of_vertex, *of_fragment);
-            if (exit_status(found) != 0) all.clear();
-            append(all, found);
+    /// The rules that glslang forgets. Where they find why a program does not link they say it with both
+    /// places, so what glslang said goes.
+    void check_program(std::size_t index) {
+        std::vector<StageView> views;
+        for (const int stage : programs_[index]) {
+            if (!job(stage).is_fine) return;
+            views.push_back(
+                {composition_.stage(stage).kind, validated_.stage(stage).interface, pieces_of(stage)});
         }
-        if (exit_status(all) == 0)
-            append(all, check_limits(of_vertex ? &*of_vertex : nullptr, of_fragment ? &*of_fragment : nullptr,
-                                     composition_.dialect));
+        if (views.empty()) return;
+        Diagnostics& all = of_programs_[index];
+        const Diagnostics found = check_link(views);
+        if (exit_status(found) != 0) all.clear();
+        append(all, found);
+        if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }
 
     [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
@@ -134,21 +128,23 @@ class Validator {
     }
     [[nodiscard]] Place template_of(int stage) const { return {pieces_of(stage).back()->path, 0, 0}; }
 
-    void validate_pair(std::size_t index) {
-        const auto [vertex, fragment] = pairs_[index];
-        const bool has_vertex = vertex >= 0 && is_parsed(vertex);
-        const bool has_fragment = fragment >= 0 && is_parsed(fragment);
-        if (has_vertex && has_fragment) {
-            const std::scoped_lock lock(job(vertex).mutex, job(fragment).mutex);
-            of_pairs_[index] = link(*job(vertex).glslang, *job(fragment).glslang);
-            if (exit_status(of_pairs_[index]) != 0) {
-                // glslang keeps a failed link's errors in the stages, which other pairs may share.
-                job(vertex).glslang->parse();
-                job(fragment).glslang->parse();
-            }
+    void validate_program(std::size_t index) {
+        std::vector<int> stages = programs_[index];
+        bool are_parsed = true;
+        for (const int stage : stages) are_parsed = is_parsed(stage) && are_parsed;
+        if (are_parsed && stages.size() > 1) {
+            std::vector<GlslangStage*> parsed;
+            for (const int stage : stages) parsed.push_back(job(stage).glslang.get());
+            // Locked in the same order by every thread.
+            std::ranges::sort(stages);
+            std::vector<std::unique_lock<std::mutex>> locks;
+            for (const int stage : stages) locks.emplace_back(job(stage).mutex);
+            of_programs_[index] = link(parsed);
+            // glslang keeps a failed link's errors in the stages, which other programs may share.
+            if (exit_status(of_programs_[index]) != 0)
+                for (GlslangStage* stage : parsed) stage->parse();
         }
-        for (const int stage : {vertex, fragment})
-            if (stage >= 0) release(stage);
+        for (const int stage : programs_[index]) release(stage);
     }
 
     bool is_parsed(int stage) {
@@ -160,18 +156,19 @@ class Validator {
         return at.is_fine = exit_status(at.diagnostics) == 0;
     }
 
-    /// The last pair of a stage makes its SPIR-V: glslang assigns locations then, which would disturb later
-    /// links.
+    /// The last program of a stage makes its SPIR-V: glslang assigns locations then, which would disturb
+    /// later links.
     void release(int stage) {
         Job& at = job(stage);
-        if (--at.pairs_left > 0) return;
+        if (--at.programs_left > 0) return;
         const std::scoped_lock lock(at.mutex);
         if (at.is_fine) generate(stage, at);
         at.glslang.reset();
     }
 
     void generate(int stage, Job& at) {
-        Result<ValidatedStage> generated = at.glslang->generate(options_.debug_information);
+        Result<ValidatedStage> generated =
+            at.glslang->generate(options_.debug_information, at.places_vertices);
         if (!generated) {
             append(at.diagnostics, generated.error());
             at.is_fine = false;
@@ -194,9 +191,11 @@ class Validator {
 
     const Composition& composition_;
     const ValidateOptions& options_;
-    std::vector<Pair> pairs_;  ///< the distinct ones, in the order in which the permutations first need them
-    std::map<Pair, std::size_t> numbers_;
-    std::vector<Diagnostics> of_pairs_;
+    /// The distinct ones in the order in which the permutations first need them, their stages in that of the
+    /// pipeline.
+    std::vector<std::vector<int>> programs_;
+    std::map<StageNumbers, std::size_t> numbers_;
+    std::vector<Diagnostics> of_programs_;
     std::vector<Job> jobs_;
     Validated validated_;
 };
@@ -208,10 +207,10 @@ Validated validate(const Family& family, const Composition& composition, const V
 }
 
 Interface interface_of(const Validated& validated, const Permutation& permutation) {
-    if (permutation.vertex < 0) return stage_interface(validated, permutation.fragment);
-    if (permutation.fragment < 0) return stage_interface(validated, permutation.vertex);
-    return merge(
-        {stage_interface(validated, permutation.vertex), stage_interface(validated, permutation.fragment)});
+    std::vector<Interface> stages;
+    for (const int stage : permutation.stages.values)
+        if (stage >= 0) stages.push_back(validated.stage(stage).interface);
+    return merge(std::move(stages));
 }
 
 }  // namespace gobo

@@ -1,5 +1,5 @@
-// Every distinct stage through glslang once, every distinct pair linked: SPIR-V and interface of every stage,
-// or the diagnostics.
+// Every distinct stage through glslang once, every distinct program linked: SPIR-V and interface of every
+// stage, or the diagnostics.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct ValidateOptions {
 [[nodiscard]] Validated validate(const Family& family, const Composition& composition,
                                  const ValidateOptions& options);
 
-/// The interface of a permutation's two stages as one program.
+/// The interface of a permutation's stages as one program.
 [[nodiscard]] Interface interface_of(const Validated& validated, const Permutation& permutation);
 
 }  // namespace gobo

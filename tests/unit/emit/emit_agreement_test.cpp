@@ -63,10 +63,14 @@ TEST_F(GeneratedHeaderAgreement, OnEveryPermutation) {
         const large::Permutation* found = large::find(header_key(permutation.key));
         ASSERT_NE(found, nullptr) << key_text(built_.family, permutation.key);
         ASSERT_EQ(found->key(), header_key(permutation.key));
-        ASSERT_EQ(found->vertex.source(),
-                  source_of(composition, composition.stages[static_cast<std::size_t>(permutation.vertex)]));
-        ASSERT_EQ(found->fragment.source(),
-                  source_of(composition, composition.stages[static_cast<std::size_t>(permutation.fragment)]));
+        ASSERT_EQ(
+            found->vertex.source(),
+            source_of(composition,
+                      composition.stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])]));
+        ASSERT_EQ(
+            found->fragment.source(),
+            source_of(composition,
+                      composition.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])]));
     }
 }
 

@@ -74,7 +74,7 @@ void compose_keys(Built& built, const std::vector<std::string>& keys) {
         const int own =
             add_piece(composition, "piece of " + name, "// " + name + "\n\"quoted\" \\ )gobo\" )gobo2\"\n");
         composition.stages.push_back({StageKind::fragment, {shared, own}});
-        composition.permutations.push_back({key, 0, static_cast<int>(composition.stages.size()) - 1});
+        composition.permutations.push_back({key, {0, static_cast<int>(composition.stages.size()) - 1}});
     }
 }
 
@@ -295,7 +295,7 @@ Built large(std::size_t permutations) {
             stage.pieces.push_back((number * 7 + piece * (number + 1)) % piece_count);
         }
         composition.stages.push_back(stage);
-        composition.permutations.push_back({key, 0, number});
+        composition.permutations.push_back({key, {0, number}});
     }
     return built;
 }
@@ -325,7 +325,7 @@ Built drawn() {
         const int tint =
             add_piece(composition, "tint/" + family.features[0].values[value] + ".glsl", tints[value]);
         composition.stages.push_back({StageKind::fragment, {version, block, tint}});
-        composition.permutations.push_back({{static_cast<int>(value)}, 0, static_cast<int>(value) + 1});
+        composition.permutations.push_back({{static_cast<int>(value)}, {0, static_cast<int>(value) + 1}});
     }
     built.interface.blocks = {sample::block("Bases", 5, 16, {member("base", "vec4", 0)}),
                               sample::block("Colors", 2, 16, {member("color", "vec4", 0)})};

@@ -12,6 +12,7 @@ namespace {
 
 struct EvalOptions {
     std::vector<std::string> names;  ///< FAMILY KEY, or files
+    std::vector<std::string> stages;
     std::string inputs;
     std::string dialect;
     bool trace = false;
@@ -23,7 +24,7 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
     GOBO_TRY(const Validated validated,
              compile(world, subject, {.keep_spirv = true, .debug_information = true}));
     const Permutation& permutation = subject.composition.permutations.front();
-    const int index = stage == StageKind::vertex ? permutation.vertex : permutation.fragment;
+    const int index = permutation.stages[stage];
     if (index < 0)
         return fail(Fault::input, fmt::format("there is no {} stage to evaluate", name_of(stage)),
                     "name its file, or state another 'stage' in the input file");
@@ -31,7 +32,7 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
 }
 
 Result<Outcome> run(const EvalOptions& options, const World& world) {
-    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.dialect));
+    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.stages, options.dialect));
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
     GOBO_TRY(const auto inputs, evaluate::read_eval_inputs(text, options.inputs));
     const StageKind stage = inputs.stage == "vertex" ? StageKind::vertex : StageKind::fragment;
@@ -62,6 +63,7 @@ Command eval_command() {
     const auto options = std::make_shared<EvalOptions>();
     return {titles::kEval,
             {subject_argument(options->names),
+             stages_option(options->stages),
              {"--inputs", "FILE.toml", "The stage, its inputs, uniforms and samplers", &options->inputs,
               kRequired},
              {"--trace", "", "Print every operation with its place and values", &options->trace},

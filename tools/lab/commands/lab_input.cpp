@@ -89,12 +89,29 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
     GOBO_TRY(const Validated validated, compile(world, depth.family, stages, {.keep_spirv = true}));
     const Permutation& permutation = stages.permutations.front();
     verify::ShadowPass pass;
-    pass.pass.stages = {stage_text(stages, permutation.vertex), stage_text(stages, permutation.fragment)};
+    pass.pass.stages = stages_of(stages, permutation);
     pass.pass.interface = interface_of(validated, permutation);
     pass.pass.values = depth.family.render;
-    pass.vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
-    pass.fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
+    pass.vertex = validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])].spirv;
+    pass.fragment = validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv;
     return pass;
+}
+
+Result<void> refuse_other_stages(const Family& family, const Composition& composition,
+                                 const std::string& what, bool wants_pair) {
+    for (const Permutation& permutation : composition.permutations)
+        for (const StageNames& stage : kStages) {
+            const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
+            const bool has = permutation.stages[stage.kind] >= 0;
+            if (is_usual ? has || !wants_pair : !has) continue;
+            Diagnostics errors = fail(Place{family.path}, "",
+                                      fmt::format("{} a vertex and a fragment stage, and here is {} {} stage",
+                                                  what, has ? "a" : "no", stage.name))
+                                     .value();
+            if (!permutation.key.empty()) errors.front().subject = key_text(family, permutation.key);
+            return tl::unexpected(std::move(errors));
+        }
+    return {};
 }
 
 Result<study::Weights> load_weights(const World& world, const std::string& path) {

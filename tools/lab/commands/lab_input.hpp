@@ -41,6 +41,11 @@ using CubeImages = std::map<std::string, Image>;
                                                                          const Family& family,
                                                                          const Composition& composition);
 
+/// An error where a key has a stage that the lab does not evaluate, or where `wants_pair` not both of those
+/// that it does. `what` the lab does: "gobo test evaluates".
+[[nodiscard]] Result<void> refuse_other_stages(const Family& family, const Composition& composition,
+                                               const std::string& what, bool wants_pair = false);
+
 /// The first weights of a file; of the shipped data/study/weights.csv where the path is empty.
 [[nodiscard]] Result<study::Weights> load_weights(const World& world, const std::string& path = {});
 /// The plan of a file; where the path is empty that which came with the family, data/study/NAME.toml, or

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/gallery/gallery.hpp"
 #include "lab/render/texture.hpp"
@@ -104,8 +105,17 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     SelectionOptions keys = options;
     keys.scenes.clear();
     GOBO_TRY(const Composition composition, compose_selection(world, family, keys));
+    for (const Permutation& permutation : composition.permutations)
+        if (permutation.stages[StageKind::compute] >= 0)
+            return fail(Place{family.family.path}, "",
+                        fmt::format("the key '{}' has a compute stage, which draws nothing",
+                                    key_text(family.family, permutation.key)),
+                        "leave it out by --where");
     GOBO_TRY(const Validated validated, compile(world, family.family, composition, {.keep_spirv = true}));
-    if (makes_page(options))
+    const bool are_usual = std::ranges::all_of(composition.permutations, [](const Permutation& permutation) {
+        return permutation.stages.is_usual_pair();
+    });
+    if (makes_page(options) && are_usual)
         return render_page(options, world, family, composition, validated, context, pictures,
                            std::move(mesh));
     const std::vector<Interface> interfaces = interfaces_of(composition, validated);

@@ -17,8 +17,9 @@ namespace {
 struct SanitizeCommandOptions : SelectionOptions {
     sanitize::SanitizeOptions sanitize;
     std::vector<std::string> names;  ///< FAMILY, or files
-    std::string folder;              ///< for inputs of what is found; empty: they are not kept
-    std::string inputs;              ///< a file of domains
+    std::vector<std::string> stages;
+    std::string folder;  ///< for inputs of what is found; empty: they are not kept
+    std::string inputs;  ///< a file of domains
     bool rounding = false;
     bool json = false;
     std::vector<std::string> machines = {"ieee", "flushed"};
@@ -84,7 +85,8 @@ Result<std::vector<Domain>> narrower_domains(const World& world, const std::stri
 }
 
 Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
-    GOBO_TRY(Subject subject, load_subject(world, options.names, "", &options));
+    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
+    GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo sanitize evaluates"));
     Family& family = subject.family.family;
     GOBO_TRY(const std::vector<Domain> narrower, narrower_domains(world, options.inputs));
     family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
@@ -119,6 +121,7 @@ Command sanitize_command() {
         titles::kSanitize,
         {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
           &options->names, kRequired},
+         stages_option(options->stages),
          keep_option(options->folder, "inputs that show what is found, for gobo eval,"),
          {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points,
           between(1, kMostPoints)},

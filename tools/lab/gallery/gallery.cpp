@@ -227,7 +227,8 @@ Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, 
         return validated.stages[static_cast<std::size_t>(stage)].spirv;
     };
     GOBO_TRY(const raster::Pipeline program,
-             raster::pipeline_of(spirv(permutation.vertex), spirv(permutation.fragment)));
+             raster::pipeline_of(spirv(permutation.stages[StageKind::vertex]),
+                                 spirv(permutation.stages[StageKind::fragment])));
     const auto objects_in = [&](const View& view) {
         return raster::rasterise_objects(program, drawing.interface, scene.objects,
                                          raster::with_plain_textures(drawing.interface, drawing.values), view,

@@ -27,6 +27,30 @@ void upload(GlResources& resources, GLuint location, const AttributeValues& valu
     gl.EnableVertexAttribArray(location);
 }
 
+constexpr GLint kCornersOfPatch = 3;
+
+/// As what the triangles of a mesh are drawn, so that the program's first stage behind the vertex stage takes
+/// them.
+Result<GLenum> primitive_of(const GladGLContext& gl, const Program& program, const Interface& interface) {
+    const auto has = [&](StageKind kind) { return std::ranges::count(interface.stages, name_of(kind)) > 0; };
+    const auto number = [&](GLenum name) {
+        GLint value = 0;
+        gl.GetProgramiv(program.id(), name, &value);
+        return value;
+    };
+    if (has(StageKind::tess_evaluation)) {
+        const bool takes_three =
+            !has(StageKind::tess_control) || number(GL_TESS_CONTROL_OUTPUT_VERTICES) == kCornersOfPatch;
+        if (takes_three && number(GL_TESS_GEN_MODE) == GL_TRIANGLES) return GL_PATCHES;
+        return fail(Fault::input, "the renderer draws patches of three vertices, these stages take others",
+                    "it can draw layout(triangles) behind layout(vertices = 3)");
+    }
+    const GLint taken = has(StageKind::geometry) ? number(GL_GEOMETRY_INPUT_TYPE) : GL_TRIANGLES;
+    if (taken == GL_TRIANGLES || taken == GL_POINTS) return static_cast<GLenum>(taken);
+    return fail(Fault::input, "the renderer draws triangles or points, the geometry stage takes others",
+                "it can draw layout(triangles) in and layout(points) in");
+}
+
 }  // namespace
 
 bool Object::is_mirrored() const {
@@ -123,6 +147,7 @@ void DrawList::draw() const {
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);
     gl.UseProgram(program_.id());
+    if (primitive_ == GL_PATCHES) gl.PatchParameteri(GL_PATCH_VERTICES, kCornersOfPatch);
     for (const Unit& unit : units_) {
         gl.ActiveTexture(GL_TEXTURE0 + unit.unit);
         gl.BindTexture(unit.texture.target, unit.texture.name);
@@ -144,7 +169,7 @@ void DrawList::draw() const {
             gl.CullFace(item.culled);
         }
         gl.BindVertexArray(item.array);
-        gl.DrawElements(GL_TRIANGLES, item.indices, GL_UNSIGNED_INT, nullptr);
+        gl.DrawElements(primitive_, item.indices, GL_UNSIGNED_INT, nullptr);
     }
     gl.Disable(GL_CULL_FACE);
     gl.BindVertexArray(0);
@@ -155,6 +180,7 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
                                 const std::vector<Object>& objects, const std::vector<RenderValue>& values,
                                 const ViewedObject& view, const GivenTextures& textures) {
     context.make_current();
+    const GladGLContext& gl = context.gl();
     const std::vector<std::string>& known = texture_sources();
     for (const Sampler& sampler : interface.samplers) {
         const RenderValue* value = find_value(values, sampler.name);
@@ -163,6 +189,7 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
             return unknown_source(*value, known);
     }
     DrawList list(context, program);
+    GOBO_TRY(list.primitive_, primitive_of(gl, program, interface));
     list.add_textures(interface, values, textures);
     for (const Object& object : objects) GOBO_TRY_DO(list.add(interface, object, values, view));
     return list;

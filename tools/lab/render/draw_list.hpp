@@ -68,6 +68,7 @@ class DrawList {
 
     GlResources resources_;
     Program program_;
+    GLenum primitive_ = GL_TRIANGLES;  ///< as which the triangles of a mesh are drawn
     std::vector<Item> items_;
     std::vector<Unit> units_;
     Diagnostics warnings_;
@@ -75,7 +76,8 @@ class DrawList {
 
 /// Uploads the objects. Samplers that `textures` names get those, others what `values` say. `values` are the
 /// family's, an object's own come after them; `view` is the camera's part (its model matrix is replaced by
-/// each object's). Errors as of resolve_uniforms(), and unknown attribute or texture sources.
+/// each object's). Errors as of resolve_uniforms(), unknown attribute or texture sources, and geometry and
+/// tessellation stages that take something else than triangles, patches of three vertices or points.
 [[nodiscard]] Result<DrawList> make_draw_list(const Context& context, const Program& program,
                                               const Interface& interface, const std::vector<Object>& objects,
                                               const std::vector<RenderValue>& values,

@@ -122,7 +122,10 @@ StageText stage_text(StageKind kind, const std::string& name, const std::string&
 }
 
 std::vector<StageText> stages_of(const Composition& composition, const Permutation& permutation) {
-    return {stage_text(composition, permutation.vertex), stage_text(composition, permutation.fragment)};
+    std::vector<StageText> stages;
+    for (const int stage : permutation.stages.values)
+        if (stage >= 0) stages.push_back(stage_text(composition, stage));
+    return stages;
 }
 
 Diagnostics diagnostics_of_log(std::string_view log, const StageText& stage) {
@@ -160,8 +163,10 @@ Result<Program> link_program(const Context& context, const std::vector<StageText
     Program program(context, gl.CreateProgram());
     Diagnostics diagnostics;
     for (const StageText& stage : stages) {
-        const GLuint shader =
-            gl.CreateShader(stage.kind == StageKind::vertex ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER);
+        constexpr PerStage<GLenum> kKinds = {{GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER,
+                                              GL_TESS_EVALUATION_SHADER, GL_GEOMETRY_SHADER,
+                                              GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER}};
+        const GLuint shader = gl.CreateShader(kKinds[stage.kind]);
         const Diagnostics errors = compile(gl, shader, stage);
         diagnostics.insert(diagnostics.end(), errors.begin(), errors.end());
         gl.AttachShader(program.id(), shader);

@@ -23,7 +23,7 @@ struct StageText {
 [[nodiscard]] StageText stage_text(const Composition& composition, int stage);
 /// A stage of one text, named `name` in diagnostics.
 [[nodiscard]] StageText stage_text(StageKind kind, const std::string& name, const std::string& text);
-/// The vertex stage and the fragment stage of a permutation.
+/// The stages of a permutation.
 [[nodiscard]] std::vector<StageText> stages_of(const Composition& composition,
                                                const Permutation& permutation);
 

@@ -139,9 +139,8 @@ void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
 std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage) {
     std::vector<std::size_t> permutations;
     for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Permutation& permutation = composition.permutations[i];
-        if (permutation.vertex == static_cast<int>(stage) || permutation.fragment == static_cast<int>(stage))
-            permutations.push_back(i);
+        const auto& stages = composition.permutations[i].stages.values;
+        if (std::ranges::count(stages, static_cast<int>(stage)) > 0) permutations.push_back(i);
     }
     return permutations;
 }

@@ -17,10 +17,12 @@ namespace gobo::study {
 namespace {
 
 Result<Variant> decode(const Validated& validated, const Permutation& permutation) {
-    if (permutation.vertex < 0 || permutation.fragment < 0)
-        return fail(Fault::input, "a study needs a vertex stage and a fragment stage");
-    const SpirvModule& vertex = validated.stages[static_cast<std::size_t>(permutation.vertex)].spirv;
-    const SpirvModule& fragment = validated.stages[static_cast<std::size_t>(permutation.fragment)].spirv;
+    if (!permutation.stages.is_usual_pair())
+        return fail(Fault::input, "a study needs a vertex stage, a fragment stage and no other");
+    const SpirvModule& vertex =
+        validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])].spirv;
+    const SpirvModule& fragment =
+        validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv;
     GOBO_TRY(raster::Pipeline program, raster::pipeline_of(vertex, fragment));
     const XXH64_hash_t hash =
         XXH3_64bits_withSeed(fragment.data(), fragment.size() * sizeof fragment[0],

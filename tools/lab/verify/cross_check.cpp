@@ -49,11 +49,8 @@ Result<Drawn> draw(const Context& context, const Composition& composition, const
         drawn.images["shadowMaps"] = raster::depths_of(*maps, lights);
     }
     drawn.values = raster::with_plain_textures(drawn.interface, std::move(drawn.values));
-    GOBO_TRY(auto picture,
-             render_permutation(
-                 context,
-                 {stage_text(composition, permutation.vertex), stage_text(composition, permutation.fragment)},
-                 drawn.interface, scene.objects, drawn.values, scene.view, given));
+    GOBO_TRY(auto picture, render_permutation(context, stages_of(composition, permutation), drawn.interface,
+                                              scene.objects, drawn.values, scene.view, given));
     drawn.color = std::move(picture.color);
     return drawn;
 }
@@ -64,8 +61,8 @@ Result<raster::PictureReport> compare(const Validated& validated, const Permutat
     const auto spirv_of = [&](int stage) -> const SpirvModule& {
         return validated.stages[static_cast<std::size_t>(stage)].spirv;
     };
-    GOBO_TRY(const auto pipeline,
-             raster::pipeline_of(spirv_of(permutation.vertex), spirv_of(permutation.fragment)));
+    GOBO_TRY(const auto pipeline, raster::pipeline_of(spirv_of(permutation.stages[StageKind::vertex]),
+                                                      spirv_of(permutation.stages[StageKind::fragment])));
     GOBO_TRY(const auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects,
                                                            drawn.values, scene.view, drawn.images));
     return raster::compare_picture(drawn.color, pipeline, objects, scene.view.background);

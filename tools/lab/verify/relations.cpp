@@ -285,12 +285,13 @@ Decoded::Decoded(const Composition& composition, const Validated& validated, int
 }
 
 Result<raster::Pipeline> Decoded::pipeline(const Permutation& permutation) const {
-    if (permutation.vertex < 0 || permutation.fragment < 0)
+    if (!permutation.stages.is_usual_pair())
         return fail(Fault::input, "a permutation of one stage has nothing to join");
-    GOBO_TRY(const evaluate::Program& vertex, stage(permutation.vertex));
-    GOBO_TRY(const evaluate::Program& fragment, stage(permutation.fragment));
-    return raster::join(vertex, fragment,
-                        validated_.stages[static_cast<std::size_t>(permutation.fragment)].spirv);
+    GOBO_TRY(const evaluate::Program& vertex, stage(permutation.stages[StageKind::vertex]));
+    GOBO_TRY(const evaluate::Program& fragment, stage(permutation.stages[StageKind::fragment]));
+    return raster::join(
+        vertex, fragment,
+        validated_.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv);
 }
 
 std::optional<Key> partner_of(const Family& family, const Relation& relation, const Key& key,

@@ -28,15 +28,14 @@ class Verifier {
         report.key = permutation.key;
         const std::vector<oracle::Model> models = models_of(permutation.key);
         report.has_oracle = !models.empty();
-        for (const int stage : {permutation.vertex, permutation.fragment}) {
+        for (const int stage : permutation.stages.values) {
             if (stage < 0) continue;  // loose files may leave one out
             if (Result<StageReport> found = check(stage, permutation.key, models))
                 report.add(*std::move(found), 2 * kWorstPoints);
             else
                 add(report, std::move(found).error());
         }
-        const bool is_whole = permutation.vertex >= 0 && permutation.fragment >= 0;
-        if (!is_whole || !report.diagnostics.empty()) return report;
+        if (!permutation.stages.is_usual_pair() || !report.diagnostics.empty()) return report;
         if (const Result<void> done = check_together(report, permutation, models); !done)
             add(report, done.error());
         return report;
