@@ -61,9 +61,7 @@ struct Stage {
     std::uint32_t number = 0;
 
     /// Whether the permutation has the stage: others of its family may have one that it lacks.
-    [[nodiscard]] constexpr bool exists() const {
-        return piece_count() > 0;
-    }
+    [[nodiscard]] constexpr bool exists() const { return piece_count() > 0; }
     /// How many texts for_each_piece() passes.
     [[nodiscard]] constexpr int piece_count() const {
         int count = 0;

@@ -179,8 +179,9 @@ Result<SoftwarePrograms> software_programs(const SceneShaders& shaders) {
     SoftwarePrograms programs;
     for (const Permutation& permutation : shaders.composition.permutations) {
         const auto& stages = shaders.validated.stages;
-        auto program = raster::pipeline_of(stages[static_cast<std::size_t>(permutation.vertex)].spirv,
-                                           stages[static_cast<std::size_t>(permutation.fragment)].spirv);
+        auto program = raster::pipeline_of(
+            stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])].spirv,
+            stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv);
         if (!program) return tl::unexpected(program.error());
         programs.push_back(std::move(*program));
     }
