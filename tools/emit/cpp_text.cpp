@@ -105,6 +105,11 @@ std::string cpp_identifier(std::string_view name) {
     return result;
 }
 
+std::string cpp_function_name(std::string_view name) {
+    const std::string identifier = cpp_identifier(name);
+    return identifier == "min" || identifier == "max" ? identifier + '_' : identifier;
+}
+
 std::string cpp_type_name(std::string_view name) {
     std::string result;
     bool starts_word = true;

@@ -12,8 +12,8 @@ namespace gobo {
 /// printable ASCII, tabs and line ends, otherwise one with escapes.
 [[nodiscard]] std::string cpp_literal(std::string_view text);
 
-/// `text` for a `//` comment, whatever its bytes: `_` for line ends, for what joins lines, and for all that is
-/// not printable ASCII.
+/// `text` for a `//` comment, whatever its bytes: `_` for line ends, for what joins lines, and for all that
+/// is not printable ASCII.
 [[nodiscard]] std::string cpp_comment(std::string_view text);
 
 /// The items within braces, some to a line; nothing where there are none (std::array of 0 takes no inner
@@ -29,6 +29,9 @@ namespace gobo {
 /// C++ (20 too) or a macro of the standard library, <windows.h> or X11 gets one behind it (`default` is
 /// `default_`, `near` `near_`, `INT_MAX` `INT_MAX_`).
 [[nodiscard]] std::string cpp_identifier(std::string_view name);
+
+/// The same for what '(' follows: `min` and `max` are macros of <windows.h> there.
+[[nodiscard]] std::string cpp_function_name(std::string_view name);
 
 /// `fog_distance` as the name of a type: `FogDistance`.
 [[nodiscard]] std::string cpp_type_name(std::string_view name);

@@ -92,7 +92,7 @@ void declaration_section(const Declarations& declarations, const Interface& inte
         functions += fmt::format(
             "[[nodiscard]] constexpr int {}(const Permutation& permutation) {{ return "
             "permutation.declared({}); }}\n",
-            scope.claim(cpp_identifier(differing.name)), index);
+            scope.claim(cpp_function_name(differing.name)), index);
     }
     functions += "}  // namespace declared\n";
 

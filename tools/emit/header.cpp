@@ -6,6 +6,7 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "emit/emit.hpp"
+#include "emit/reserved_names.hpp"
 #include "emit/sections.hpp"
 #include "family/key.hpp"
 
@@ -23,10 +24,24 @@ constexpr std::string_view kHeaderNames =
     "wanted";
 
 Result<std::string> namespace_of(const EmitInput& input) {
-    if (input.cpp_namespace.empty()) return cpp_identifier(input.family.name);
+    if (input.cpp_namespace.empty()) {
+        const std::string name = cpp_identifier(input.family.name);
+        return is_global_name(name) ? name + "_" : name;
+    }
     const std::vector<std::string> names = split(input.cpp_namespace, ':');
-    if (join(names, "::") == input.cpp_namespace && std::ranges::all_of(names, is_cpp_identifier))
-        return input.cpp_namespace;
+    if (join(names, "::") == input.cpp_namespace && std::ranges::all_of(names, is_cpp_identifier)) {
+        // Within another namespace a header would find these there instead of the ones that it needs.
+        const auto hides = [](const std::string& name) {
+            return name == "std" || name == "glm" || name == "gobo";
+        };
+        const auto taken = std::ranges::find_if(names, hides);
+        if (taken == names.end() && !is_global_name(names.front())) return input.cpp_namespace;
+        return fail(
+            Fault::usage,
+            fmt::format("'{}' cannot be the namespace of a header: C++, GLM or gobo has a '{}' already",
+                        input.cpp_namespace, taken == names.end() ? names.front() : *taken),
+            "use another name, such as game::shaders");
+    }
     return fail(Fault::usage, fmt::format("'{}' is not a valid C++ namespace", input.cpp_namespace),
                 "use identifiers with '::' between them, such as game::shaders");
 }

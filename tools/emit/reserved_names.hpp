@@ -9,4 +9,8 @@ namespace gobo {
 /// <X11/Xlib.h>.
 [[nodiscard]] bool is_reserved_name(std::string_view name);
 
+/// Whether C++'s standard headers declare the name at global scope, as a function or a struct (`log`, `main`,
+/// `tm`), or a generated header needs it there (`std`, `glm`, `gobo`): no namespace can have it.
+[[nodiscard]] bool is_global_name(std::string_view name);
+
 }  // namespace gobo

@@ -278,7 +278,7 @@ class StructWriter {
         return fill(templates_.at("elements"),
                     {{"array", cpp_comment(tail.name)},
                      {"type", type.type + type.extents.substr(std::string_view("[1]").size())},
-                     {"name", structure.scope.claim(cpp_identifier(tail.name))},
+                     {"name", structure.scope.claim(cpp_function_name(tail.name))},
                      {"offset", std::to_string(tail.offset)}});
     }
 

@@ -20,9 +20,12 @@ struct Compiler {
 class GeneratedHeader : public testing::TestWithParam<Compiler> {
   protected:
     void write_header(const sample::Built& built, const std::string& name) {
+        write_header(built, name, name);
+    }
+    void write_header(const sample::Built& built, const std::string& name, const std::string& cpp_namespace) {
         const auto templates = read_header_templates(files_, GOBO_SOURCE_DIR "/templates/header");
         ASSERT_TRUE(templates) << to_text(templates.error().front());
-        const auto header = emit_header(built.input(name), *templates);
+        const auto header = emit_header(built.input(cpp_namespace), *templates);
         ASSERT_TRUE(header) << to_text(header.error().front());
         ASSERT_TRUE(files_.write(fmt::format("{}/{}.hpp", folder_, name), *header));
     }
@@ -32,7 +35,8 @@ class GeneratedHeader : public testing::TestWithParam<Compiler> {
         const std::string program = fmt::format("{}/{}", folder_, caller);
         const std::string log = program + ".log";
         const std::string command = fmt::format(
-            "{} -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Werror {} -I'{}' "
+            "{} -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Werror {} "
+            "-I'{}' "
             "-I'{}/include' "
             "'{}/tests/unit/emit/{}.cpp' -o '{}' > '{}' 2>&1 && '{}' '{}' > '{}' 2>&1",
             GetParam().command, options, folder_, GOBO_SOURCE_DIR, GOBO_SOURCE_DIR, caller, program, log,
@@ -63,7 +67,23 @@ TEST_P(GeneratedHeader, FindsPermutationsByAStateAndRecordsKeys) {
 
 TEST_P(GeneratedHeader, StandsBehindTheMacrosOfPlatforms) {
     write_header(sample::macros(), "macros");
+    EXPECT_EQ(compile_and_run("macro_caller", "-DMACROS_FIRST"), "");
     EXPECT_EQ(compile_and_run("macro_caller"), "");
+}
+
+TEST_P(GeneratedHeader, HasANamespaceWhateverTheFamilyIsCalled) {
+    std::string includes =
+        "#include <cmath>\n#include <csignal>\n#include <cstdio>\n#include <ctime>\n#include <unistd.h>\n";
+    for (const char* name :
+         {"main", "std",  "glm",     "gobo", "log",   "gamma", "time", "tm",        "signal", "index", "y0",
+          "int",  "near", "INT_MAX", "NULL", "linux", "4x",    "a b",  "attribute", "detail", "Key"}) {
+        sample::Built built = sample::lit();
+        built.family.name = name;
+        write_header(built, std::string(name) + "_family", "");
+        includes += fmt::format("#include \"{}_family.hpp\"\n", name);
+    }
+    ASSERT_TRUE(files_.write(folder_ + "/families.hpp", includes));
+    EXPECT_EQ(compile_and_run("family_caller"), "");
 }
 
 TEST_P(GeneratedHeader, StandsBehindAndBeforeXlib) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
@@ -222,6 +223,20 @@ TEST(EmitHeader, RefusesWhatIsNoNamespace) {
                       "  help: use identifiers with '::' between them, such as game::shaders\n");
         EXPECT_EQ(exit_status(header.error()), 2);
     }
+    const std::pair<const char*, const char*> taken[] = {
+        {"std", "std"}, {"main", "main"}, {"log::shaders", "log"}, {"game::std", "std"}, {"gobo", "gobo"}};
+    for (const auto& [name, whole] : taken) {
+        const auto header = emit_header(built.input(name), templates());
+        ASSERT_FALSE(header) << name;
+        EXPECT_EQ(
+            to_text(header.error().front()),
+            fmt::format(
+                "gobo: error: '{}' cannot be the namespace of a header: C++, GLM or gobo has a '{}' already\n"
+                "  help: use another name, such as game::shaders\n",
+                name, whole));
+        EXPECT_EQ(exit_status(header.error()), 2);
+    }
+    EXPECT_TRUE(emit_header(built.input("game::log"), templates()));
     EXPECT_NE(emit_header(built.input("game::shaders"), templates())->find("namespace game::shaders {"),
               std::string::npos);
 }

@@ -1,25 +1,7 @@
-// An application that includes the header behind what <windows.h> and <X11/Xlib.h> define.
-#define near
-#define far
-#define small char
-#define interface struct
-#define IN
-#define OUT
-#define OPTIONAL
-#define DELETE (0x00010000L)
-#define ERROR 0
-#define TRANSPARENT 1
-#define None 0L
-#define Bool int
-#define Status int
-#define True 1
-#define False 0
-#define Success 0
-#define Always 2
-#define Above 0
-#define Complex 0
-#define min(a, b) ((a) < (b) ? (a) : (b))
-#define max(a, b) ((a) > (b) ? (a) : (b))
+// An application that includes the header behind what <windows.h> and <X11/Xlib.h> define, or before it.
+#ifdef MACROS_FIRST
+#include "windows_stand_in.hpp"
+#endif
 
 #include <climits>
 #include <cmath>
@@ -30,7 +12,15 @@
 #include <gobo/record.hpp>
 #include <gobo/spot_cone.hpp>
 
+#define GOBO_GL_NO_LOADER
+#include <gobo/gl.hpp>
+#include <gobo/gl_uniforms.hpp>
+#include <gobo/gl_vertices.hpp>
+
 #include "macros.hpp"
+#ifndef MACROS_FIRST
+#include "windows_stand_in.hpp"
+#endif
 
 int main() {
     macros::Key key;
@@ -45,6 +35,9 @@ int main() {
     block.True_ = true;
     block.min = block.max = 1;
     block.DELETE_.OPTIONAL_ = glm::vec4(1);
+    static_assert(macros::declared::min_(macros::permutations[0]) == 1);
+    macros::OPAQUE_ opaque{};
+    static_cast<void>(macros::OPAQUE_::max_(&opaque, sizeof opaque));
     if (macros::check(block).size() != 1) std::puts("near is out of range");
     return macros::find(key) != nullptr && macros::attribute::OUT_ + macros::output::False_ == 0 ? 0 : 1;
 }

@@ -176,7 +176,13 @@ Built macros() {
     built.interface.inputs = {{"OUT", "vec3", 0, {}}};
     built.interface.outputs = {{"False", "vec4", 0, {}}};
     built.interface.samplers = {{"Above", "sampler2D", 0, {}, {}}};
+    built.interface.storage_blocks = {
+        block("OPAQUE", 0, 0, {member("near", "uint", 0), array(member("max", "float", 4), {0}, 4)})};
+    built.interface.uniforms = {{"min", "float", -1, {}, {}, {}},
+                                {"min", "vec2", -1, {}, {}, {}},
+                                {"Window", "Bool", -1, {}, {member("small", "float", 0)}, {}}};
     compose_keys(built, {"default", "small=None status=ERROR Bool=on interface=2 limit=INT_MAX"});
+    built.differing = {{"uniform", "min", {1, 2}}};
     return built;
 }
 

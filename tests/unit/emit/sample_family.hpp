@@ -99,9 +99,10 @@ struct Built {
     Family family;
     Composition composition;
     Interface interface;
+    std::vector<Differing> differing = {};
 
     [[nodiscard]] EmitInput input(const std::string& cpp_namespace = {}) const {
-        return {family, composition, interface, cpp_namespace};
+        return {family, composition, interface, cpp_namespace, {}, differing};
     }
 };
 
