@@ -35,8 +35,8 @@ Result<Pipeline> pipeline_of(const Family& family, const Composition& compositio
     const Validated validated = validate(family, composition, {.keep_spirv = true});
     EXPECT_EQ(exit_status(validated.diagnostics), 0) << to_text(validated.diagnostics.front());
     const Permutation& permutation = composition.permutations.front();
-    return cost::pipeline_of(validated.stage(permutation.vertex).spirv,
-                             validated.stage(permutation.fragment).spirv);
+    return cost::pipeline_of(validated.stage(permutation.stages[StageKind::vertex]).spirv,
+                             validated.stage(permutation.stages[StageKind::fragment]).spirv);
 }
 
 Result<Pipeline> pipeline_of(const Sources& sources) {

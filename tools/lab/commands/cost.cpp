@@ -17,6 +17,7 @@ namespace {
 
 struct CostCommandOptions : SelectionOptions {
     std::vector<std::string> names;  ///< FAMILY, or files
+    std::vector<std::string> stages;
     std::vector<std::string> gpus;
     std::string driver = cost::CompileOptions{}.driver;
     bool json = false;
@@ -58,7 +59,7 @@ struct Pairs {
 };
 
 Pair pair_of(const Permutation& permutation) {
-    return {permutation.vertex, permutation.fragment};
+    return {permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]};
 }
 
 /// "fog=linear", or the files' names.
@@ -72,8 +73,8 @@ Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const 
     std::map<Pair, bool> seen;
     for (const Permutation& permutation : subject.composition.permutations) {
         if (!seen.try_emplace(pair_of(permutation)).second) continue;
-        auto pipeline = cost::pipeline_of(validated.stage(permutation.vertex).spirv,
-                                          validated.stage(permutation.fragment).spirv);
+        const auto [vertex, fragment] = pair_of(permutation);
+        auto pipeline = cost::pipeline_of(validated.stage(vertex).spirv, validated.stage(fragment).spirv);
         if (pipeline) {
             pairs.numbers[pair_of(permutation)] = pairs.pipelines.size();
             pairs.pipelines.push_back(*std::move(pipeline));
@@ -153,7 +154,7 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
 /// The names of the pieces of both stages.
 std::vector<std::string> pieces_of(const Composition& composition, const Permutation& permutation) {
     std::vector<std::string> names;
-    for (const int stage : {permutation.vertex, permutation.fragment})
+    for (const int stage : {permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]})
         for (const int piece : composition.stage(stage).pieces) {
             const std::string& name = composition.piece(piece).name;
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -227,18 +228,18 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (options.names.empty())
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");
-    GOBO_TRY(Subject subject, load_subject(world, options.names, "", &options));
+    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     if (subject.composition.permutations.empty())
         return Outcome{{},
                        {{.severity = Severity::warning,
                          .message = "the selection holds no keys, so there is nothing to cost",
                          .help = "see what a selection holds with 'gobo list'"}}};
-    const Permutation& any = subject.composition.permutations.front();
-    if (any.vertex < 0 || any.fragment < 0)
-        return fail(Fault::usage,
-                    fmt::format("there is no {} stage, and drivers compile both together",
-                                name_of(any.vertex < 0 ? StageKind::vertex : StageKind::fragment)),
-                    "name the files of both stages: gobo cost game.vert game.frag --gpu navi21");
+    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
+        if (subject.are_files && subject.composition.permutations.front().stages[kind] < 0)
+            return fail(Fault::usage,
+                        fmt::format("there is no {} stage, and drivers compile both together", name_of(kind)),
+                        "name the files of both stages: gobo cost game.vert game.frag --gpu navi21");
+    GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
     if (!options.against.empty()) GOBO_TRY_DO(put_first(subject, options.against));
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true}));
     Pairs pairs = pairs_of(options, subject, validated);
@@ -266,6 +267,7 @@ Command cost_command() {
         titles::kCost,
         {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
           &options->names},
+         stages_option(options->stages),
          {"--gpu", "A,B,...",
           "Chips, such as navi21,vega10; list prints those that this machine's driver knows", &options->gpus,
           kRequired},
