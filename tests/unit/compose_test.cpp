@@ -258,10 +258,12 @@ TEST_F(Compose, PrintsTheWholeCycle) {
     files["b.glsl"] = "// b\n#include \"c.glsl\"\n";
     files["c.glsl"] = "#include \"b.glsl\"\n";
     EXPECT_EQ(first_error(),
-              "c.glsl:1:1: error: include cycle: b.glsl -> c.glsl -> b.glsl\n    #include \"b.glsl\"\n    ^\n"
+              "c.glsl:1:1: error: include cycle: b.glsl -> c.glsl -> b.glsl [default]\n    #include "
+              "\"b.glsl\"\n    ^\n"
               "  help: move what both need into a piece of its own\n");
     files["b.glsl"] = "#include \"b.glsl\"\n";
-    EXPECT_THAT(first_error(), testing::StartsWith("b.glsl:1:1: error: include cycle: b.glsl -> b.glsl\n"));
+    EXPECT_THAT(first_error(),
+                testing::StartsWith("b.glsl:1:1: error: include cycle: b.glsl -> b.glsl [default]\n"));
 }
 
 TEST_F(Compose, RefusesAVaryingsIncludeThatNeedsItself) {
@@ -277,7 +279,8 @@ TEST_F(Compose, RefusesEndlessChains) {
     for (int i = 0; i < 200; ++i)
         files[std::to_string(i) + ".glsl"] = "#include \"" + std::to_string(i + 1) + ".glsl\"\n";
     EXPECT_EQ(first_error(),
-              "99.glsl:1:1: error: includes are nested more than 100 deep\n    #include \"100.glsl\"\n    ^\n"
+              "99.glsl:1:1: error: includes are nested more than 100 deep [default]\n    #include "
+              "\"100.glsl\"\n    ^\n"
               "  help: include the piece from the template\n");
 }
 
@@ -285,7 +288,8 @@ TEST_F(Compose, NamesTheFoldersSearchedAndTheNearestFile) {
     files["tiny.frag"] = "// head\n#include \"common/mth.glsl\"\n";
     files["common/math.glsl"] = "";
     EXPECT_EQ(first_error(),
-              "tiny.frag:2:1: error: no piece 'common/mth.glsl'\n    #include \"common/mth.glsl\"\n    ^\n"
+              "tiny.frag:2:1: error: no piece 'common/mth.glsl' [default]\n    #include "
+              "\"common/mth.glsl\"\n    ^\n"
               "  help: searched .; nearest: 'common/math.glsl'\n");
     files.erase("tiny.frag");
     files["tinny.frag"] = "";

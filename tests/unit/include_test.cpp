@@ -82,8 +82,9 @@ TEST_F(Includes, UnderConditionsAreThoseThatHold) {
         source(),
         "#define POINTS 0\n#ifdef SKINNED\n#elif POINTS > 1\n#else\nint none;\n#endif\nvoid main() {}\n")
         << "what is left out is not searched for";
-    EXPECT_THAT(source("skinned=on"), StartsWith("tiny.frag:2:1: error: no piece 'skin.glsl'\n"));
-    EXPECT_THAT(source("point=2"), StartsWith("tiny.frag:4:1: error: no piece 'many.glsl'\n"));
+    EXPECT_THAT(source("skinned=on"),
+                StartsWith("tiny.frag:2:1: error: no piece 'skin.glsl' [skinned=on]\n"));
+    EXPECT_THAT(source("point=2"), StartsWith("tiny.frag:4:1: error: no piece 'many.glsl' [point=2]\n"));
     files["skin.glsl"] = "int skin;\n";
     EXPECT_THAT(source("skinned=on"), HasSubstr("#ifdef SKINNED\nint skin;\n#elif"));
 }
@@ -147,13 +148,15 @@ TEST_F(Includes, BetweenAnglesAreFeaturesOrFiles) {
     files["lib/math"] = "int math;\n";
     EXPECT_EQ(source(), "int fog;\nint part;\nint common;\nint noise;\nint math;\nvoid main() {}\n");
     files["tiny.frag"] = "#include <fogg>\nvoid main() {}\n";
-    EXPECT_EQ(source(),
-              "tiny.frag:1:1: error: family 'tiny' has no feature 'fogg'\n    #include <fogg>\n    ^\n"
-              "  help: did you mean 'fog'?\n");
+    EXPECT_EQ(
+        source(),
+        "tiny.frag:1:1: error: family 'tiny' has no feature 'fogg' [default]\n    #include <fogg>\n    ^\n"
+        "  help: did you mean 'fog'?\n");
     files["tiny.frag"] = "#include <lib/nois.glsl>\nvoid main() {}\n";
-    EXPECT_EQ(source(),
-              "tiny.frag:1:1: error: no piece 'lib/nois.glsl'\n    #include <lib/nois.glsl>\n    ^\n"
-              "  help: searched .; nearest: 'lib/noise.glsl'\n");
+    EXPECT_EQ(
+        source(),
+        "tiny.frag:1:1: error: no piece 'lib/nois.glsl' [default]\n    #include <lib/nois.glsl>\n    ^\n"
+        "  help: searched .; nearest: 'lib/noise.glsl'\n");
 }
 
 TEST_F(Includes, HonourGuards) {
@@ -178,7 +181,7 @@ TEST_F(Includes, MayLeadBackWhereAGuardEndsThem) {
     files["c.glsl"] = "#pragma once\n#include \"b.glsl\"\nint c;\n";
     EXPECT_EQ(source(), "int a;\nint c;\nint b;\nvoid main() {}\n");
     files["b.glsl"] = "int b;\n#include \"b.glsl\"\n";
-    EXPECT_THAT(source(), StartsWith("b.glsl:2:1: error: include cycle: b.glsl -> b.glsl\n"));
+    EXPECT_THAT(source(), StartsWith("b.glsl:2:1: error: include cycle: b.glsl -> b.glsl [default]\n"));
 }
 
 TEST_F(Includes, AtTheTopComeOnceAndBelowItAgain) {
@@ -202,7 +205,7 @@ TEST_F(Includes, MalformedMatterOnlyWhereTheyCount) {
     files["tiny.frag"] = "int a;\n#ifdef SKINNED\n#include skin\n#endif\nvoid main() {}\n";
     EXPECT_EQ(source(), "int a;\n#ifdef SKINNED\n#endif\nvoid main() {}\n");
     EXPECT_EQ(source("skinned=on"),
-              "tiny.frag:3:1: error: malformed #include\n    #include skin\n    ^\n"
+              "tiny.frag:3:1: error: malformed #include [skinned=on]\n    #include skin\n    ^\n"
               "  help: write #include <feature> or #include \"folder/piece.glsl\"\n");
 }
 
@@ -213,7 +216,8 @@ TEST_F(Includes, ThatDoubleAtEachStepAreRefused) {
         files[std::to_string(i) + ".glsl"] = "int i;\n" + next + next;
     }
     files["30.glsl"] = "int last;\n";
-    EXPECT_THAT(source(), HasSubstr("error: the stage takes more than 10000 includes or 16000000 bytes\n"));
+    EXPECT_THAT(source(),
+                HasSubstr("error: the stage takes more than 10000 includes or 16000000 bytes [default]\n"));
 }
 
 TEST_F(Includes, MacrosWithoutEndAreRefused) {

@@ -125,7 +125,8 @@ TEST_F(OnDisk, LinksOutOfTheFolderAreRefused) {
         ASSERT_FALSE(found) << path;
         EXPECT_EQ(first_text(found.error()),
                   root + "/inside/" + path + ": error: is a link that leads out of '" + root +
-                      "/inside'\n  help: put the piece itself into the folder, or name its folder with -I\n");
+                      "/inside'\n  help: put the piece itself into the folder, name its folder with -I, or "
+                      "follow such links with --follow\n");
     }
 }
 

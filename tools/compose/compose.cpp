@@ -585,7 +585,13 @@ std::string source_of(const Composition& composition, const Stage& stage) {
 Result<Composition> compose(const Family& family, const std::vector<Key>& keys, const SearchPath& search,
                             Dialect dialect, Comments comments) {
     Composer composer(family, search, dialect, comments);
-    for (const Key& key : keys) GOBO_TRY_DO(composer.add(key));
+    for (const Key& key : keys) {
+        Result<void> added = composer.add(key);
+        if (added) continue;
+        for (Diagnostic& error : added.error())  // an include may mean another piece for another key
+            if (error.place.line > 0) error.subject = key_text(family, key);
+        return tl::unexpected(std::move(added.error()));
+    }
     return std::move(composer).result();
 }
 

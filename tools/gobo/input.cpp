@@ -84,6 +84,14 @@ Result<std::vector<NamedKey>> keys_of_file(const World& world, const std::string
     return keys;
 }
 
+/// Files have no key for a message to name.
+template <class T>
+Result<T> without_subjects(Result<T> result) {
+    if (!result)
+        for (Diagnostic& error : result.error()) error.subject.clear();
+    return result;
+}
+
 }  // namespace
 
 OptionGroup common_options(CommonOptions& options) {
@@ -245,7 +253,7 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
         GOBO_TRY(subject.family.dialect, read_dialect(dialect));
         add_include_folders(world, subject.family.search);
         GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search, kinds));
-        GOBO_TRY(subject.composition, compose_keys(subject.family, {Key{}}));
+        GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
         return subject;
     }
     const std::size_t most = selection != nullptr ? 1 : 2;
@@ -263,10 +271,10 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
 
 Result<Validated> compile(const World& world, const Subject& subject, const ValidateOptions& options) {
     auto validated = compile(world, subject.family.family, subject.composition, options);
-    if (subject.are_files)
-        for (Diagnostic& diagnostic : validated ? validated->diagnostics : validated.error())
-            diagnostic.subject.clear();
-    return validated;
+    if (!subject.are_files) return validated;
+    if (validated)
+        for (Diagnostic& diagnostic : validated->diagnostics) diagnostic.subject.clear();
+    return without_subjects(std::move(validated));
 }
 
 Result<std::string> read_input(const World& world, const std::string& path) {

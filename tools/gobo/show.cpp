@@ -61,7 +61,9 @@ Command show_command() {
             "  gobo show lit 'fog=linear point=3' --stage fragment | glslangValidator --stdin -S frag -G\n"
             "  gobo show lit 'fog=linear point=3' --pieces\n"
             "  gobo show lit 'spot=1' --stage vertex --dialect es300",
-            [options](const World& world) { return run(*options, world); }};
+            [options](const World& world) { return run(*options, world); },
+            "Without --stage all stages are printed for a reader, each behind its name. What another program "
+            "is to take is printed with --stage: that source alone, as it is shipped."};
 }
 
 }  // namespace gobo

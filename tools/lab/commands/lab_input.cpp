@@ -163,6 +163,22 @@ Diagnostic note_in(const std::string& file, std::string message) {
     return note;
 }
 
+std::string shell_word(std::string_view text) {
+    const auto is_plain = [](char character) {
+        return is_identifier_part(character) ||
+               std::string_view("./=+-,:@%").find(character) != std::string_view::npos;
+    };
+    if (!text.empty() && std::ranges::all_of(text, is_plain)) return std::string(text);
+    std::string word = "'";
+    for (const char character : text) {
+        if (character == '\'')
+            word += "'\\''";
+        else
+            word += character;
+    }
+    return word + "'";
+}
+
 Diagnostics as_warnings(Diagnostics errors) {
     for (Diagnostic& error : errors) error.severity = Severity::warning;
     return errors;

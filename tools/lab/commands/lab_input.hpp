@@ -67,6 +67,9 @@ using CubeImages = std::map<std::string, Image>;
 [[nodiscard]] Diagnostic note_in(const std::string& file, std::string message);
 /// Keeps what shows a failure. Where it cannot be written that is a warning: the failure decides the status.
 [[nodiscard]] Diagnostics keep_file(const World& world, const std::string& path, std::string_view content);
+/// The text as a word of a shell's command: in quotes where it holds more than letters, digits and what file
+/// names usually hold.
+[[nodiscard]] std::string shell_word(std::string_view text);
 /// The errors as warnings.
 [[nodiscard]] Diagnostics as_warnings(Diagnostics errors);
 /// The line of the piece that a place names; empty where there is none.

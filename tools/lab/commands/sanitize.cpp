@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/commands/lab_input.hpp"
@@ -35,7 +36,9 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
     error.quoted_line = quoted_line(subject.composition, finding.place);
     const std::string keys = subject.are_files ? "" : fmt::format(", {} keys", shared.permutations.size());
     error.message = fmt::format("{} ({} points{})", to_text(finding), finding.points, keys);
-    std::string what = fmt::format("{}", fmt::join(options.names, " "));
+    std::vector<std::string> names = options.names;
+    std::ranges::transform(names, names.begin(), shell_word);
+    std::string what = join(names, " ");
     if (!subject.are_files && !shared.permutations.empty()) {
         error.subject = key_text(subject.family.family,
                                  subject.composition.permutations[shared.permutations.front()].key);
@@ -50,7 +53,7 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
     const std::string name = finding.place.file.substr(finding.place.file.rfind('/') + 1);
     const std::string path =
         fmt::format("{}/{}.{}.{}.toml", options.folder, number, name, finding.place.line);
-    const std::string follow = fmt::format("gobo eval {} --inputs {} --trace", what, path);
+    const std::string follow = fmt::format("gobo eval {} --inputs {} --trace", what, shell_word(path));
     error.help = "guard the operation; follow the input with: " + follow;
     append(diagnostics, keep_file(world, path, sanitize::eval_input(finding, follow)));
     return diagnostics;

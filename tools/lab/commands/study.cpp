@@ -36,13 +36,14 @@ struct StudyCommandOptions {
 
 /// What made the report, for who reads it.
 std::string command_line(const StudyCommandOptions& options) {
-    std::string line = fmt::format("gobo study {} -o {}", options.family, options.folder);
+    std::string line =
+        fmt::format("gobo study {} -o {}", shell_word(options.family), shell_word(options.folder));
     for (const std::string& effects : options.study.effects) line += fmt::format(" --effects '{}'", effects);
     if (options.study.quick) line += " --quick";
     if (options.no_time) line += " --no-time";
     if (options.rounds != study::kLeastRounds) line += fmt::format(" --rounds {}", options.rounds);
-    if (!options.plan.empty()) line += " --plan " + options.plan;
-    if (!options.weights_from.empty()) line += " --weights-from " + options.weights_from;
+    if (!options.plan.empty()) line += " --plan " + shell_word(options.plan);
+    if (!options.weights_from.empty()) line += " --weights-from " + shell_word(options.weights_from);
     return line;
 }
 

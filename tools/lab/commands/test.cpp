@@ -68,7 +68,7 @@ Diagnostics report_failure(const World& world, const TestOptions& options, const
              fmt::format("{} of {} points are out of tolerance", report.failed_points, report.figures.points),
              fmt::format("{}follow one of {} through the shader: gobo eval {} '{}' --inputs FILE --trace",
                          options.folder.empty() ? "keep the worst points with -o DIR, and " : "",
-                         options.folder.empty() ? "them" : "these", options.family, key))
+                         options.folder.empty() ? "them" : "these", shell_word(options.family), key))
             .value();
     diagnostics.front().subject = key;
     for (std::size_t i = 0; i < report.worst.size(); ++i) {
@@ -102,7 +102,7 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
                 world, options,
                 file_name(one, report.worst->stage, fmt::format("relation_{}.{}", report.relation + 1, side)),
                 evaluate::eval_file(name_of(report.worst->stage), point, {side_key}, evaluate::Digits::all),
-                fmt::format("gobo eval {} '{}' --inputs this file", options.family, side_key)));
+                fmt::format("gobo eval {} '{}' --inputs this file", shell_word(options.family), side_key)));
     };
     if (!report.worst || options.folder.empty()) return diagnostics;
     keep(one, report.worst->one, "one");
