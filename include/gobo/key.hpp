@@ -14,12 +14,13 @@ namespace gobo::runtime {
 enum class FeatureKind : std::uint8_t { choice, count, define };
 
 /// A feature of a family. The names of its values stand in Tables::value_names from `first_name` on; a count
-/// has none, its values are their numbers.
+/// has none, its values are numbers from `lowest` on.
 struct Feature {
     std::string_view name;
     FeatureKind kind = FeatureKind::choice;
     int value_count = 0;
     int first_name = 0;
+    int lowest = 0;
 };
 
 /// A key as value numbers, in the order of Tables::features.
@@ -30,7 +31,7 @@ using Values = std::array<int, Tables::features.size()>;
 template <class Tables>
 [[nodiscard]] std::string value_text(const Feature& feature, int value) {
     const bool named = feature.kind != FeatureKind::count && value >= 0 && value < feature.value_count;
-    if (!named) return std::to_string(value);
+    if (!named) return std::to_string(feature.lowest + value);
     return std::string(
         Tables::value_names[static_cast<std::size_t>(feature.first_name) + static_cast<std::size_t>(value)]);
 }
@@ -108,8 +109,10 @@ template <class Tables>
     for (std::size_t index = 0; index < values.size(); ++index) {
         const Feature& feature = Tables::features[index];
         if (values[index] >= 0 && values[index] < feature.value_count) continue;
-        return std::string(feature.name) + "=" + std::to_string(values[index]) + " is out of range: 0 to " +
-               std::to_string(feature.value_count - 1);
+        const int least = feature.lowest;
+        return std::string(feature.name) + "=" + std::to_string(least + values[index]) +
+               " is out of range: " + std::to_string(least) + " to " +
+               std::to_string(least + feature.value_count - 1);
     }
     return {};
 }

@@ -139,7 +139,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:6:11: error: feature 'point' cannot name its default\n"
      "    default = \"1\"\n"
      "              ^\n"
-     "  help: only a choice can: a count's is 0, a define's is off\n"},
+     "  help: only a choice can: a count's is its least, a define's is off\n"},
     {"enum_of_a_define",
      "[features.bump]\n"
      "define = \"BUMP\"\n"
@@ -219,14 +219,105 @@ const BadRow bad_rows[] = {
      "              ^\n"
      "  help: write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the new one "
      "exists\n"},
-    {"count_from_one",
+    {"count_of_one_number",
      "[features.point]\n"
-     "count = [1, 4]\n"
+     "count = [4, 4]\n"
      "constant = \"N\"\n",
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
-     "    count = [1, 4]\n"
+     "    count = [4, 4]\n"
      "            ^\n"
-     "  help: write count = [0, N] with N from 1 to 4096\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096\n"},
+    {"version_unknown", "version = \"335 core\"\n",
+     "tiny.toml:4:11: error: GLSL has no version '335 core'\n"
+     "    version = \"335 core\"\n"
+     "              ^\n"
+     "  help: write a number that GLSL has and the profile: 330 core, 450, 300 es\n"},
+    {"prologue_of_an_unknown_stage",
+     "[prologue]\n"
+     "fragmnet = \"\"\n",
+     "tiny.toml:5:1: error: unknown name 'fragmnet' in 'prologue'\n"
+     "    fragmnet = \"\"\n"
+     "    ^\n"
+     "  help: did you mean 'fragment'?\n"},
+    {"include_rule_without_name",
+     "[includes]\n"
+     "'#pragma import' = '*'\n",
+     "tiny.toml:5:20: error: '#pragma import' does not say where the name stands\n"
+     "    '#pragma import' = '*'\n"
+     "                       ^\n"
+     "  help: write one * in the line and one in the path: '#pragma import \"*\"' = 'lib/*.glsl'\n"},
+    {"substitute_of_a_comment",
+     "[substitute]\n"
+     "'//' = 'a'\n",
+     "tiny.toml:5:8: error: cannot replace '//' by 'a'\n"
+     "    '//' = 'a'\n"
+     "           ^\n"
+     "  help: write a name, perhaps between signs, and one line without comments\n"},
+    {"substitute_with_blanks",
+     "[features.a]\n"
+     "substitute = \"@ a @\"\n",
+     "tiny.toml:5:14: error: feature 'a' cannot replace '@ a @'\n"
+     "    substitute = \"@ a @\"\n"
+     "                 ^\n"
+     "  help: write a name, best with a sign that GLSL has no use for: \"@name@\" or \"$name\"\n"},
+    {"text_of_no_value",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "values = [\"soft\", \"hard\"]\n"
+     "text = { sotf = \"1\" }\n",
+     "tiny.toml:7:8: error: feature 'a' has no value 'sotf'\n"
+     "    text = { sotf = \"1\" }\n"
+     "           ^\n"
+     "  help: did you mean 'soft'?\n"},
+    {"text_of_two_lines",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "text = \"1\\n#define B\"\n",
+     "tiny.toml:6:8: error: the text of 'on' is no macro's\n"
+     "    text = \"1\\n#define B\"\n"
+     "           ^\n"
+     "  help: write it on one line, without comments and backslashes\n"},
+    {"text_with_a_comment",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "text = { on = \"1 // one\" }\n",
+     "tiny.toml:6:15: error: the text of 'on' is no macro's\n"
+     "    text = { on = \"1 // one\" }\n"
+     "                  ^\n"
+     "  help: write it on one line, without comments and backslashes\n"},
+    {"text_true",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "text = { on = true }\n",
+     "tiny.toml:6:15: error: the text of 'on' must be a string or false\n"
+     "    text = { on = true }\n"
+     "                  ^\n"
+     "  help: write the text of the macro, or false to leave it undefined\n"},
+    {"text_for_all_values",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "values = [\"soft\", \"hard\"]\n"
+     "text = \"1\"\n",
+     "tiny.toml:7:8: error: feature 'a' has one text for all values\n"
+     "    text = \"1\"\n"
+     "           ^\n"
+     "  help: write text = { VALUE = \"TEXT\" }\n"},
+    {"text_without_macro",
+     "[features.a]\n"
+     "values = [\"soft\", \"hard\"]\n"
+     "text = { soft = \"1\" }\n",
+     "tiny.toml:6:8: error: feature 'a' has text, but no macro\n"
+     "    text = { soft = \"1\" }\n"
+     "           ^\n"
+     "  help: add define = \"MACRO\"\n"},
+    {"macro_of_an_unknown_stage",
+     "[features.a]\n"
+     "define = \"A\"\n"
+     "stages = [\"pixel\"]\n",
+     "tiny.toml:6:10: error: feature 'a' names an unknown stage 'pixel'\n"
+     "    stages = [\"pixel\"]\n"
+     "             ^\n"
+     "  help: known: vertex, tess_control, tess_evaluation, geometry, fragment, compute\n"},
     {"count_of_wrong_type",
      "[features.point]\n"
      "count = 4\n"
@@ -234,7 +325,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = 4\n"
      "            ^\n"
-     "  help: write count = [0, N] with N from 1 to 4096\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096\n"},
     {"count_without_constant",
      "[features.point]\n"
      "count = [0, 4]\n",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
+#include "family/key.hpp"
 #include "lab/render/program.hpp"
 #include "small_families.hpp"
 #include "validate/validate.hpp"
@@ -62,6 +63,107 @@ TEST(DriverItself, JoinsLinesInEveryVersion) {
         EXPECT_FALSE(link_program(*context, stages)) << version;
     }
 }
+
+struct FamilyRow {
+    const char* name;
+    const char* body;  ///< of tiny.toml, behind its first three lines
+    const char* key;
+    const char* vertex;
+    const char* fragment;
+    const char* mistake;  ///< where both see one; empty: both take it
+};
+
+class FamilyInTheDriver : public testing::TestWithParam<FamilyRow> {};
+
+TEST_P(FamilyInTheDriver, IsAsGlslangSays) {
+    const FamilyRow& row = GetParam();
+    const MemoryFileSystem files({{"tiny.vert", row.vertex}, {"tiny.frag", row.fragment}});
+    const DiskFileSystem disk;
+    SearchPath search;
+    search.add(files, "", "", false);
+    search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
+    const Family family = family_of(row.body);
+    const Composition composition =
+        compose(family, {parse_key(family, row.key).value()}, search, Dialect::own).value();
+    EXPECT_EQ(place_of(validate(family, composition, {}).diagnostics), row.mistake);
+
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << first_text(context.error());
+    const Result<Program> program =
+        link_program(*context, stages_of(composition, composition.permutations.front()));
+    EXPECT_EQ(program ? "" : place_of(program.error()), row.mistake);
+}
+
+constexpr const char* core_vertex = "in vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
+constexpr const char* es_fragment =
+    "version = \"300 es\"\n[prologue]\nfragment = \"precision highp float;\"\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, FamilyInTheDriver,
+    testing::Values(
+        FamilyRow{"version_and_prologue",
+                  "version = \"330 core\"\n[prologue]\nfragment = '''\nout vec4 color;\nconst float half = "
+                  "0.5;\n'''\n",
+                  "default", core_vertex, "void main() { color = vec4(half); }\n", ""},
+        FamilyRow{"mistake_in_the_prologue",
+                  "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float half = "
+                  "oops;\n'''\n",
+                  "default", core_vertex, "void main() { color = vec4(half); }\n", "tiny.toml:9"},
+        FamilyRow{"mistake_behind_the_prologue",
+                  "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\n'''\n", "default",
+                  core_vertex, "void main() { color = vec4(oops); }\n", "tiny.frag:1"},
+        FamilyRow{"macro_with_text",
+                  "version = \"330 core\"\n[features.half]\ndefine = \"HALF\"\ntext = \"vec2(0.5)\"\n",
+                  "half=on", core_vertex, "out vec4 color;\nvoid main() { color = vec4(HALF, HALF); }\n", ""},
+        FamilyRow{"macro_that_is_empty",
+                  "version = \"330 core\"\n[features.half]\ndefine = \"HALF\"\ntext = \"\"\n", "half=on",
+                  core_vertex, "out vec4 color;\n#ifdef HALF\nvoid main() { color = vec4(1); }\n#endif\n",
+                  ""},
+        FamilyRow{"unrolled_samplers",
+                  "version = \"300 es\"\nunroll_loops = true\n[prologue]\nfragment = \"precision highp "
+                  "float;\"\n[features.maps]\ncount = [0, 3]\nconstant = \"MAPS\"\n",
+                  "maps=3", core_vertex,
+                  "uniform sampler2D maps[MAPS];\nout vec4 color;\nvoid main() {\n    color = vec4(0);\n"
+                  "#pragma unroll_loop_start\nfor (int i = 0; i < MAPS; i ++) {\n"
+                  "    color += texture(maps[i], vec2(UNROLLED_LOOP_INDEX));\n}\n"
+                  "#pragma unroll_loop_end\n}\n",
+                  ""},
+        FamilyRow{"mistake_behind_an_unrolled_loop", "version = \"330 core\"\nunroll_loops = true\n",
+                  "default", core_vertex,
+                  "out vec4 color;\nvoid main() {\n    color = vec4(0);\n"
+                  "#pragma unroll_loop_start\nfor (int i = 0; i < 3; i ++) {\n    color += 1.0;\n}\n"
+                  "#pragma unroll_loop_end\n    oops;\n}\n",
+                  "tiny.frag:9"},
+        FamilyRow{"mistake_in_an_unrolled_loop", "version = \"330 core\"\nunroll_loops = true\n", "default",
+                  core_vertex,
+                  "out vec4 color;\nvoid main() {\n    color = vec4(0);\n"
+                  "#pragma unroll_loop_start\nfor (int i = 0; i < 3; i ++) {\n    color += oops;\n}\n"
+                  "#pragma unroll_loop_end\n}\n",
+                  "tiny.frag:6"},
+        FamilyRow{"function_that_a_later_version_has", es_fragment, "default", core_vertex,
+                  "uniform vec3 tint;\nout vec4 color;\nfloat average(const in vec3 v) { return dot(v, "
+                  "vec3(0.33)); }\nfloat fma(float a) { return a; }\nint findLSB(int a) { return a + 1; }\n"
+                  "void main() { color = vec4(average(tint), fma(1.0), float(findLSB(2)), 1.0); }\n",
+                  ""},
+        FamilyRow{"function_that_the_version_has", es_fragment, "default", core_vertex,
+                  "out vec4 color;\nfloat mix(float a, float b, float c) { return a; }\n"
+                  "void main() { color = vec4(mix(1.0, 2.0, 3.0)); }\n",
+                  "tiny.frag:2"},
+        FamilyRow{"legacy", "version = \"150\"\ncompatibility = true\n", "default",
+                  "void main() {\n    vec3 normal = normalize(gl_NormalMatrix * gl_Normal);\n"
+                  "    gl_FrontColor = gl_Color * gl_LightSource[0].diffuse *\n"
+                  "                    max(dot(normal, gl_LightSource[0].position.xyz), 0.0);\n"
+                  "    gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0;\n"
+                  "    gl_Position = ftransform();\n}\n",
+                  "uniform sampler2D map;\nuniform sampler2DShadow shadow;\nvarying vec4 unread;\n"
+                  "void main() {\n    gl_FragColor = gl_Color * texture2D(map, gl_TexCoord[0].xy) *\n"
+                  "                   shadow2D(shadow, gl_TexCoord[0].xyz).r * gl_FrontMaterial.shininess;\n"
+                  "}\n",
+                  ""},
+        FamilyRow{"mistake_in_legacy", "version = \"150\"\ncompatibility = true\n", "default",
+                  "\nvoid main() { gl_Position = ftransform(); oops; }\n",
+                  "void main() { gl_FragColor = vec4(1.0); }\n", "tiny.vert:2"}),
+    [](const auto& row) { return row.param.name; });
 
 constexpr const char* plain_main =
     "#include \"a.glsl\"\nout vec4 color;\nvoid main() { color = vec4(one()); }\n";

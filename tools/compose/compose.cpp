@@ -10,6 +10,7 @@
 
 #include "compose/conditions.hpp"
 #include "compose/dialect.hpp"
+#include "compose/rewrite.hpp"
 #include "compose/scan_piece.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
@@ -23,9 +24,13 @@ constexpr std::size_t kDeepestInclude = 100;
 /// What a stage may hold: files that include others twice, each below its top, double at every step.
 constexpr std::size_t kMostIncludes = 10'000;
 constexpr std::size_t kMostBytes = 16'000'000;
+/// Of a loop that is unrolled.
+constexpr int kMostRounds = 4096;
 
-tl::unexpected<Diagnostics> fail_at(const Include& include, std::string message, std::string help) {
-    return fail(include.place, include.line, std::move(message), std::move(help));
+/// At an include or another directive.
+template <class Directive>
+tl::unexpected<Diagnostics> fail_at(const Directive& directive, std::string message, std::string help) {
+    return fail(directive.place, directive.line, std::move(message), std::move(help));
 }
 
 /// How many characters a text's first lines take.
@@ -50,6 +55,13 @@ bool has(const List& list, const Item& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
 }
 
+/// The feature whose macro a `#define` of the shaders defines; null for any other directive.
+const Feature* feature_defined_by(const Directive& directive, const Family& family) {
+    if (directive.word != "define") return nullptr;
+    const auto found = std::ranges::find(family.features, macro_name(directive.rest), &Feature::macro);
+    return found == family.features.end() ? nullptr : &*found;
+}
+
 /// A file with what the composer asks of it again and again. Includes below its top part it into several
 /// pieces.
 struct Source {
@@ -58,12 +70,14 @@ struct Source {
     std::string root;    ///< of the folders searched the one that it was found in
     std::vector<int> pieces;
     std::string version;
+    Directive version_line;
     std::vector<Include> includes;
     std::vector<Directive> directives;
     Extensions extensions;
     bool is_once = false;
     std::string guard;
-    bool is_fixed = true;  ///< whatever the macros are: one piece, its extensions under no condition
+    /// Whatever the macros are: one piece, its extensions under no condition, no macro of a feature defined.
+    bool is_fixed = true;
 };
 
 /// The pieces of a composition, each read and scanned once, and the resolution of includes to them. Whatever
@@ -72,9 +86,22 @@ class PieceLibrary {
   public:
     PieceLibrary(const Family& family, const SearchPath& search, Comments comments, Composition& composition)
         : family_(family), search_(search), comments_(comments), composition_(composition) {
-        for (const Feature& feature : family.features)
+        for (const Feature& feature : family.features) {
             if (!feature.macro.empty()) interest_.push_back(feature.macro);
+            if (!feature.substituted.empty()) has_substitutions_ = true;
+        }
         for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
+        if (!family.substitutions.empty() || family.compatibility) has_substitutions_ = true;
+        if (family.compatibility)
+            interest_.insert(interest_.end(), legacy_names().begin(), legacy_names().end());
+    }
+
+    /// What the family substitutes is replaced as the key has it, in the files found from now on.
+    void substitute_for(const Key& key, StageKind stage) {
+        if (!has_substitutions_) return;
+        substitutions_ = substitutions_of(family_, key, stage);
+        const auto next = static_cast<int>(variants_.size());
+        variant_ = variants_.try_emplace(substitutions_, next).first->second;
     }
 
     /// The file that an include means: of a feature, the one for its value, nothing for a count of 0.
@@ -85,7 +112,8 @@ class PieceLibrary {
         const std::optional<int> index =
             include.in_angles && is_feature_or_part(include.target) ? family_.index_of(name) : std::nullopt;
         const auto at = static_cast<std::size_t>(index.value_or(0));
-        const auto choice = std::tuple(index ? nullptr : from, include.target, index ? key[at] : -1, stage);
+        const auto choice =
+            std::tuple(index ? nullptr : from, include.target, index ? key[at] : -1, stage, variant_);
         if (const auto known = by_choice_.find(choice); known != by_choice_.end()) return known->second;
         GOBO_TRY(const std::optional<int> file,
                  index ? find_value(include, family_.features[at], key[at], stage)
@@ -93,11 +121,33 @@ class PieceLibrary {
         return by_choice_[choice] = file;
     }
 
+    /// The text that the family puts in front of stages, as a file.
+    Result<int> prologue(const PrologueText& part) {
+        const std::string name =
+            fmt::format("{}[prologue{}{}]", family_.name, part.stage.empty() ? "" : ".", part.stage);
+        const std::string lines_before(static_cast<std::size_t>(std::max(part.place.line - 1, 0)), '\n');
+        GOBO_TRY(const int file, add_file({name, part.place.file, lines_before + part.text, false}, "", ""));
+        const Source& source = sources_[static_cast<std::size_t>(file)];
+        if (source.version.empty()) return file;
+        return fail(source.version_line.place, source.version_line.line,
+                    "a #version in the family's prologue",
+                    fmt::format("write version = \"{}\" at the top of the family file", source.version));
+    }
+
     /// The number of a generated text; equal texts have equal numbers.
     int generated(Piece piece) {
         const auto [at, is_new] = by_generated_text_.try_emplace(piece.text, -1);
         if (is_new) at->second = add(std::move(piece), {std::vector<char>(interest_.size(), 0), nullptr});
         return at->second;
+    }
+
+    /// The piece with one round of its loop in the loop's place.
+    int round(int piece, const LoopHead& head, int index) {
+        const auto [at, is_new] = rounds_.try_emplace({piece, index}, -1);
+        if (!is_new) return at->second;
+        Piece copy = composition_.piece(piece);
+        copy.text = round_of_loop(copy.text, head, index);
+        return at->second = add(std::move(copy), entry(piece));
     }
 
     [[nodiscard]] const Source& source(int file) const { return sources_[static_cast<std::size_t>(file)]; }
@@ -144,26 +194,39 @@ class PieceLibrary {
     }
 
     Result<std::optional<int>> load(const std::string& path, const std::string& root) {
-        const auto [known, is_new] = by_path_.try_emplace({root, path});
+        const auto [known, is_new] = by_path_.try_emplace({root, path, variant_});
         if (!is_new) return known->second;
         GOBO_TRY(std::optional<Piece> piece, search_.find(path, root));
         if (!piece) return std::nullopt;
-        const auto [found, is_unread] =
-            by_file_.try_emplace({piece->path, piece->name}, static_cast<int>(sources_.size()));
-        known->second = found->second;
+        const bool is_of_root = piece->path.ends_with("/" + path);
+        const std::string found_in =
+            is_of_root ? piece->path.substr(0, piece->path.size() - path.size() - 1) : "";
+        GOBO_TRY(known->second, add_file(std::move(*piece), folder_of(path), found_in));
+        return known->second;
+    }
+
+    /// The number of a file, which is scanned where it is new, as the family rewrites it.
+    Result<int> add_file(Piece piece, std::string folder, std::string root) {
+        if (piece.file_text.empty()) piece.file_text = piece.text;
+        const std::string text = substitutions_.empty() || folder == kLegacyFolder
+                                     ? piece.text
+                                     : substituted(piece.text, substitutions_);
+        const auto [found, is_unread] = by_file_.try_emplace(
+            {piece.path, piece.name, text == piece.text ? "" : text}, static_cast<int>(sources_.size()));
         if (!is_unread) return found->second;
-        if (piece->file_text.empty()) piece->file_text = piece->text;
-        GOBO_TRY(ScannedPiece scanned, scan_piece(piece->text, piece->path));
+        GOBO_TRY(ScannedPiece scanned,
+                 scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
+                            piece.text));
         composition_.stated_bindings.merge(scanned.bindings);
         Diagnostics& warnings = composition_.warnings;
         warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
         Source& source = sources_.emplace_back();
-        source.name = piece->name;
-        source.folder = folder_of(path);
-        if (piece->path.ends_with("/" + path))
-            source.root = piece->path.substr(0, piece->path.size() - path.size() - 1);
-        add_pieces(source, *piece, scanned);
+        source.name = piece.name;
+        source.folder = std::move(folder);
+        source.root = std::move(root);
+        add_pieces(source, piece, scanned);
         source.version = std::move(scanned.version);
+        source.version_line = std::move(scanned.version_line);
         source.includes = std::move(scanned.includes);
         source.directives = std::move(scanned.directives);
         source.extensions = std::move(scanned.extensions);
@@ -194,8 +257,11 @@ class PieceLibrary {
             line = last + 1;
         };
         for (const Directive& directive : scanned.directives) {
-            if (directive.word == "include") add_up_to(directive.place.line);
-            if (directive.word == "include" || directive.word == "extension") source.is_fixed = false;
+            const bool parts =
+                directive.word == "include" || (directive.word == "pragma" && family_.unrolls_loops);
+            if (parts) add_up_to(directive.place.line);
+            if (parts || directive.word == "extension" || feature_defined_by(directive, family_) != nullptr)
+                source.is_fixed = false;
         }
         add_up_to(static_cast<int>(std::ranges::count(scanned.code, '\n')));
     }
@@ -237,7 +303,7 @@ class PieceLibrary {
     Result<std::optional<int>> find_value(const Include& include, const Feature& feature, int value,
                                           StageKind stage) {
         const bool is_count = feature.kind == FeatureKind::count;
-        if (is_count && value == 0) return std::nullopt;
+        if (is_count && feature.lowest + value == 0) return std::nullopt;
         const std::string& value_name =
             is_count ? feature.name : feature.values[static_cast<std::size_t>(value)];
         const std::string path = fmt::format("{}/{}.glsl", include.target, value_name);
@@ -279,13 +345,19 @@ class PieceLibrary {
                                           "SAMPLER", "DEPTH",   "early_fragment_tests"};
     std::deque<Entry> entries_;   ///< of the pieces
     std::deque<Source> sources_;  ///< not a vector: who holds one may load more of them
-    /// Root and path; also what is known to be absent.
-    std::map<std::pair<std::string, std::string>, std::optional<int>> by_path_;
-    std::map<std::pair<std::string, std::string>, int>
-        by_file_;  ///< path and name: two paths may lead to one
+    /// What features replace, and the number of that in `variants_`; 0 where none does.
+    Substitutions substitutions_;
+    std::map<Substitutions, int> variants_;
+    int variant_ = 0;
+    bool has_substitutions_ = false;
+    /// Root, path and variant; also what is known to be absent.
+    std::map<std::tuple<std::string, std::string, int>, std::optional<int>> by_path_;
+    /// Path, name and, where something is replaced in it, text: two paths may lead to one file.
+    std::map<std::tuple<std::string, std::string, std::string>, int> by_file_;
     std::map<std::string, int, std::less<>> by_generated_text_;
-    /// Of a file the one that includes it; target of the include, value (-1 of a file), stage.
-    std::map<std::tuple<const Source*, std::string, int, StageKind>, std::optional<int>> by_choice_;
+    std::map<std::pair<int, int>, int> rounds_;  ///< by piece and index
+    /// Of a file the one that includes it; target of the include, value (-1 of a file), stage, variant.
+    std::map<std::tuple<const Source*, std::string, int, StageKind, int>, std::optional<int>> by_choice_;
 };
 
 /// A stage being put together: the pieces placed so far and the includes that lead to the one being placed.
@@ -297,9 +369,10 @@ struct Placement {
     std::vector<int> files = {};  ///< whose text is placed
     std::vector<int> open = {};   ///< files whose includes are being followed
     std::size_t bytes = 0;
-    bool wants_varyings = false;  ///< an `#include <varyings>` was met
+    std::size_t behind_prologue = 0;  ///< how many of `placed` are the family's prologue
+    bool wants_varyings = false;      ///< an `#include <varyings>` was met
     Extensions extensions = {};
-    std::string version = {};  ///< the template's, else the first that a file states
+    std::string version = {};  ///< the family's, else the template's, else the first that a file states
     std::optional<Conditions> conditions = {};
     std::size_t walked = 0;  ///< the pieces whose directives `conditions` has taken in
 };
@@ -331,9 +404,64 @@ class Composer {
 
   private:
     Result<void> follow_templates(Placement& placement) {
-        for (const std::string& path : family_.templates_of(placement.key)[placement.stage])
-            GOBO_TRY_DO(follow(placement, {false, path, {family_.path, 0, 0}, ""}, nullptr));
+        const std::vector<std::string>& paths = family_.templates_of(placement.key)[placement.stage];
+        if (paths.empty()) return {};
+        library_.substitute_for(placement.key, placement.stage);
+        const auto asked = [&](const std::string& path) {
+            return Include{false, path, {family_.path, 0, 0}, ""};
+        };
+        const Include first = asked(paths.front());
+        GOBO_TRY(const std::optional<int> file,
+                 library_.find(first, placement.key, placement.stage, nullptr));
+        placement.version = family_.version;
+        if (file && placement.version.empty()) placement.version = library_.source(*file).version;
+        for (const PrologueText& part : family_.prologue) {
+            if (!part.stage.empty() && part.stage != name_of(placement.stage)) continue;
+            GOBO_TRY(const int prologue, library_.prologue(part));
+            GOBO_TRY_DO(place(placement, prologue, first));
+        }
+        placement.behind_prologue = placement.placed.size();
+        for (const std::string& path : paths) GOBO_TRY_DO(follow(placement, asked(path), nullptr));
+        return family_.compatibility ? place_legacy(placement) : Result<void>();
+    }
+
+    /// Puts the declarations of what OpenGL had built in, and the stage mentions, behind the prologue.
+    Result<void> place_legacy(Placement& placement) {
+        const std::vector<int> mentioning = placement.placed;
+        for (const std::string& name : legacy_names())
+            if (library_.mentions(mentioning, name))
+                GOBO_TRY_DO(
+                    follow(placement, {false, legacy_piece(name), {family_.path, 0, 0}, ""}, nullptr));
+        const auto begin = placement.placed.begin();
+        const auto prologue = static_cast<std::ptrdiff_t>(placement.behind_prologue);
+        const auto added = static_cast<std::ptrdiff_t>(mentioning.size());
+        std::rotate(begin + prologue, begin + added, placement.placed.end());
+        placement.behind_prologue += placement.placed.size() - mentioning.size();
         return {};
+    }
+
+    /// Refuses a file whose version is not the one that the family states.
+    Result<void> check_version(const Source& source) const {
+        const auto plain = [](std::string_view version) { return version.substr(0, version.find(" core")); };
+        const bool is_free =
+            source.version.empty() || family_.version.empty() || composition_.dialect != Dialect::own;
+        if (is_free || plain(source.version) == plain(family_.version)) return {};
+        return fail_at(source.version_line,
+                       fmt::format("#version {} where the family states {}", source.version, family_.version),
+                       fmt::format("leave one of them out: the family's is at {}:{}",
+                                   family_.version_place.file, family_.version_place.line));
+    }
+
+    /// Refuses a `#define` that gives the macro of a feature another text.
+    Result<void> check_macro(const Placement& placement, const Directive& directive) const {
+        const Feature* feature = feature_defined_by(directive, family_);
+        if (feature == nullptr || !placement.conditions->would_redefine(directive)) return {};
+        return fail_at(
+            directive,
+            fmt::format("this gives '{}' another text than feature '{}' does", feature->macro, feature->name),
+            fmt::format("put it between #ifndef {} and #endif, as what holds where the key leaves it "
+                        "undefined; the feature is at {}:{}",
+                        feature->macro, feature->place.file, feature->place.line));
     }
 
     /// Places a file: what it includes at its top, then its text.
@@ -356,6 +484,7 @@ class Composer {
                 include,
                 fmt::format("the stage takes more than {} includes or {} bytes", kMostIncludes, kMostBytes),
                 "include files at the top, where each comes once, or put #pragma once into them");
+        GOBO_TRY_DO(check_version(source));
         if (placement.version.empty()) placement.version = source.version;
         placement.open.push_back(file);
         for (const Include& needed : source.includes) GOBO_TRY_DO(follow(placement, needed, &source));
@@ -379,10 +508,23 @@ class Composer {
             return {};
         }
         auto piece = source.pieces.begin();
+        const Directive* loop = nullptr;  // the pragma before it
         for (const Directive& directive : source.directives) {
             GOBO_TRY_DO(catch_up(placement));
             Conditions& conditions = *placement.conditions;
-            if (directive.word == "include") {
+            if (directive.word == "pragma" && family_.unrolls_loops) {
+                const bool is_end = directive.rest == kUnrollEnd && loop != nullptr && conditions.is_active();
+                if (is_end) {
+                    GOBO_TRY_DO(place_rounds(placement, *piece++, *loop));
+                } else {
+                    place_piece(placement, *piece++);
+                }
+                loop = directive.rest == kUnrollStart ? &directive : nullptr;
+                placement.walked = placement.placed.size();
+            } else if (directive.word == "include") {
+                if (loop != nullptr)
+                    return fail_at(directive, "an #include within a loop that is to be unrolled",
+                                   "write the loop into one file");
                 place_piece(placement, *piece++);
                 placement.walked = placement.placed.size();
                 if (!conditions.is_active()) continue;
@@ -393,12 +535,31 @@ class Composer {
                 if (conditions.is_active())
                     add_extension(placement.extensions, directive, conditions.is_certain());
             } else {
+                GOBO_TRY_DO(check_macro(placement, directive));
                 GOBO_TRY_DO(conditions.apply(directive));
             }
         }
         GOBO_TRY_DO(catch_up(placement));
         place_piece(placement, *piece);
         placement.walked = placement.placed.size();
+        return {};
+    }
+
+    /// Places a piece that is a loop as many times as that goes round.
+    Result<void> place_rounds(Placement& placement, int piece, const Directive& start) {
+        const std::optional<LoopHead> head = loop_head(composition_.piece(piece).text);
+        if (!head)
+            return fail_at(start, "the loop behind this has another form than can be unrolled",
+                           "write for (int i = 0; i < COUNT; i++) { ... }, without an #include, between the "
+                           "two pragmas");
+        const Directive end{"if", head->end, start.place, start.line};
+        GOBO_TRY(const Known count, placement.conditions->value_of(end));
+        if (!count || *count > kMostRounds)
+            return fail_at(start,
+                           fmt::format("the loop behind this ends at '{}', which is no number below {}",
+                                       head->end, kMostRounds),
+                           "define it by a count of the family or a macro");
+        for (int i = head->first; i < *count; ++i) place_piece(placement, library_.round(piece, *head, i));
         return {};
     }
 
@@ -470,7 +631,10 @@ class Composer {
         for (const int index : varyings) {
             const Varying& varying = family_.varyings[static_cast<std::size_t>(index)];
             int values = 0;
-            for (const int feature : varying.counts) values += key[static_cast<std::size_t>(feature)];
+            for (const int feature : varying.counts) {
+                const auto at = static_cast<std::size_t>(feature);
+                values += family_.features[at].lowest + key[at];
+            }
             const int elements = (values + varying.values_per_element - 1) / varying.values_per_element;
             const int locations = location_count(varying.type, {std::max(elements, 1)});
             places.push_back({varying.counts.empty() ? varying.location : behind, elements});
@@ -519,15 +683,31 @@ class Composer {
     [[nodiscard]] std::string prologue_text(const Placement& placement, const Mentions& mentions) const {
         std::string text = dialect_prologue(composition_.dialect, placement.stage, placement.version,
                                             placement.extensions, mentions);
-        for (std::size_t i = 0; i < family_.features.size(); ++i) {
-            const Feature& feature = family_.features[i];
-            const int value = placement.key[i];
-            const bool is_defined =
-                feature.kind == FeatureKind::count || (feature.kind == FeatureKind::define && value != 0);
-            if (is_defined && mentions(feature.macro))
-                text += fmt::format("#define {} {}\n", feature.macro, value);
-        }
+        for (const std::string& definition : macros_of(placement, mentions)) text += definition;
         return text;
+    }
+
+    /// The macros of the features that the stage mentions, or that the text of another one does.
+    [[nodiscard]] std::vector<std::string> macros_of(const Placement& placement,
+                                                     const Mentions& mentions) const {
+        std::vector<std::string> definitions(family_.features.size());
+        std::set<std::string, std::less<>> mentioned;  // by texts
+        for (bool goes_on = true; std::exchange(goes_on, false);) {
+            for (std::size_t i = 0; i < definitions.size(); ++i) {
+                const Feature& feature = family_.features[i];
+                const bool is_in_stage =
+                    feature.stages.empty() || has(feature.stages, name_of(placement.stage));
+                if (feature.macro.empty() || !definitions[i].empty() || !is_in_stage) continue;
+                if (!mentions(feature.macro) && !mentioned.contains(feature.macro)) continue;
+                const std::optional<std::string> text = feature.text_of(placement.key[i]);
+                if (!text) continue;
+                definitions[i] =
+                    fmt::format("#define {}{}{}\n", feature.macro, text->empty() ? "" : " ", *text);
+                for (const std::string_view name : identifiers_of(*text))
+                    goes_on = mentioned.emplace(name).second || goes_on;
+            }
+        }
+        return definitions;
     }
 
     /// Puts the prologue in front and gives the stage its number; equal lists are the same stage.
@@ -547,10 +727,13 @@ class Composer {
             prologue.moved_lines[line] = {extension.place, extension.line};
         }
         Stage stage{placement.stage, {library_.generated(std::move(prologue))}};
+        const auto behind_prologue =
+            placement.placed.begin() + static_cast<std::ptrdiff_t>(placement.behind_prologue);
+        stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), behind_prologue);
         if (is_fragment && declares)
             stage.pieces.push_back(
                 library_.generated(varyings_piece(read, placement.key, StageKind::fragment)));
-        stage.pieces.insert(stage.pieces.end(), placement.placed.begin(), placement.placed.end());
+        stage.pieces.insert(stage.pieces.end(), behind_prologue, placement.placed.end());
         const auto [at, is_new] =
             numbers_.try_emplace({stage.kind, stage.pieces}, static_cast<int>(composition_.stages.size()));
         if (is_new) composition_.stages.push_back(std::move(stage));

@@ -250,6 +250,10 @@ Words words_of(std::string_view text) {
 
 }  // namespace
 
+std::string_view macro_name(std::string_view text) {
+    return {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
+}
+
 Conditions::Conditions(std::string_view prologue) {
     const GlslVersion version = version_of(prologue);
     define(fmt::format("__VERSION__ {}", version.number));
@@ -266,18 +270,29 @@ Known Conditions::is_defined(std::string_view name) const {
     return is_drivers(name) ? std::nullopt : Known(0);
 }
 
+bool Conditions::would_redefine(const Directive& directive) const {
+    const auto macro = macros_.find(macro_name(directive.rest));
+    if (macro == macros_.end() || !macro->second.is_certain || !is_active() || !is_certain()) return false;
+    const MacroDefinition other = definition(directive.rest);
+    return other.is_function != macro->second.is_function || other.parameters != macro->second.parameters ||
+           other.body != macro->second.body;
+}
+
 void Conditions::define(std::string_view text) {
-    const std::string_view name = {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
+    macros_.insert_or_assign(std::string(macro_name(text)), definition(text));
+}
+
+MacroDefinition Conditions::definition(std::string_view text) const {
     MacroDefinition macro;
     macro.is_certain = is_certain();
-    text.remove_prefix(name.size());
+    text.remove_prefix(macro_name(text).size());
     macro.is_function = text.starts_with('(');
     if (macro.is_function) {
         macro.parameters = split(text.substr(1, text.find(')') - 1), ',');
         text.remove_prefix(std::min(text.find(')'), text.size() - 1) + 1);
     }
     macro.body = words_of(text);
-    macros_.insert_or_assign(std::string(name), std::move(macro));
+    return macro;
 }
 
 Result<Known> Conditions::value_of(const Directive& directive) const {
@@ -308,6 +323,7 @@ Result<Known> Conditions::value_of(const Directive& directive) const {
 
 Result<void> Conditions::apply(const Directive& directive) {
     const std::string& word = directive.word;
+    if (word == "pragma") return {};
     if (word == "define" || word == "undef") {
         if (!is_active()) return {};
         if (word == "define")

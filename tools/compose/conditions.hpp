@@ -23,6 +23,9 @@ struct MacroDefinition {
     std::vector<std::string> body;
 };
 
+/// The name that what stands behind #define begins with.
+[[nodiscard]] std::string_view macro_name(std::string_view text);
+
 /// Follows a stage's directives in order. What cannot be known is taken to hold, and its opposite too: the
 /// text goes on to the driver with all its conditions.
 class Conditions {
@@ -39,6 +42,10 @@ class Conditions {
     [[nodiscard]] bool is_certain() const { return frames_.empty() || frames_.back().is_certain; }
     /// 1 or 0; unknown where only the driver knows.
     [[nodiscard]] Known is_defined(std::string_view name) const;
+    /// What a condition would hold, or another whole number; nothing where that is unknown.
+    [[nodiscard]] Result<Known> value_of(const Directive& directive) const;
+    /// Whether `#define NAME TEXT` would give a macro that is defined another text.
+    [[nodiscard]] bool would_redefine(const Directive& directive) const;
 
   private:
     /// An #if that is open.
@@ -49,8 +56,8 @@ class Conditions {
         bool is_certain;
     };
 
-    [[nodiscard]] Result<Known> value_of(const Directive& directive) const;
     void define(std::string_view text);
+    [[nodiscard]] MacroDefinition definition(std::string_view text) const;
 
     std::map<std::string, MacroDefinition, std::less<>> macros_;
     std::vector<Frame> frames_;

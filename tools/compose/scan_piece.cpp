@@ -1,13 +1,13 @@
 #include "compose/scan_piece.hpp"
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "compose/clean_text.hpp"
 #include "compose/tokens.hpp"
+#include "core/glsl_version.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -74,19 +74,6 @@ Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_v
         if (token == ";" || token == "{" || token == "}" || token == "#") is_stated = false;
     }
     return warnings;
-}
-
-/// "330 core" where a #version line says what GLSL knows.
-bool is_version(std::string_view text) {
-    constexpr std::array<int, 17> numbers = {100, 110, 120, 130, 140, 150, 300, 310, 320,
-                                             330, 400, 410, 420, 430, 440, 450, 460};
-    const std::vector<std::string_view> tokens = tokens_of(text);
-    if (tokens.empty() || tokens.size() > 2 || !are(tokens, {"number"})) return false;
-    const int number = std::stoi(std::string(tokens[0]));
-    const std::string_view profile = tokens.size() == 2 ? tokens[1] : "";
-    if (std::ranges::find(numbers, number) == numbers.end()) return false;
-    if (number >= 300 && number < 330) return profile == "es";
-    return profile.empty() || (number >= 150 && (profile == "core" || profile == "compatibility"));
 }
 
 /// A condition that is open: its first directive, and where its #else stands.
@@ -168,6 +155,8 @@ class Scanner {
         if (word == "pragma") {
             const bool is_once = directive.rest == "once";
             result_.is_once = result_.is_once || is_once;
+            if (directive.rest == kUnrollStart || directive.rest == kUnrollEnd)
+                result_.directives.push_back(std::move(directive));
             return is_once;
         }
         if (word == "include" && !seen_code_) {
@@ -194,13 +183,14 @@ class Scanner {
 
     Result<bool> take_version(const Directive& directive) {
         const std::string version(trim(directive.rest));
-        if (!is_version(version))
+        if (!is_glsl_version(version))
             return fail_at(directive, fmt::format("GLSL has no #version '{}'", version),
                            "write a number that GLSL has and the profile alone: 330 core, 450, 300 es");
         if (!result_.version.empty() && result_.version != version)
             return fail_at(directive, fmt::format("a second #version beside {}", result_.version),
                            "state the version once");
         result_.version = version;
+        result_.version_line = directive;
         return true;
     }
 
@@ -278,9 +268,9 @@ std::set<std::string_view> identifiers_of(std::string_view code) {
     return identifiers;
 }
 
-Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path) {
+Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path, const std::string& file) {
     GOBO_TRY(CleanText clean, clean_text(text, path));
-    const std::string lines = unix_lines(text);
+    const std::string lines = unix_lines(file);
     return Scanner(lines, path, std::move(clean)).run();
 }
 

@@ -29,15 +29,20 @@ struct Include {
     bool at_top = true;  ///< of its file: what is there already is not placed again
 };
 
+/// The two pragmas around a loop that the composer may unroll.
+inline constexpr std::string_view kUnrollStart = "unroll_loop_start";
+inline constexpr std::string_view kUnrollEnd = "unroll_loop_end";
+
 /// One GLSL file as the composer sees it.
 struct ScannedPiece {
     std::string text;  ///< the file with the lines of #include, #version, #extension, #line and #pragma once
                        ///< blanked, ending in a newline
     std::string code;  ///< `text` with blanks for its comments, line for line and column for column
     std::string version;                ///< "330 core" of its #version line, or empty
+    Directive version_line;             ///< that line
     std::vector<Include> includes;      ///< those at its top
-    std::vector<Directive> directives;  ///< below that, in order: conditions, macros, further includes, and
-                                        ///< extensions under conditions
+    std::vector<Directive> directives;  ///< below that, in order: conditions, macros, further includes,
+                                        ///< extensions under conditions, the pragmas around loops
     Extensions extensions;              ///< those under no condition
     bool is_once = false;               ///< it says `#pragma once`
     std::string guard;                  ///< the macro that an #ifndef around the whole file asks for
@@ -45,9 +50,14 @@ struct ScannedPiece {
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 
-/// Scans a file. Errors: a malformed include or #version, a comment or a condition without an end, brackets
-/// nested so deeply that parsing the shader could exhaust the stack, bytes that are no text.
-[[nodiscard]] Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path);
+/// Scans a file; messages quote the lines of `file`, which has as many. Errors: a malformed include or
+/// #version, a comment or a condition without an end, brackets nested so deeply that parsing the shader could
+/// exhaust the stack, bytes that are no text.
+[[nodiscard]] Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path,
+                                              const std::string& file);
+[[nodiscard]] inline Result<ScannedPiece> scan_piece(const std::string& text, const std::string& path) {
+    return scan_piece(text, path, text);
+}
 
 /// What an include names.
 [[nodiscard]] Result<Include> read_include(const Directive& directive);

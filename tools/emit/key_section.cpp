@@ -22,12 +22,16 @@ std::string cpp_condition(const Expression& condition, const CppKey& key) {
         for (const int feature : features) terms.push_back("key." + key[feature].member);
         return join(terms, " + ");
     };
+    const auto value = [&] {
+        const std::vector<int>& features = condition.features;
+        int number = condition.value;  // less than what the family says by where the counts begin
+        for (std::size_t i = 1; i < features.size(); ++i) number += key[features[i]].feature->lowest;
+        return key[features.front()].value(number);
+    };
     if (condition.kind == Kind::compare)
         return fmt::format("{} {} {}", sum(condition.features),
                            kComparisonSymbols[static_cast<std::size_t>(condition.comparison)],
-                           condition.subtracted.empty()
-                               ? key[condition.features.front()].value(condition.value)
-                               : sum(condition.subtracted));
+                           condition.subtracted.empty() ? value() : sum(condition.subtracted));
     std::vector<std::string> parts;
     for (const Expression& part : condition.parts) {
         const std::string text = cpp_condition(part, key);
@@ -48,13 +52,19 @@ std::string enum_text(const CppFeature& named) {
                        name_of(feature.role), order, named.type, type, fmt::join(named.enumerators, ", "));
 }
 
+/// The number of the value that a key holds: of a count, by how much it is above its least.
+std::string index_text(const CppFeature& named) {
+    const int lowest = named.feature->lowest;
+    return fmt::format("key.{}{}", named.member, lowest == 0 ? "" : fmt::format(" - {}", lowest));
+}
+
 std::string packed_text(const CppKey& key) {
     std::vector<std::string> words(static_cast<std::size_t>(key.words), "0");
     for (const CppFeature& feature : key.features) {
         if (feature.bits == 0) continue;
         std::string& word = words[static_cast<std::size_t>(feature.word)];
         const std::string shifted =
-            fmt::format("static_cast<std::uint64_t>(key.{}) << {}U", feature.member, feature.shift);
+            fmt::format("static_cast<std::uint64_t>({}) << {}U", index_text(feature), feature.shift);
         word = feature.shift == 0 ? shifted : word + " |\n           " + shifted;
     }
     if (words.size() == 1) return words.front();
@@ -105,7 +115,7 @@ std::string_view name_of(FeatureKind kind) {
 }
 
 std::string CppFeature::value(int number) const {
-    if (feature->kind == FeatureKind::count) return std::to_string(number);
+    if (feature->kind == FeatureKind::count) return std::to_string(feature->lowest + number);
     if (feature->kind == FeatureKind::define) return number == 0 ? "false" : "true";
     return type + "::" + enumerators[static_cast<std::size_t>(number)];
 }
@@ -159,22 +169,27 @@ Result<void> key_section(const std::vector<Rule>& rules, const CppKey& key, cons
         const bool is_count = feature.kind == FeatureKind::count;
         const std::string& member = named.member;
         const std::string declaration = fmt::format("    {} {} = {};", named.type, member, named.value(0));
-        values["key_members"] += declaration + (is_count ? fmt::format("  ///< 0 to {}\n", count - 1) : "\n");
+        const std::string least = named.value(0);
+        const std::string most = is_count ? feature.values.back() : "";
+        values["key_members"] +=
+            declaration + (is_count ? fmt::format("  ///< {} to {}\n", least, most) : "\n");
         equal.push_back(fmt::format("left.{0} == right.{0}", member));
-        numbers.push_back(fmt::format("static_cast<int>(key.{})", member));
-        if (is_count) ranges.push_back(fmt::format("key.{0} >= 0 && key.{0} <= {1}", member, count - 1));
+        numbers.push_back(fmt::format("static_cast<int>({})", index_text(named)));
+        if (is_count) ranges.push_back(fmt::format("key.{0} >= {1} && key.{0} <= {2}", member, least, most));
         if (feature.kind == FeatureKind::choice) {
             values["enums"] += enum_text(named);
             ranges.push_back(fmt::format("static_cast<unsigned>(key.{}) < {}U", member, count));
         }
-        rows.push_back(fmt::format("{{{}, gobo::runtime::FeatureKind::{}, {}, {}}}",
-                                   cpp_literal(feature.name), name_of(feature.kind), count, names.size()));
+        rows.push_back(fmt::format("{{{}, gobo::runtime::FeatureKind::{}, {}, {}{}}}",
+                                   cpp_literal(feature.name), name_of(feature.kind), count, names.size(),
+                                   feature.lowest == 0 ? "" : fmt::format(", {}", feature.lowest)));
         if (!is_count) std::ranges::transform(feature.values, std::back_inserter(names), cpp_literal);
         if (named.bits > 0)
             values["unpacked"] +=
-                fmt::format("    key.{} = static_cast<{}>({} >> {}U & {}U);\n", member, named.type,
+                fmt::format("    key.{} = static_cast<{}>({} >> {}U & {}U){};\n", member, named.type,
                             key.words == 1 ? "bits" : fmt::format("bits.words[{}]", named.word), named.shift,
-                            (std::uint64_t{1} << named.bits) - 1);
+                            (std::uint64_t{1} << named.bits) - 1,
+                            feature.lowest == 0 ? "" : fmt::format(" + {}", feature.lowest));
         if (feature.role == Role::effect) values["state_members"] += declaration + "\n";
         // A state that has no member of the feature's name leaves its value alone.
         GOBO_TRY(const std::string taker,

@@ -73,6 +73,8 @@ class Parser {
         } else {
             expression.value = value(first);
         }
+        for (const int feature : expression.features) expression.value -= features_[feature].lowest;
+        for (const int feature : expression.subtracted) expression.value += features_[feature].lowest;
         return expression;
     }
 

@@ -18,6 +18,8 @@ struct Feature;
 ///          sum := feature ("+" feature)*     (more than one only for counts)
 ///          op  := "==" | "!=" | "<" | "<=" | ">" | ">="
 /// Choices and defines compare with == and != only; counts compare with a whole number or with other counts.
+/// What is added and compared are the indices of values: where a count begins above 0, `value` is less by as
+/// much.
 struct Expression {
     enum class Kind { compare, conjunction, disjunction };
     enum class Comparison { equal, not_equal, less, less_equal, greater, greater_equal };
@@ -26,7 +28,7 @@ struct Expression {
     std::vector<int> features = {};             ///< compare: the features whose values are added
     std::vector<int> subtracted = {};           ///< compare: those whose values are taken off that sum
     Comparison comparison = Comparison::equal;  ///< compare
-    int value = 0;                              ///< compare: a count, or the index of a choice's value
+    int value = 0;                              ///< compare: a number, or the index of a choice's value
     std::vector<Expression> parts = {};         ///< conjunction (of none: true), disjunction (of none: false)
 };
 
@@ -44,8 +46,7 @@ inline constexpr std::string_view kComparisonSymbols[] = {"==", "!=", "<", "<=",
 /// `left comparison right`, for whole numbers.
 [[nodiscard]] bool compare(int left, Expression::Comparison comparison, int right);
 
-/// Whether the condition holds for a key (value indices in the order of the features it was parsed with;
-/// a count's index is its value).
+/// Whether the condition holds for a key (value indices in the order of the features it was parsed with).
 [[nodiscard]] bool holds(const Expression& expression, const std::vector<int>& key);
 
 }  // namespace gobo

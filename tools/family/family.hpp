@@ -20,8 +20,8 @@ enum class Role {
 };
 
 enum class FeatureKind {
-    choice,  ///< one value of a list, each a piece FEATURE/VALUE.glsl
-    count,   ///< a whole number from 0 up, a constant in the prologue
+    choice,  ///< one value of a list, each a piece FEATURE/VALUE.glsl or the text of a macro
+    count,   ///< a whole number, a constant in the prologue
     define,  ///< off or on: a macro that is defined or not, for shaders that have their own #ifdef
 };
 
@@ -33,10 +33,14 @@ struct Feature {
     std::vector<std::string>
         values;             ///< the default, then the others as the family lists them. Counts: "0", ...
     int default_place = 0;  ///< where the family's list has the default: 0 unless it names another
+    int lowest = 0;         ///< of a count: its first value
     std::vector<std::string> excluded;  ///< values that only keys which name them have
-    std::string macro;      ///< the constant of a count or the macro of a define; empty for a choice
-    Place place;            ///< where the family declares it
-    std::string enum_name;  ///< of a choice in generated headers; empty: its own in PascalCase
+    std::string macro;        ///< the constant of a count, the macro of a define or a choice; may be empty
+    std::string substituted;  ///< what the shaders write where the text of the value belongs: "@fog@"
+    std::map<std::string, std::optional<std::string>> texts;  ///< what the family states for text_of()
+    std::vector<std::string> stages;  ///< those whose prologue has the macro; empty: all
+    Place place;                      ///< where the family declares it
+    std::string enum_name;            ///< of a choice in generated headers; empty: its own in PascalCase
 
     std::vector<std::string> old_names;             ///< by which it went before
     std::map<std::string, std::string> old_values;  ///< a name by which a value went before: its name now
@@ -45,6 +49,8 @@ struct Feature {
     [[nodiscard]] std::optional<int> index_of(std::string_view value) const;
     /// What to write where there is no such value.
     [[nodiscard]] std::string help_for(std::string_view value) const;
+    /// What the macro is defined as for the value of that index; nothing where it is not defined.
+    [[nodiscard]] std::optional<std::string> text_of(int index) const;
 };
 
 [[nodiscard]] std::optional<int> index_of(const std::vector<Feature>& features, std::string_view name);
@@ -123,6 +129,20 @@ struct Relation {
     Place place;
 };
 
+/// Text that the family puts in front of its stages.
+struct PrologueText {
+    std::string stage;  ///< "vertex", "fragment"; empty: all
+    std::string text;
+    Place place;  ///< of its first line
+};
+
+/// How the shaders write an include: `#pragma import "*"`, and the path that it means: "lib/*.glsl".
+struct IncludeRule {
+    std::string line;  ///< one `*` stands for the name
+    std::string path;
+    Place place;
+};
+
 /// Key text and where it stands: a file and line, or nowhere for one of the command line.
 struct NamedKey {
     std::string text;
@@ -154,7 +174,14 @@ struct Family {
     std::string name;
     std::string path;                 ///< of the family file, as given
     std::vector<Templates> programs;  ///< one, or one for each value of the feature `program`
-    std::vector<Feature> features;    ///< sorted by name
+    std::string version;              ///< "330 core", of stages whose files state none; may be empty
+    Place version_place;
+    std::vector<PrologueText> prologue;                ///< of all stages first
+    std::vector<IncludeRule> include_rules;            ///< longest line first
+    std::map<std::string, std::string> substitutions;  ///< what is replaced in the files, and by what
+    bool unrolls_loops = false;  ///< between `#pragma unroll_loop_start` and `#pragma unroll_loop_end`
+    bool compatibility = false;  ///< what OpenGL had before 3.0 (`gl_Vertex`) is read as of gobo's own piece
+    std::vector<Feature> features;  ///< sorted by name
     std::vector<Rule> rules;
     std::vector<Varying> varyings;  ///< single ones by location, then counted ones by name
     std::vector<Domain> domains;    ///< sorted by name

@@ -17,8 +17,15 @@ std::optional<int> Feature::index_of(std::string_view value) const {
 std::string Feature::help_for(std::string_view value) const {
     if (const auto now = old_values.find(std::string(value)); now != old_values.end())
         return fmt::format("'{}' is now '{}'", value, now->second);
-    if (kind == FeatureKind::count) return fmt::format("a whole number from 0 to {}", values.back());
+    if (kind == FeatureKind::count) return fmt::format("a whole number from {} to {}", lowest, values.back());
     return suggestion(value, values);
+}
+
+std::optional<std::string> Feature::text_of(int index) const {
+    const std::string& value = values[static_cast<std::size_t>(index)];
+    if (const auto stated = texts.find(value); stated != texts.end()) return stated->second;
+    if (kind != FeatureKind::define) return value;
+    return index == 0 ? std::nullopt : std::optional<std::string>("1");
 }
 
 const Templates& Family::templates_of(const Key& key) const {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/glsl_version.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_features.hpp"
@@ -124,6 +125,66 @@ std::vector<Domain> read_domains(const TomlTable& root) {
     return domains;
 }
 
+/// "330 core", where the family states it.
+std::string read_version(const TomlTable& root) {
+    const std::optional<std::string> version = root.string("version");
+    if (version && !is_glsl_version(*version))
+        root.reader.error(root.place_of("version"), fmt::format("GLSL has no version '{}'", *version),
+                          "write a number that GLSL has and the profile: 330 core, 450, 300 es");
+    return version.value_or("");
+}
+
+/// `text` for all stages, then those of single ones.
+std::vector<PrologueText> read_prologue(const TomlTable& root) {
+    std::vector<PrologueText> prologue;
+    const auto table = root.table("prologue");
+    if (!table) return prologue;
+    std::vector<std::string> known = {"text"};
+    for (const StageNames& stage : kStages) known.emplace_back(stage.name);
+    table->only(known);
+    for (const std::string& name : known)
+        if (const std::optional<std::string> text = table->string(name))
+            prologue.push_back(
+                {name == "text" ? "" : name, *text, root.reader.place_of_text(*table->entries.get(name))});
+    return prologue;
+}
+
+/// `"#pragma import \"*\"" = "lib/*.glsl"`.
+std::vector<IncludeRule> read_include_rules(const TomlTable& root) {
+    std::vector<IncludeRule> rules;
+    const auto table = root.table("includes");
+    if (!table) return rules;
+    for (const auto& [key, node] : table->entries) {
+        IncludeRule rule{std::string(trim(key.str())), table->string(key.str()).value_or(""),
+                         root.reader.place_of(node)};
+        for (const std::string& text : {rule.line, rule.path})
+            if (std::ranges::count(text, '*') != 1 || text.find('\n') != std::string::npos ||
+                rule.line == "*")
+                root.reader.error(rule.place, fmt::format("'{}' does not say where the name stands", text),
+                                  "write one * in the line and one in the path: '#pragma import \"*\"' = "
+                                  "'lib/*.glsl'");
+        rules.push_back(std::move(rule));
+    }
+    std::ranges::stable_sort(rules, std::ranges::greater(),
+                             [](const IncludeRule& rule) { return rule.line.size(); });
+    return rules;
+}
+
+/// `'gl_FragColor' = 'color'`.
+std::map<std::string, std::string> read_substitutions(const TomlTable& root) {
+    std::map<std::string, std::string> substitutions;
+    const auto table = root.table("substitute");
+    if (!table) return substitutions;
+    for (const auto& [key, node] : table->entries) {
+        const std::string text = table->string(key.str()).value_or("");
+        if (!is_substituted(key.str()) || !is_macro_text(text))
+            root.reader.error(node, fmt::format("cannot replace '{}' by '{}'", key.str(), text),
+                              "write a name, perhaps between signs, and one line without comments");
+        substitutions.emplace(key.str(), text);
+    }
+    return substitutions;
+}
+
 std::optional<Selection> read_default_set(const TomlTable& root, const Family& family) {
     const auto table = root.table("default_set");
     if (!table) return std::nullopt;
@@ -235,8 +296,10 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     Family family;
     family.path = path;
     const TomlTable root(reader, reader.root(), "the family");
-    std::vector<std::string> known = {"name",   "extends", "programs",  "features",    "rules",  "varyings",
-                                      "domain", "render",  "relations", "default_set", "renamed"};
+    std::vector<std::string> known = {
+        "name",       "extends",      "programs",      "version",     "prologue", "includes",
+        "substitute", "unroll_loops", "compatibility", "features",    "rules",    "varyings",
+        "domain",     "render",       "relations",     "default_set", "renamed"};
     for (const StageNames& stage : kStages) known.emplace_back(stage.name);
     root.only(known);
     family.name = root.required_string("name");
@@ -244,6 +307,13 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
         reader.error(root.place_of("name"), fmt::format("'{}' cannot name a family", family.name),
                      "use letters, digits and _, not starting with a digit: it names a C++ namespace");
     family.programs = read_programs(root);
+    family.version = read_version(root);
+    family.version_place = root.place_of("version");
+    family.prologue = read_prologue(root);
+    family.include_rules = read_include_rules(root);
+    family.substitutions = read_substitutions(root);
+    family.unrolls_loops = root.boolean("unroll_loops").value_or(false);
+    family.compatibility = root.boolean("compatibility").value_or(false);
     family.features = read_features(root);
     family.rules = read_rules(root, family.features);
     family.varyings = read_varyings(root, family.features);

@@ -67,11 +67,62 @@ void read_count(const TomlTable& table, Feature& feature) {
         const auto* number = range == nullptr || range->size() != 2 ? nullptr : (*range)[i].as_integer();
         return number == nullptr ? -1 : number->get();
     };
-    if (bound(0) != 0 || bound(1) < 1 || bound(1) > kLargestCount)
-        return table.error("count", "has no valid count",
-                           fmt::format("write count = [0, N] with N from 1 to {}", kLargestCount));
-    for (std::int64_t i = 0; i <= bound(1); ++i) feature.values.push_back(std::to_string(i));
-    feature.macro = table.required_string("constant");
+    if (bound(0) < 0 || bound(1) <= bound(0) || bound(1) > kLargestCount)
+        return table.error(
+            "count", "has no valid count",
+            fmt::format("write count = [LEAST, MOST], whole numbers from 0 to {}", kLargestCount));
+    feature.lowest = static_cast<int>(bound(0));
+    for (std::int64_t i = bound(0); i <= bound(1); ++i) feature.values.push_back(std::to_string(i));
+}
+
+/// `text = "0.5"` of a define that is on; `text = { hard = "0.5", off = false }` by value, where `false`
+/// leaves the macro undefined.
+void read_texts(const TomlTable& table, Feature& feature) {
+    const auto add = [&](const std::string& value, const toml::node& node) {
+        if (!feature.index_of(value))
+            return table.error("text", fmt::format("has no value '{}'", value), feature.help_for(value));
+        const auto* text = node.as_string();
+        const auto* flag = node.as_boolean();
+        if (text == nullptr && (flag == nullptr || flag->get()))
+            return table.reader.error(node, fmt::format("the text of '{}' must be a string or false", value),
+                                      "write the text of the macro, or false to leave it undefined");
+        if (text != nullptr && !is_macro_text(text->get()))
+            return table.reader.error(node, fmt::format("the text of '{}' is no macro's", value),
+                                      "write it on one line, without comments and backslashes");
+        feature.texts[value] = text == nullptr ? std::nullopt : std::optional(std::string(trim(text->get())));
+    };
+    const toml::node* node = table.entries.get("text");
+    if (node == nullptr || table.reader.failed()) return;
+    if (node->is_table())
+        for (const auto& [value, text] : *node->as_table()) add(std::string(value.str()), text);
+    else if (feature.kind == FeatureKind::define)
+        add("on", *node);
+    else
+        table.error("text", "has one text for all values", "write text = { VALUE = \"TEXT\" }");
+}
+
+/// The macro of a feature, and its texts, or what stands for it in the shaders.
+void read_macro(const TomlTable& table, Feature& feature) {
+    const std::string_view entry = feature.kind == FeatureKind::count ? "constant" : "define";
+    const bool is_macro = feature.kind == FeatureKind::count && !table.has("substitute");
+    feature.macro = is_macro ? table.required_string(entry) : table.string(entry).value_or("");
+    feature.substituted = table.string("substitute").value_or("");
+    if ((table.has(entry) || is_macro) && !is_identifier(feature.macro))
+        table.error({}, fmt::format("has '{}' for a macro", feature.macro), "a macro is an identifier");
+    if (table.has("substitute") && !is_substituted(feature.substituted))
+        table.error("substitute", fmt::format("cannot replace '{}'", feature.substituted),
+                    "write a name, best with a sign that GLSL has no use for: \"@name@\" or \"$name\"");
+    feature.stages = table.strings("stages");
+    std::vector<std::string> known;
+    for (const StageNames& stage : kStages) known.emplace_back(stage.name);
+    for (const std::string& stage : feature.stages)
+        if (std::ranges::count(known, stage) == 0)
+            table.error("stages", fmt::format("names an unknown stage '{}'", stage),
+                        suggestion(stage, known));
+    if (!feature.macro.empty() || !feature.substituted.empty()) return read_texts(table, feature);
+    for (const char* name : {"text", "stages"})
+        if (table.has(name))
+            table.error(name, fmt::format("has {}, but no macro", name), "add define = \"MACRO\"");
 }
 
 Feature read_feature(TomlReader& reader, std::string name, const toml::node& node) {
@@ -86,17 +137,19 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
     }
     const TomlTable table(reader, *node.as_table(), what);
     if (table.has("retired")) table.error("retired", "has retired values", "'retired' is now 'excluded'");
-    table.only({"role", "values", "default", "excluded", "enum", "count", "constant", "define"});
+    table.only({"role", "values", "default", "excluded", "enum", "count", "constant", "define", "text",
+                "substitute", "stages"});
     constexpr std::array roles = {Role::effect, Role::quality, Role::pipeline};
     feature.role = roles[table.one_of("role", {"effect", "quality", "pipeline"}).value_or(0)];
     const bool is_choice = table.has("values"), is_count = table.has("count");
+    const bool is_define = !is_choice && (table.has("define") || (table.has("substitute") && !is_count));
     if (table.has("default") && !is_choice)
         table.error("default", "cannot name its default",
-                    "only a choice can: a count's is 0, a define's is off");
+                    "only a choice can: a count's is its least, a define's is off");
     if (table.has("enum") && !is_choice)
         table.error("enum", "cannot name an enum",
                     "only a choice has one: a count is an int, a define a bool");
-    if (is_choice + is_count + table.has("define") != 1) {
+    if (is_choice + is_count + is_define != 1) {
         table.error({}, "must be one of a choice, a count and a define",
                     "give it exactly one of values, count and define");
     } else if (is_choice) {
@@ -106,10 +159,8 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
     } else {
         feature.kind = FeatureKind::define;
         feature.values = {"off", "on"};
-        feature.macro = table.string("define").value_or("");
     }
-    if (!is_choice && !is_identifier(feature.macro))
-        table.error({}, fmt::format("has '{}' for a macro", feature.macro), "a macro is an identifier");
+    read_macro(table, feature);
     return feature;
 }
 
@@ -283,6 +334,18 @@ Relation read_relation(const TomlTable& table, const std::vector<Feature>& featu
 
 }  // namespace
 
+bool is_substituted(std::string_view text) {
+    return std::ranges::all_of(text, [](char c) { return c > ' ' && c != '\x7f'; }) &&
+           text.find_first_of("#\"\\/") == std::string_view::npos &&
+           std::ranges::any_of(text, is_identifier_part);
+}
+
+bool is_macro_text(std::string_view text) {
+    constexpr std::string_view ends = {"\n\r\\\0", 4};
+    return text.find_first_of(ends) == std::string_view::npos && text.find("//") == std::string_view::npos &&
+           text.find("/*") == std::string_view::npos;
+}
+
 Expression read_condition(const TomlTable& table, std::string_view entry,
                           const std::vector<Feature>& features) {
     const std::string text = table.string(entry).value_or("");
@@ -333,11 +396,12 @@ std::vector<Feature> read_features(const TomlTable& root) {
     if (const auto programs = root.table("programs")) add_program_feature(*programs, features);
     std::set<std::string> macros;
     for (const Feature& feature : features)
-        if (!feature.macro.empty() && !macros.insert(feature.macro).second)
-            root.reader.error(feature.place,
-                              fmt::format("feature '{}' shares the macro '{}' with another feature",
-                                          feature.name, feature.macro),
-                              "give each count and define a macro of its own");
+        for (const std::string& macro : {feature.macro, feature.substituted})
+            if (!macro.empty() && !macros.insert(macro).second)
+                root.reader.error(feature.place,
+                                  fmt::format("feature '{}' shares the macro '{}' with another feature",
+                                              feature.name, macro),
+                                  "give each count and define a macro of its own");
     read_renamed(root, features);
     return features;
 }

@@ -9,6 +9,11 @@
 
 namespace gobo {
 
+/// Whether shaders may hold the text where another is put: a name, perhaps between signs, without blanks.
+[[nodiscard]] bool is_substituted(std::string_view text);
+/// Whether a macro may be defined as the text: one line that ends nowhere else, without comments.
+[[nodiscard]] bool is_macro_text(std::string_view text);
+
 // Errors go to the reader.
 
 /// Sorted by name, with the names of [renamed]; with [programs] also the choice `program` between them.

@@ -67,6 +67,16 @@ Place TomlReader::place_of(const toml::source_region& region) const {
             static_cast<int>(region.begin.column)};
 }
 
+Place TomlReader::place_of_text(const toml::node& node) const {
+    const Place place = place_of(node);
+    const auto text = texts_.find(place.file);
+    if (text == texts_.end() || place.column < 1) return place;
+    std::string_view line = line_of(text->second, place.line);
+    line.remove_prefix(std::min(line.size(), static_cast<std::size_t>(place.column - 1)));
+    const bool is_block = line.starts_with(R"(""")") || line.starts_with("'''");
+    return is_block && trim(line.substr(3)).empty() ? Place{place.file, place.line + 1, 1} : place;
+}
+
 void TomlReader::error(const Place& place, std::string message, std::string help) {
     if (failed()) return;
     const auto text = texts_.find(place.file);

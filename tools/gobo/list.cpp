@@ -21,7 +21,7 @@ std::string keys_as_json(const Family& family, const std::vector<Key>& keys) {
         for (std::size_t i = 0; i < key.size(); ++i) {
             const Feature& feature = family.features[i];
             if (feature.kind == FeatureKind::count)
-                features[feature.name] = key[i];
+                features[feature.name] = feature.lowest + key[i];
             else
                 features[feature.name] = feature.values[key[i]];
         }

@@ -23,7 +23,8 @@ std::string add_effect(const Family& family, const Effect& effect, Key& key) {
     int& value = key[static_cast<std::size_t>(*index)];
     if (feature.kind == FeatureKind::count) {
         const auto most = static_cast<int>(feature.values.size()) - 1;
-        if (value == most) return fmt::format("needed, but beyond the {} of the family", most);
+        if (value == most)
+            return fmt::format("needed, but beyond the {} of the family", feature.values.back());
         ++value;
         return {};
     }
@@ -43,9 +44,10 @@ int apply_buckets(const Family& family, const Buckets& buckets, Key& key) {
         const Feature& feature = family.features[static_cast<std::size_t>(*index)];
         if (feature.kind != FeatureKind::count) continue;
         int& value = key[static_cast<std::size_t>(*index)];
-        const auto bucket = std::ranges::lower_bound(buckets, value);
-        if (bucket != buckets.end()) value = std::min(*bucket, static_cast<int>(feature.values.size()) - 1);
-        shaded += value;
+        const auto bucket = std::ranges::lower_bound(buckets, feature.lowest + value);
+        if (bucket != buckets.end())
+            value = std::min(*bucket - feature.lowest, static_cast<int>(feature.values.size()) - 1);
+        shaded += feature.lowest + value;
     }
     return shaded;
 }
@@ -53,6 +55,8 @@ int apply_buckets(const Family& family, const Buckets& buckets, Key& key) {
 DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, std::string_view dialect) {
     DrawKey result;
     result.key = default_key(family);
+    for (std::size_t i = 0; i < result.key.size(); ++i)
+        result.key[i] -= family.features[i].lowest;  // no light
     for (const Effect& effect : draw.effects) {
         if (!effect.is_in) continue;
         const std::string why = add_effect(family, effect, result.key);
@@ -60,6 +64,7 @@ DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, s
         const bool is_light = std::ranges::find(kLightKinds, effect.feature) != kLightKinds.end();
         result.lights += is_light && why.empty() ? 1 : 0;
     }
+    for (int& value : result.key) value = std::max(value, 0);
     result.shaded_lights = apply_buckets(family, buckets, result.key);
     result.key = canonical(family, std::move(result.key), dialect);
     return result;

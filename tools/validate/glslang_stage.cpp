@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <regex>
+#include <set>
 
 #include <fmt/format.h>
 #include <glslang/MachineIndependent/localintermediate.h>
@@ -24,13 +25,69 @@ namespace {
 
 constexpr auto kSpirvRules = static_cast<EShMessages>(EShMsgSpvRules);
 
-/// The texture functions of before GLSL 1.30, which carried their sampler's type in their name.
+/// The texture functions of before GLSL 1.30, which carried their sampler's type in their name; those of
+/// shadows gave four components.
 std::string renamed_functions() {
     std::string text;
     for (const char* shape : {"1D", "2D", "3D", "Cube"})
         for (const char* kind : {"", "Proj", "Lod", "ProjLod"})
             text += fmt::format("#define texture{0}{1} texture{1}\n", shape, kind);
+    for (const char* shape : {"1D", "2D"}) {
+        for (const char* kind : {"", "Proj"}) {
+            text += fmt::format("#define shadow{0}{1}(s, p) vec4(texture{1}(s, p))\n", shape, kind);
+            text +=
+                fmt::format("#define shadow{0}{1}Lod(s, p, l) vec4(texture{1}Lod(s, p, l))\n", shape, kind);
+        }
+    }
     return text;
+}
+
+/// The same as functions, for shaders that call something else `texture`: they are read before that.
+std::string old_functions(StageKind stage) {
+    std::string text;
+    const auto add = [&](std::string_view name, std::string_view sampler, std::string_view place,
+                         std::string_view kind) {
+        const bool is_shadow = name.starts_with("shadow");
+        const auto add_call = [&](std::string_view lod, std::string_view more, std::string_view value) {
+            const std::string call = fmt::format("texture{}{}(s, p{})", kind, lod, value);
+            text += fmt::format("vec4 {}{}{}({} s, {} p{}) {{ return {}; }}\n", name, kind, lod, sampler,
+                                place, more, is_shadow ? "vec4(" + call + ")" : call);
+        };
+        add_call("", "", "");
+        if (stage == StageKind::fragment) add_call("", ", float b", ", b");
+        add_call("Lod", ", float l", ", l");
+    };
+    add("texture1D", "sampler1D", "float", "");
+    add("texture2D", "sampler2D", "vec2", "");
+    add("texture3D", "sampler3D", "vec3", "");
+    add("textureCube", "samplerCube", "vec3", "");
+    for (const char* place : {"vec2", "vec4"}) add("texture1D", "sampler1D", place, "Proj");
+    for (const char* place : {"vec3", "vec4"}) add("texture2D", "sampler2D", place, "Proj");
+    add("texture3D", "sampler3D", "vec4", "Proj");
+    for (const char* shape : {"1D", "2D"}) {
+        add(fmt::format("shadow{}", shape), fmt::format("sampler{}Shadow", shape), "vec3", "");
+        add(fmt::format("shadow{}", shape), fmt::format("sampler{}Shadow", shape), "vec4", "Proj");
+    }
+    return text;
+}
+
+/// Behind the names of functions that glslang has and the shader's version has not.
+constexpr std::string_view kOwnName = "_of_the_shader";
+
+/// The functions of the shader's own that glslang takes for built-in ones of later versions or extensions, by
+/// its errors. Names that are members of structs too are left out: reflection would show another one.
+std::set<std::string> taken_names(const Diagnostics& errors, const std::vector<const Piece*>& pieces) {
+    static const std::regex form(
+        R"('(\w+)' : (?:function name is redeclaration|redefinition of built-in).*)");
+    std::set<std::string> names;
+    std::smatch match;
+    for (const Diagnostic& error : errors)
+        if (std::regex_search(error.message, match, form)) names.insert(match[1]);
+    std::erase_if(names, [&](const std::string& name) {
+        return std::ranges::any_of(
+            pieces, [&](const Piece* piece) { return piece->text.find("." + name) != std::string::npos; });
+    });
+    return names;
 }
 
 /// Whether glslang makes SPIR-V of the version as it is.
@@ -38,18 +95,28 @@ bool makes_spirv(const GlslVersion& version) {
     return version.number >= (version.es ? 310 : 330) && version.profile != "compatibility";
 }
 
-/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the functions
-/// that have since been renamed defined by their new names.
-std::string raised_for_spirv(std::string_view prologue) {
+/// The prologue with macros that keep the shader's own names apart from glslang's.
+std::string with_own_names(std::string prologue, const std::set<std::string>& names) {
+    for (const std::string& name : names) prologue += fmt::format("#define {0} {0}{1}\n", name, kOwnName);
+    return prologue;
+}
+
+/// Whether the version has the texture functions that carry their sampler's type in their name.
+bool has_old_functions(const GlslVersion& version) {
+    return version.number < 130;
+}
+
+/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the old functions
+/// behind that.
+std::string raised_for_spirv(std::string_view prologue, const std::string& functions) {
     const GlslVersion version = version_of(prologue);
     const auto end = prologue.find('\n');
     const std::string_view rest =
         prologue.starts_with("#version") && end != std::string_view::npos ? prologue.substr(end) : "\n";
     // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
-    const bool is_first_es = version.es && version.number == 100;
-    const bool has_old_names = is_first_es || (!version.es && version.number < 130);
-    return fmt::format("#version {}{}{}", version.es && !is_first_es ? "310 es" : "330 core",
-                       has_old_names ? "\n" + renamed_functions() : "", rest);
+    const bool is_es = version.es && version.number != 100;
+    return fmt::format("#version {}{}{}", is_es ? "310 es" : "330 core",
+                       has_old_functions(version) ? "\n" + functions : "", rest);
 }
 
 /// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
@@ -284,13 +351,22 @@ Diagnostics GlslangStage::parse() {
     if (makes_spirv(version)) {
         const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
         const Diagnostics found = parse_as(prologue, true, !can_state_bindings);
+        if (!has_errors(found)) return found;
+        if (const std::set<std::string> names = taken_names(found, pieces_); !names.empty())
+            if (const Diagnostics apart = parse_as(with_own_names(prologue, names), true, true);
+                !has_errors(apart))
+                return apart;
         // That a binding is not stated is an error unless glslang may choose it.
-        return has_errors(found) && can_state_bindings ? parse_as(prologue, true, true) : found;
+        return can_state_bindings ? parse_as(prologue, true, true) : found;
     }
     const Diagnostics own = parse_as(prologue, false, false);
     if (has_errors(own)) return own;
-    const Diagnostics raised = parse_as(raised_for_spirv(prologue), true, true);
-    return has_errors(raised) ? explained(raised, version) : own;
+    const Diagnostics raised = parse_as(raised_for_spirv(prologue, renamed_functions()), true, true);
+    if (!has_errors(raised)) return own;
+    const std::set<std::string> names = taken_names(raised, pieces_);
+    if (names.empty() && !has_old_functions(version)) return explained(raised, version);
+    const std::string apart = with_own_names(raised_for_spirv(prologue, old_functions(kind_)), names);
+    return has_errors(parse_as(apart, true, true)) ? explained(raised, version) : own;
 }
 
 Diagnostics link(const std::vector<GlslangStage*>& stages) {

@@ -30,8 +30,7 @@ using Json = nlohmann::ordered_json;
 constexpr float kWhiteError = 1e-4F;
 
 std::string value_text(const Feature& feature, int value) {
-    return feature.kind == FeatureKind::count ? std::to_string(value)
-                                              : feature.values[static_cast<std::size_t>(value)];
+    return feature.values[static_cast<std::size_t>(value)];
 }
 
 /// Three digits tell costs apart; more would suggest an exactness that an average has not.

@@ -260,7 +260,8 @@ Result<evaluate::Invocations> points_for(const Family& family, const Pipeline& p
 int count_of(const Family& family, const Relation& relation, const Key& key) {
     if (relation.feature < 0) return 0;
     const auto feature = static_cast<std::size_t>(relation.feature);
-    return family.features[feature].kind == FeatureKind::count ? key[feature] : 0;
+    const Feature& counted = family.features[feature];
+    return counted.kind == FeatureKind::count ? counted.lowest + key[feature] : 0;
 }
 
 /// The permutation of that key; null where the composition has none.

@@ -1,0 +1,179 @@
+#include "compose/rewrite.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "core/text.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr std::string_view kLegacy = "legacy_";
+
+/// The line with one blank for each run of them, and none at its ends and behind a `#`.
+std::string folded(std::string_view line) {
+    std::string result;
+    for (const char character : trim(line)) {
+        const bool is_blank = character == ' ' || character == '\t';
+        if (is_blank && (result.ends_with(' ') || result == "#")) continue;
+        result += is_blank ? ' ' : character;
+    }
+    return result;
+}
+
+/// What stands for the rule's `*` in a folded line.
+std::optional<std::string_view> name_in(std::string_view line, const IncludeRule& rule) {
+    const std::string pattern = folded(rule.line);
+    const auto star = pattern.find('*');
+    if (!line.starts_with(std::string_view(pattern).substr(0, star))) return std::nullopt;
+    line.remove_prefix(star);
+    const std::string_view end = std::string_view(pattern).substr(star + 1);
+    const auto at = end.empty() ? std::min(line.find(' '), line.size()) : line.find(end);
+    if (at == std::string_view::npos || at == 0) return std::nullopt;
+    const std::string_view behind = trim(line.substr(at + end.size()));
+    const bool is_over =
+        behind.empty() || behind == ";" || behind.starts_with("//") || behind.starts_with("/*");
+    return is_over ? std::optional(line.substr(0, at)) : std::nullopt;
+}
+
+bool is_of_family(std::string_view line, const Family& family) {
+    constexpr std::string_view begin = "#include <";
+    if (!line.starts_with(begin)) return false;
+    const std::string_view name = line.substr(begin.size(), line.find_first_of("/>") - begin.size());
+    const std::optional<int> index = family.index_of(name);
+    return name == "varyings" || (index && family.features[static_cast<std::size_t>(*index)].macro.empty());
+}
+
+}  // namespace
+
+const std::vector<std::string>& legacy_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = {"attribute",      "varying",     "texture1D",     "texture2D",
+                                        "texture3D",      "textureCube", "texture2DProj", "texture2DLod",
+                                        "textureCubeLod", "shadow2D",    "shadow2DProj",  "ftransform"};
+        for (const char* name : {"ModelViewMatrix",
+                                 "ModelViewMatrixInverse",
+                                 "ProjectionMatrix",
+                                 "ProjectionMatrixInverse",
+                                 "ModelViewProjectionMatrix",
+                                 "ModelViewProjectionMatrixInverse",
+                                 "NormalMatrix",
+                                 "TextureMatrix",
+                                 "Vertex",
+                                 "Normal",
+                                 "Color",
+                                 "SecondaryColor",
+                                 "FogCoord",
+                                 "MultiTexCoord0",
+                                 "MultiTexCoord1",
+                                 "MultiTexCoord2",
+                                 "MultiTexCoord3",
+                                 "FrontColor",
+                                 "FrontSecondaryColor",
+                                 "TexCoord",
+                                 "FogFragCoord",
+                                 "FragColor",
+                                 "FragData",
+                                 "LightSource",
+                                 "LightModel",
+                                 "FrontMaterial",
+                                 "BackMaterial",
+                                 "FrontLightModelProduct",
+                                 "FrontLightProduct",
+                                 "Fog"})
+            all.push_back(fmt::format("{}{}", kLegacy, name));
+        return all;
+    }();
+    return names;
+}
+
+std::string legacy_piece(const std::string& name) {
+    return fmt::format("compatibility/{}.glsl",
+                       name.starts_with(kLegacy) ? name.substr(kLegacy.size()) : name);
+}
+
+Substitutions substitutions_of(const Family& family, const Key& key, StageKind stage) {
+    Substitutions substitutions(family.substitutions.begin(), family.substitutions.end());
+    if (family.compatibility) {
+        for (const std::string& name : legacy_names()) {
+            if (!name.starts_with(kLegacy)) continue;
+            const std::string plain = name.substr(kLegacy.size());
+            // To the fragment stage its color is what the vertex stage calls the front's.
+            const bool is_color =
+                stage == StageKind::fragment && (plain == "Color" || plain == "SecondaryColor");
+            substitutions.emplace_back("gl_" + plain,
+                                       is_color ? fmt::format("{}Front{}", kLegacy, plain) : name);
+        }
+    }
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (const Feature& feature = family.features[i]; !feature.substituted.empty())
+            substitutions.emplace_back(feature.substituted, feature.text_of(key[i]).value_or("0"));
+    std::ranges::stable_sort(substitutions, std::ranges::greater(),
+                             [](const auto& substitution) { return substitution.first.size(); });
+    return substitutions;
+}
+
+std::string substituted(std::string_view text, const Substitutions& substitutions) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto fits = [&](const auto& substitution) {
+            const std::string_view name = substitution.first;
+            if (text.compare(i, name.size(), name) != 0) return false;
+            const bool begins =
+                i == 0 || !is_identifier_part(name.front()) || !is_identifier_part(text[i - 1]);
+            const std::size_t end = i + name.size();
+            return begins &&
+                   (end == text.size() || !is_identifier_part(name.back()) || !is_identifier_part(text[end]));
+        };
+        const auto found = std::ranges::find_if(substitutions, fits);
+        result += found == substitutions.end() ? text.substr(i, 1) : std::string_view(found->second);
+        i += found == substitutions.end() ? 1 : found->first.size();
+    }
+    return result;
+}
+
+std::optional<LoopHead> loop_head(const std::string& text) {
+    static const std::regex form(
+        R"(for\s*\(\s*int\s+(\w+)\s*=\s*(\d{1,4})\s*;\s*(\w+)\s*<\s*([^;{}]*[^;{}\s])\s*;\s*(?:(\w+)\s*\+\+|\+\+\s*(\w+))\s*\)\s*\{)");
+    std::smatch match;
+    if (!std::regex_search(text, match, form)) return std::nullopt;
+    const std::string index = match[1];
+    if (match[3] != index || match[5].str() + match[6].str() != index) return std::nullopt;
+    return LoopHead{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()),
+                    index, std::stoi(match[2]), match[4]};
+}
+
+std::string round_of_loop(const std::string& text, const LoopHead& head, int index) {
+    const std::string old_head = text.substr(head.begin, head.size);
+    std::string body = text.substr(head.begin + head.size);
+    body = substituted(body.substr(0, body.rfind('}') + 1), {{"UNROLLED_LOOP_INDEX", std::to_string(index)}});
+    // The lines of the head stay, and what stands behind the loop is its #pragma.
+    return fmt::format("{}{}{{ const int {} = {};{}\n", text.substr(0, head.begin),
+                       std::string(static_cast<std::size_t>(std::ranges::count(old_head, '\n')), '\n'),
+                       head.index, index, body);
+}
+
+std::string with_includes(std::string_view text, const Family& family) {
+    std::string result;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        std::string written(line);
+        const std::string compared = folded(line);
+        for (const IncludeRule& rule : family.include_rules) {
+            const std::optional<std::string_view> name = name_in(compared, rule);
+            if (!name || is_of_family(compared, family)) continue;
+            std::string path = rule.path;
+            written = fmt::format("#include \"{}\"", path.replace(path.find('*'), 1, *name));
+            break;
+        }
+        result += written;
+        if (line.size() < text.size()) result += '\n';
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return result;
+}
+
+}  // namespace gobo

@@ -1,0 +1,53 @@
+// Changes to the text of a file before it is scanned; lines stay lines.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "family/family.hpp"
+
+namespace gobo {
+
+/// What is replaced, and by what.
+using Substitutions = std::vector<std::pair<std::string, std::string>>;
+
+/// What the family and its features replace for a key, in the files of a stage.
+[[nodiscard]] Substitutions substitutions_of(const Family& family, const Key& key, StageKind stage);
+
+/// In its files nothing is replaced: they hold what the names stand for.
+inline constexpr std::string_view kLegacyFolder = "compatibility";
+/// What a stage of a family with `compatibility = true` may mention, each declared by the piece
+/// `compatibility/NAME.glsl`: `legacy_Vertex`, which is what the files call `gl_Vertex`, and `texture2D`.
+[[nodiscard]] const std::vector<std::string>& legacy_names();
+/// The piece that declares one of them.
+[[nodiscard]] std::string legacy_piece(const std::string& name);
+
+/// The text with each of them replaced, the longest that fits first; one that begins or ends as a name does
+/// is not found within a longer name.
+[[nodiscard]] std::string substituted(std::string_view text, const Substitutions& substitutions);
+
+/// The head of a loop: `for (int i = 0; i < COUNT; i++) {`.
+struct LoopHead {
+    std::size_t begin;  ///< in the text
+    std::size_t size;
+    std::string index;  ///< the name that counts
+    int first;
+    std::string end;  ///< what it stays below
+};
+
+/// That of the first loop of a text; nothing where it has another form.
+[[nodiscard]] std::optional<LoopHead> loop_head(const std::string& text);
+
+/// The text with one round of its loop in the loop's place: the index is a constant, and
+/// UNROLLED_LOOP_INDEX its number.
+[[nodiscard]] std::string round_of_loop(const std::string& text, const LoopHead& head, int index);
+
+/// The text with each line that a rule of the family fits written as `#include "path"`. Choices of pieces
+/// and `varyings` keep their `#include <name>`.
+[[nodiscard]] std::string with_includes(std::string_view text, const Family& family);
+
+}  // namespace gobo
