@@ -235,7 +235,7 @@ const BadRow bad_rows[] = {
     {"prologue_of_an_unknown_stage",
      "[prologue]\n"
      "fragmnet = \"\"\n",
-     "tiny.toml:5:1: error: unknown name 'fragmnet' in 'prologue'\n"
+     "tiny.toml:5:1: error: unknown name 'fragmnet' in [prologue]\n"
      "    fragmnet = \"\"\n"
      "    ^\n"
      "  help: did you mean 'fragment'?\n"},

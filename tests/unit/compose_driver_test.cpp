@@ -81,7 +81,7 @@ TEST_P(FamilyInTheDriver, IsAsGlslangSays) {
     const DiskFileSystem disk;
     SearchPath search;
     search.add(files, "", "", false);
-    search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
+    search.add(disk, GOBO_SOURCE_DIR "/templates", "templates/", false);
     const Family family = family_of(row.body);
     const Composition composition =
         compose(family, {parse_key(family, row.key).value()}, search, Dialect::own).value();
@@ -102,13 +102,13 @@ INSTANTIATE_TEST_SUITE_P(
     Rows, FamilyInTheDriver,
     testing::Values(
         FamilyRow{"version_and_prologue",
-                  "version = \"330 core\"\n[prologue]\nfragment = '''\nout vec4 color;\nconst float half = "
+                  "version = \"330 core\"\n[prologue]\nfragment = '''\nout vec4 color;\nconst float shade = "
                   "0.5;\n'''\n",
-                  "default", core_vertex, "void main() { color = vec4(half); }\n", ""},
+                  "default", core_vertex, "void main() { color = vec4(shade); }\n", ""},
         FamilyRow{"mistake_in_the_prologue",
-                  "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float half = "
+                  "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float shade = "
                   "oops;\n'''\n",
-                  "default", core_vertex, "void main() { color = vec4(half); }\n", "tiny.toml:9"},
+                  "default", core_vertex, "void main() { color = vec4(shade); }\n", "tiny.toml:9"},
         FamilyRow{"mistake_behind_the_prologue",
                   "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\n'''\n", "default",
                   core_vertex, "void main() { color = vec4(oops); }\n", "tiny.frag:1"},

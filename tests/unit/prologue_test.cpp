@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "tiny.frag:2:1: error: no piece 'chunks/nothing.glsl'\n"
                 "    #include <nothing>\n"
                 "    ^\n"
-                "  help: searched .\n"}),
+                "  help: searched .; nearest: 'chunks/fog.glsl'\n"}),
     [](const auto& row) { return row.param.name; });
 
 }  // namespace

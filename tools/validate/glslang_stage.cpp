@@ -74,31 +74,50 @@ std::string old_functions(StageKind stage) {
 /// Behind the names of functions that glslang has and the shader's version has not.
 constexpr std::string_view kOwnName = "_of_the_shader";
 
-/// The functions of the shader's own that glslang takes for built-in ones of later versions or extensions, by
-/// its errors. Names that are members of structs too are left out: reflection would show another one.
+/// Functions that every version of OpenGL ES has: a shader may not define one of the same name.
+constexpr std::string_view kEsFunctions =
+    " radians degrees sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow exp log exp2 log2 sqrt "
+    "inversesqrt abs sign floor trunc round roundEven ceil fract mod modf min max clamp mix step smoothstep "
+    "isnan "
+    "isinf floatBitsToInt floatBitsToUint intBitsToFloat uintBitsToFloat packSnorm2x16 unpackSnorm2x16 "
+    "packUnorm2x16 unpackUnorm2x16 packHalf2x16 unpackHalf2x16 length distance dot cross normalize "
+    "faceforward "
+    "reflect refract matrixCompMult outerProduct transpose determinant inverse lessThan lessThanEqual "
+    "greaterThan "
+    "greaterThanEqual equal notEqual any all not textureSize texture textureProj textureLod textureOffset "
+    "texelFetch texelFetchOffset textureProjOffset textureLodOffset textureProjLod textureProjLodOffset "
+    "textureGrad textureGradOffset textureProjGrad textureProjGradOffset dFdx dFdy fwidth ";
+
+/// The functions of the shader's own, in OpenGL ES 3.00 or below, that glslang takes for built-in ones of
+/// later versions or extensions, by its errors. Names that are members of structs too are left out:
+/// reflection would show another one.
 std::set<std::string> taken_names(const Diagnostics& errors, const std::vector<const Piece*>& pieces) {
     static const std::regex form(
         R"('(\w+)' : (?:function name is redeclaration|redefinition of built-in).*)");
     std::set<std::string> names;
+    const GlslVersion version = version_of(pieces.front()->text);
+    if (!version.es || version.number > 300) return names;
     std::smatch match;
     for (const Diagnostic& error : errors)
         if (std::regex_search(error.message, match, form)) names.insert(match[1]);
     std::erase_if(names, [&](const std::string& name) {
-        return std::ranges::any_of(
-            pieces, [&](const Piece* piece) { return piece->text.find("." + name) != std::string::npos; });
+        return kEsFunctions.find(fmt::format(" {} ", name)) != std::string_view::npos ||
+               std::ranges::any_of(pieces, [&](const Piece* piece) {
+                   return piece->text.find("." + name) != std::string::npos;
+               });
     });
     return names;
-}
-
-/// Whether glslang makes SPIR-V of the version as it is.
-bool makes_spirv(const GlslVersion& version) {
-    return version.number >= (version.es ? 310 : 330) && version.profile != "compatibility";
 }
 
 /// The prologue with macros that keep the shader's own names apart from glslang's.
 std::string with_own_names(std::string prologue, const std::set<std::string>& names) {
     for (const std::string& name : names) prologue += fmt::format("#define {0} {0}{1}\n", name, kOwnName);
     return prologue;
+}
+
+/// Whether glslang makes SPIR-V of the version as it is.
+bool makes_spirv(const GlslVersion& version) {
+    return version.number >= (version.es ? 310 : 330) && version.profile != "compatibility";
 }
 
 /// Whether the version has the texture functions that carry their sampler's type in their name.
@@ -335,8 +354,7 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     return fail(Fault::internal, "glslang refuses a stage without saying why").value();
 }
 
-Diagnostics GlslangStage::parse() {
-    const std::string& prologue = pieces_.front()->text;
+Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
     const GlslVersion version = version_of(prologue);
     const Since& since = kSince[kind_];
     const int first = version.es ? since.es : since.desktop;
@@ -351,22 +369,29 @@ Diagnostics GlslangStage::parse() {
     if (makes_spirv(version)) {
         const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
         const Diagnostics found = parse_as(prologue, true, !can_state_bindings);
-        if (!has_errors(found)) return found;
-        if (const std::set<std::string> names = taken_names(found, pieces_); !names.empty())
-            if (const Diagnostics apart = parse_as(with_own_names(prologue, names), true, true);
-                !has_errors(apart))
-                return apart;
         // That a binding is not stated is an error unless glslang may choose it.
-        return can_state_bindings ? parse_as(prologue, true, true) : found;
+        return has_errors(found) && can_state_bindings ? parse_as(prologue, true, true) : found;
     }
     const Diagnostics own = parse_as(prologue, false, false);
     if (has_errors(own)) return own;
     const Diagnostics raised = parse_as(raised_for_spirv(prologue, renamed_functions()), true, true);
     if (!has_errors(raised)) return own;
-    const std::set<std::string> names = taken_names(raised, pieces_);
-    if (names.empty() && !has_old_functions(version)) return explained(raised, version);
-    const std::string apart = with_own_names(raised_for_spirv(prologue, old_functions(kind_)), names);
-    return has_errors(parse_as(apart, true, true)) ? explained(raised, version) : own;
+    const bool is_right = has_old_functions(version) &&
+                          !has_errors(parse_as(raised_for_spirv(prologue, old_functions(kind_)), true, true));
+    return is_right ? own : explained(raised, version);
+}
+
+Diagnostics GlslangStage::parse() {
+    const std::string& prologue = pieces_.front()->text;
+    const Diagnostics found = parse_as_version(prologue);
+    std::set<std::string> names = taken_names(found, pieces_);
+    for (std::size_t known = 0; names.size() > known;) {
+        known = names.size();
+        Diagnostics apart = parse_as_version(with_own_names(prologue, names));
+        if (!has_errors(apart)) return apart;
+        names.merge(taken_names(apart, pieces_));
+    }
+    return found;
 }
 
 Diagnostics link(const std::vector<GlslangStage*>& stages) {

@@ -43,6 +43,7 @@ class GlslangStage {
     };
 
     Diagnostics parse_as(const std::string& prologue, bool for_spirv, bool map_bindings);
+    Diagnostics parse_as_version(const std::string& prologue);
 
     StageKind kind_;
     std::vector<const Piece*> pieces_;

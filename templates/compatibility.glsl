@@ -1,5 +1,6 @@
 // What OpenGL had built in before 3.1, for families that say `compatibility = true`: in their files `gl_Vertex` is
 // read as `legacy_Vertex` and so on, and of these pieces a stage takes those whose name it mentions.
+// Source: The OpenGL Shading Language 1.20, sections 7.1 to 7.6 and 8.7.
 
 #piece ModelViewMatrix
 uniform mat4 legacy_ModelViewMatrix;
