@@ -23,10 +23,8 @@ std::string composed(const std::string& body, const std::string& fragment, const
     const Result<Composition> composition =
         compose(family, {parse_key(family, key).value()}, search, dialect);
     if (!composition) return first_text(composition.error());
-    const Permutation& permutation = composition->permutations.front();
-    const std::string text =
-        source_of(*composition,
-                  composition->stage(kind == StageKind::vertex ? permutation.vertex : permutation.fragment));
+    const StageNumbers& stages = composition->permutations.front().stages;
+    const std::string text = source_of(*composition, composition->stage(stages[kind]));
     std::string dense;
     for (const char character : text)
         if (character != '\n' || (!dense.empty() && dense.back() != '\n')) dense += character;
@@ -187,7 +185,7 @@ TEST(InFront, StandsOnTheLinesOfTheFamilyFile) {
     search.add(disk, "", "", false);
     const Family family = family_of("[prologue]\ntext = '''\nint a;\nint b;'''\nfragment = 'int c;'\n");
     const Composition composition = compose(family, {Key()}, search, Dialect::own).value();
-    const Stage& stage = composition.stage(composition.permutations.front().fragment);
+    const Stage& stage = composition.stage(composition.permutations.front().stages[StageKind::fragment]);
     const Piece& all = composition.piece(stage.pieces.at(1));
     const Piece& one = composition.piece(stage.pieces.at(2));
     EXPECT_EQ(all.name + "|" + all.path + "|" + all.text,
