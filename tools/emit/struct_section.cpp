@@ -1,6 +1,7 @@
 // Uniform and storage blocks as C++ structs, and the checks of their ranges.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -400,35 +401,41 @@ namespace {
 Result<void> add_blocks(const std::vector<Block>& blocks, bool is_storage, const std::vector<Domain>& domains,
                         const Declarations& declarations, const TextTemplate& check, StructWriter& writer,
                         std::string& checks) {
-    std::map<std::string_view, std::vector<std::pair<NamedBlock, std::string>>> by_name;  // with who uses it
+    struct Layout {
+        NamedBlock block;
+        std::string users;
+        std::set<std::string> elements;
+    };
+    std::map<std::string, std::vector<Layout>> by_name;
     for (const Block& block : blocks) {
-        const std::string_view name = std::string_view(block.name).substr(0, block.name.find('['));
+        const std::string name = block.name.substr(0, block.name.find('['));
         const bool is_array = name.size() < block.name.size();
-        const bool is_same = &block != blocks.data() && (&block)[-1].name == block.name;
         Block sorted = block;
         sort_by_offset(sorted.members);
-        auto& layouts = by_name[name];
-        const auto place = std::ranges::find_if(layouts, [&](const auto& other) {
-            return is_array && other.first.layout.members == sorted.members;
+        std::vector<Layout>& layouts = by_name[name];
+        auto layout = std::ranges::find_if(layouts, [&](const Layout& other) {
+            return is_array && other.block.layout.members == sorted.members;
         });
-        if (place != layouts.end()) {
-            place->first.count += is_same ? 0 : 1;
-            place->first.layout.binding = std::min(place->first.layout.binding, block.binding);
-            continue;
+        if (layout == layouts.end()) {
+            int number = 1;
+            for (const Block* same = &block; same != blocks.data() && same[-1].name == block.name; --same)
+                ++number;
+            const auto differing =
+                declarations.find(is_storage ? "storage block" : "uniform block", block.name);
+            const std::string users =
+                differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "";
+            layout = layouts.insert(layout, {{name, std::move(sorted), is_storage}, users, {}});
         }
-        const auto differing = declarations.find(is_storage ? "storage block" : "uniform block", block.name);
-        int number = 1;
-        for (const Block* other = &block; other != blocks.data() && other[-1].name == block.name; --other)
-            ++number;
-        layouts.emplace_back(
-            NamedBlock{std::string(name), std::move(sorted), is_storage, is_array ? 1 : 0},
-            differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "");
+        layout->elements.insert(block.name);
+        if (is_array) layout->block.count = static_cast<int>(layout->elements.size());
+        layout->block.layout.binding = std::min(layout->block.layout.binding, block.binding);
     }
     for (const auto& [name, layouts] : by_name)
         for (std::size_t i = 0; i < layouts.size(); ++i) {
-            const auto& [block, users] = layouts[i];
-            GOBO_TRY(const StructText written, writer.write_block(block, static_cast<int>(i) + 1, users));
-            GOBO_TRY(const std::string text, block_check(block, written, domains, check));
+            const Layout& layout = layouts[i];
+            GOBO_TRY(const StructText written,
+                     writer.write_block(layout.block, static_cast<int>(i) + 1, layout.users));
+            GOBO_TRY(const std::string text, block_check(layout.block, written, domains, check));
             checks += text;
         }
     return {};

@@ -21,17 +21,25 @@ layout(std430, binding = 5) readonly buffer Samples {
     bool on[3];
     float samples[];
 } samples;
+#ifdef HEAVY
+#define SHADOWS 3
+#else
+#define SHADOWS 2
+#endif
 layout(std140) uniform Shadows {
     mat4 view;
-} shadows[3];
+#ifdef HEAVY
+    vec4 bias;
+#endif
+} shadows[SHADOWS];
 out vec4 color;
 
 void main() {
     vec2 sum = first.tint + last.tint + turn * vec2(cells[0], cells[3]);
     if (awake && particles[count].awake) sum += particles[count].tint;
 #ifdef HEAVY
-    sum *= particles[count].mass;
+    sum *= particles[count].mass * shadows[2].view[0].x * shadows[2].bias.x;
 #endif
     if (samples.on[1]) sum += (samples.turns[1] * particles[0].position).xy * samples.samples[2];
-    color = vec4(sum, 0.0, 1.0) * (shadows[0].view + shadows[1].view + shadows[2].view);
+    color = vec4(sum, 0.0, 1.0) * (shadows[0].view + shadows[1].view);
 }

@@ -86,13 +86,22 @@ TEST(StorageBlocks, AreLaidOutAsTheDriverSays) {
             functions.GetProgramResourceiv(program.id, row.kind, index, 1, &row.asked, 1, nullptr, &value);
             EXPECT_EQ(static_cast<std::size_t>(value), row.value) << row.name << ", " << row.asked;
         }
-        for (int element = 0; element < storage::Shadows::count; ++element) {
+        const bool is_heavy = permutation.key().heavy;
+        static_assert(storage::Shadows::count == 2 && storage::Shadows_2::count == 3);
+        static_assert(storage::Shadows::binding == storage::Shadows_2::binding);
+        for (int element = 0; element < (is_heavy ? 3 : 2); ++element) {
             const std::string name = "Shadows[" + std::to_string(element) + "]";
             GLint binding = -1;
             functions.GetActiveUniformBlockiv(program.id,
                                               functions.GetUniformBlockIndex(program.id, name.c_str()),
                                               GL_UNIFORM_BLOCK_BINDING, &binding);
             EXPECT_EQ(binding, storage::Shadows::binding + element);
+            GLint size = 0;
+            functions.GetActiveUniformBlockiv(program.id,
+                                              functions.GetUniformBlockIndex(program.id, name.c_str()),
+                                              GL_UNIFORM_BLOCK_DATA_SIZE, &size);
+            EXPECT_EQ(static_cast<std::size_t>(size),
+                      is_heavy ? storage::Shadows_2::size : storage::Shadows::size);
         }
         EXPECT_EQ(functions.GetError(), static_cast<GLenum>(GL_NO_ERROR));
         functions.DeleteProgram(program.id);
