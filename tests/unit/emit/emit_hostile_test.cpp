@@ -164,7 +164,7 @@ TEST(HostileText, StaysWithinItsRuleOfTheDepfile) {
         }
     }
     EXPECT_EQ(emit_depfile({"a\nall: ; pwned"}, {"$(pwned) #"}),
-              "a_all:\\ ;\\ pwned: \\\n  $$(pwned)\\ \\#\n");
+              "a_all\\:\\ ;\\ pwned: \\\n  $$(pwned)\\ \\#\n");
 }
 
 TEST(HostileText, StaysWithinCommentsOfCpp) {

@@ -43,17 +43,17 @@ TEST(ProgramsOfOneFamily, HaveTheKeysAndStagesThatTheyNameAndLink) {
     }
     EXPECT_EQ(all,
               "default: vertex fragment\n"
+              "lifted=on: vertex fragment\n"
               "program=curved: vertex tess_control tess_evaluation fragment\n"
+              "lifted=on program=curved: vertex tess_control tess_evaluation fragment\n"
               "program=depth: vertex\n"
+              "lifted=on program=depth: vertex\n"
               "program=outlined: vertex geometry fragment\n"
+              "lifted=on program=outlined: vertex geometry fragment\n"
               "program=twice: compute\n"
               "striped=on: vertex fragment\n"
-              "program=curved striped=on: vertex tess_control tess_evaluation fragment\n"
-              "lifted=on: vertex fragment\n"
-              "lifted=on program=curved: vertex tess_control tess_evaluation fragment\n"
-              "lifted=on program=depth: vertex\n"
-              "lifted=on program=outlined: vertex geometry fragment\n"
               "lifted=on striped=on: vertex fragment\n"
+              "program=curved striped=on: vertex tess_control tess_evaluation fragment\n"
               "lifted=on program=curved striped=on: vertex tess_control tess_evaluation fragment\n");
     EXPECT_EQ(stages::find(stages::Key{})->geometry.piece_count(), 0);
     EXPECT_EQ(stages::outputs.size(), 1U);  // those of the program without a fragment stage are no outputs
