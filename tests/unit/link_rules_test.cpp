@@ -484,6 +484,7 @@ INSTANTIATE_TEST_SUITE_P(Outputs, LinkRule, testing::ValuesIn(outputs), name_of_
 struct Tables {
     static inline std::vector<runtime::BlockBinding> blocks;
     static inline std::vector<runtime::SamplerBinding> samplers;
+    static constexpr std::array<runtime::BlockBinding, 0> storage_blocks{};
 };
 
 struct UnitsRow {
