@@ -165,7 +165,7 @@ class Parser {
         if (place.column > 0) place.column += static_cast<int>(at_ - back);
         throw Diagnostic{.fault = fault_,
                          .place = place,
-                         .message = fmt::format("{} in the condition '{}'", message, text_),
+                         .message = fmt::format("{} in the condition '{:.200}'", message, text_),
                          .help = std::move(help)};
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -33,7 +34,8 @@ Result<Key> named_key(const Family& family, const NamedKey& named, std::string_v
                                      rule->place.line)});
 }
 
-Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selection) {
+/// The limits of what a selection means, `selection`, and of what was asked for.
+Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selection, const Selection& asked) {
     KeySpaceLimits limits;
     limits.excluded = selection.excluded;
     for (const std::string& name : selection.over) {
@@ -44,14 +46,17 @@ Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selectio
                         help_for(family.features, name));
         limits.over.push_back(*index);
     }
-    if (!selection.where.empty()) {
-        GOBO_TRY(Expression where, parse_expression(selection.where, family.features, {}, Fault::usage));
+    std::set<std::string> conditions = {selection.where, asked.where};
+    conditions.erase("");
+    for (const std::string& condition : conditions) {
+        GOBO_TRY(Expression where, parse_expression(condition, family.features, {}, Fault::usage));
         limits.where.push_back(std::move(where));
     }
     return limits;
 }
 
-/// What the selection means: itself, or the family's default set where it names nothing.
+/// What the selection means: itself, or the family's default set where it names nothing. The conditions of
+/// both hold then.
 Result<Selection> resolved(const Family& family, const Selection& selection, std::string_view dialect) {
     if (!selection.names_nothing()) return selection;
     Selection meant = family.default_selection.value_or(selection);
@@ -63,10 +68,6 @@ Result<Selection> resolved(const Family& family, const Selection& selection, std
     }
     meant.excluded = selection.excluded;
     if (!selection.over.empty()) meant.over = selection.over;
-    if (meant.where.empty())
-        meant.where = selection.where;
-    else if (!selection.where.empty())
-        meant.where = fmt::format("({}) && ({})", meant.where, selection.where);
     return meant;
 }
 
@@ -122,11 +123,12 @@ Result<std::vector<Key>> keys_of_space(const Family& family, const Selection& se
 
 Result<std::vector<Key>> select(const Family& family, const Selection& asked, std::string_view dialect) {
     GOBO_TRY(const Selection selection, resolved(family, asked, dialect));
-    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection));
+    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection, asked));
     GOBO_TRY(std::vector<Key> keys, keys_of_space(family, selection, limits, dialect));
     for (const NamedKey& named : selection.keys) {
         GOBO_TRY(Key key, named_key(family, named, dialect));
-        if (limits.where.empty() || holds(limits.where.front(), key)) keys.push_back(std::move(key));
+        if (std::ranges::all_of(limits.where, [&](const Expression& where) { return holds(where, key); }))
+            keys.push_back(std::move(key));
     }
     std::ranges::sort(keys);
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -136,10 +138,10 @@ Result<std::vector<Key>> select(const Family& family, const Selection& asked, st
 Result<WholeNumber> count_selected(const Family& family, const Selection& asked, std::string_view dialect) {
     GOBO_TRY(const Selection selection, resolved(family, asked, dialect));
     if (!selection.all || !selection.keys.empty()) {
-        GOBO_TRY(const std::vector<Key> keys, select(family, selection, dialect));
+        GOBO_TRY(const std::vector<Key> keys, select(family, asked, dialect));
         return keys.size();
     }
-    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection));
+    GOBO_TRY(const KeySpaceLimits limits, limits_of(family, selection, asked));
     GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, limits));
     return space.count();
 }
