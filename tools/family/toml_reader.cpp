@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "core/toml_depth.hpp"
 
 namespace gobo {
 
@@ -37,6 +38,11 @@ TomlReader::TomlReader(std::string_view text, std::string path) : path_(std::mov
 
 toml::table TomlReader::parse(std::string_view text, const std::string& path) {
     texts_[path] = text;
+    if (const int line = line_of_overlong_key(text); line > 0) {
+        error(Place{path, line, 0}, fmt::format("a key has more than {} parts", kMostKeyParts),
+              "nest fewer tables");
+        return {};
+    }
     try {  // the packaged library reports by exceptions only; they end here
         return toml::parse(text, path);
     } catch (const toml::parse_error& failure) {

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/text.hpp"
+#include "core/toml_depth.hpp"
 #include "lab/evaluate/functions.hpp"
 
 namespace gobo::evaluate {
@@ -19,6 +20,9 @@ class FileReader {
     FileReader(std::string_view text, const std::string& path) : text_(text), path_(path) {}
 
     Result<EvalInputs> read() {
+        if (const int line = line_of_overlong_key(text_); line > 0)
+            return fail({path_, line, 0}, "", fmt::format("a key has more than {} parts", kMostKeyParts),
+                        "nest fewer tables");
         toml::table file;
         try {
             file = toml::parse(text_, path_);
