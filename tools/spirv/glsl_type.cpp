@@ -1,13 +1,16 @@
 #include "spirv/glsl_type.hpp"
 
+#include <algorithm>
 #include <array>
-#include <functional>
-#include <numeric>
+#include <cstdint>
 
 #include <fmt/format.h>
 
 namespace gobo {
 namespace {
+
+/// Counts of elements and locations end here, so that callers may add some; a real one is far below.
+constexpr std::int64_t kMostElements = 1 << 30;
 
 struct ScalarRow {
     std::string_view scalar;  ///< GLSL's name of one alone
@@ -70,11 +73,14 @@ std::optional<GlslType> glsl_type(std::string_view name) {
 }
 
 int element_count(const std::vector<int>& extents) {
-    return std::accumulate(extents.begin(), extents.end(), 1, std::multiplies<>());
+    std::int64_t count = 1;
+    for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostElements);
+    return static_cast<int>(count);
 }
 
 int location_count(std::string_view type, const std::vector<int>& extents) {
-    return glsl_type(type).value_or(GlslType{}).columns * element_count(extents);
+    const std::int64_t columns = glsl_type(type).value_or(GlslType{}).columns;
+    return static_cast<int>(std::min<std::int64_t>(columns * element_count(extents), kMostElements));
 }
 
 }  // namespace gobo

@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kRowsOfVaryings = 15;
 constexpr int kVaryingComponents = 60;  // 15 vectors of four
+/// Mesa's software renderer offers the most, 4096 vectors of four: this is four times as much.
+constexpr int kMostComponents = 65536;
 
 /// Rows of four components that varyings take by the packing of OpenGL ES 3.00 (chapter 11): the widest
 /// first, each in the rows where it fits beside others. Columns are numbered from 0.
@@ -88,7 +90,7 @@ class LimitCheck {
     }
 
   private:
-    void at_most(int limit, int needed, const StageView& stage, const std::string& name,
+    void at_most(int limit, std::int64_t needed, const StageView& stage, const std::string& name,
                  const std::string& what, std::string_view constant, Severity severity = Severity::error) {
         if (needed <= limit) return;
         const Declaration at = name.empty() ? Declaration{{stage.pieces.back()->path, 0, 0}, "", false}
@@ -107,13 +109,13 @@ class LimitCheck {
         at_most(kBlocksOfStage, static_cast<int>(interface.blocks.size()), stage, "",
                 fmt::format("uniform blocks in the {} stage:", name),
                 fmt::format("MAX_{}_UNIFORM_BLOCKS", upper(name)));
-        int samplers = 0;
+        std::int64_t samplers = 0;
         for (const Sampler& sampler : interface.samplers) {
             if (sampler.usage.unused) continue;
             samplers += element_count(sampler.array);
             if (sampler.type.find("sampler") != std::string::npos && sampler.binding >= 0)
-                at_most(units_, sampler.binding + element_count(sampler.array), stage, sampler.name,
-                        fmt::format("texture units up to that of '{}':", sampler.name),
+                at_most(units_, std::int64_t{sampler.binding} + element_count(sampler.array), stage,
+                        sampler.name, fmt::format("texture units up to that of '{}':", sampler.name),
                         "MAX_COMBINED_TEXTURE_IMAGE_UNITS");
         }
         at_most(kSamplersOfStage, samplers, stage, "", fmt::format("samplers in the {} stage:", name),
@@ -121,7 +123,7 @@ class LimitCheck {
         for (const Block& block : interface.blocks) {
             at_most(kBlockBytes, block.size, stage, block.name,
                     fmt::format("bytes of the uniform block '{}':", block.name), "MAX_UNIFORM_BLOCK_SIZE");
-            at_most(block_bindings_, block.binding + 1, stage, block.name,
+            at_most(block_bindings_, std::int64_t{block.binding} + 1, stage, block.name,
                     fmt::format("uniform buffer bindings up to that of '{}':", block.name),
                     "MAX_UNIFORM_BUFFER_BINDINGS");
         }
@@ -129,8 +131,14 @@ class LimitCheck {
         std::string largest;
         int most = 0;
         for (const Uniform& uniform : interface.uniforms) {
-            if (uniform.usage.unused) continue;
             const int own = component_count(uniform.type, uniform.array, uniform.members);
+            if (own > kMostComponents)
+                found_.push_back(diagnostic_at(
+                    declaration_of(uniform.name, "", stage.pieces), Severity::error,
+                    fmt::format("the uniform '{}' has {} components, more than {}: no driver offers so many",
+                                uniform.name, own, kMostComponents),
+                    "keep so much in a texture or in a shader storage block"));
+            if (uniform.usage.unused || own > kMostComponents) continue;
             components = std::min(components + own, 1 << 30);
             if (own > most) largest = uniform.name;
             most = std::max(most, own);
@@ -149,11 +157,11 @@ class LimitCheck {
     /// `before` is the stage whose outputs reach the fragment stage, if there is one.
     void check_varyings(const StageView* before, const StageView& fragment) {
         const std::vector<Variable>& inputs = fragment.interface.inputs;
-        int components = 0;
+        std::int64_t components = 0;
         for (const Variable& input : inputs)
             if (!input.usage.unused)
-                components +=
-                    glsl_type(input.type).value_or(GlslType{}).components() * element_count(input.array);
+                components += std::int64_t{1} * glsl_type(input.type).value_or(GlslType{}).components() *
+                              element_count(input.array);
         at_most(kVaryingComponents, components, fragment, "",
                 "varying components:", "MAX_VARYING_COMPONENTS");
         const std::size_t found = found_.size();
@@ -168,10 +176,10 @@ class LimitCheck {
 
     /// Stated locations are four components each, whether or not the variable takes them all.
     void check_varying_locations(const StageView& stage, const std::vector<Variable>& list) {
-        int needed = 0;
+        std::int64_t needed = 0;
         for (const Variable& variable : list) {
             if (variable.location < 0) continue;
-            const int count = location_count(variable.type, variable.array);
+            const std::int64_t count = location_count(variable.type, variable.array);
             if (!variable.usage.unused && variable.component == 0) needed += count;
             if (variable.location + count <= kRowsOfVaryings) continue;
             at_most(kRowsOfVaryings, variable.location + count, stage, variable.name,
@@ -185,9 +193,9 @@ class LimitCheck {
     /// Attributes or fragment outputs: each column of a matrix and each element of an array takes a location.
     void check_locations(const StageView& stage, const std::vector<Variable>& list, int limit,
                          std::string_view what, std::string_view constant) {
-        int needed = 0;
+        std::int64_t needed = 0;
         for (const Variable& variable : list) {
-            const int count = location_count(variable.type, variable.array);
+            const std::int64_t count = location_count(variable.type, variable.array);
             if (variable.location >= 0 && variable.location + count > limit)
                 return at_most(limit, variable.location + count, stage, variable.name,
                                fmt::format("{} locations up to the last of '{}':", what, variable.name),

@@ -301,8 +301,8 @@ class LinkCheck {
     struct Taken {
         std::string_view name;
         std::string type;
-        int first;
-        int count;
+        std::int64_t first;
+        std::int64_t count;
         const StageView* stage;
     };
 
@@ -330,7 +330,7 @@ class LinkCheck {
                 for (const Block& block : stage.interface.*blocks)
                     if (block.binding >= 0 && !block.usage.unused)
                         places.push_back({block.name, "", block.binding, 1, &stage});
-            for_each_overlap(places, [&](const Taken& one, const Taken& other, int binding) {
+            for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t binding) {
                 if (root_of(one.name) == root_of(other.name)) return;
                 add(declared(one), Severity::warning,
                     fmt::format("the blocks '{}' and '{}' ({}) share binding {}: both read the same buffer",
@@ -348,7 +348,7 @@ class LinkCheck {
                     sampler.type.find("sampler") != std::string::npos)
                     places.push_back(
                         {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), &stage});
-        for_each_overlap(places, [&](const Taken& one, const Taken& other, int unit) {
+        for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t unit) {
             const bool is_refused = one.type != other.type;
             add(declared(one), is_refused ? Severity::error : Severity::warning,
                 fmt::format("'{} {}' and '{} {}' ({}) share texture unit {}{}", one.type, one.name,
@@ -360,10 +360,11 @@ class LinkCheck {
     }
 
     /// Each element of an array and each member of a struct has a location of its own.
-    [[nodiscard]] static int locations_of(const std::vector<int>& array, const std::vector<Member>& members) {
-        int inner = members.empty() ? 1 : 0;
+    [[nodiscard]] static std::int64_t locations_of(const std::vector<int>& array,
+                                                   const std::vector<Member>& members) {
+        std::int64_t inner = members.empty() ? 1 : 0;
         for (const Member& member : members) inner += locations_of(member.array, member.members);
-        return inner * element_count(array);
+        return std::min<std::int64_t>(inner, 1 << 30) * element_count(array);
     }
 
     void check_uniform_locations() {
@@ -373,7 +374,7 @@ class LinkCheck {
                 if (uniform.location >= 0)
                     places.push_back({uniform.name, uniform.type, uniform.location,
                                       locations_of(uniform.array, uniform.members), &stage});
-        for_each_overlap(places, [&](const Taken& one, const Taken& other, int location) {
+        for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t location) {
             add(declared(one), Severity::error,
                 fmt::format("the uniforms '{}' and '{}' ({}) share location {}", one.name, other.name,
                             declared(other).text(), location),
