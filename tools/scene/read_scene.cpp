@@ -166,6 +166,24 @@ void place_nodes(const Value& root, Scene& scene) {
     }
 }
 
+/// Each draw has an entry for each light: memory would end before the list does.
+constexpr std::size_t kMostLightsOfDraws = 2'000'000;
+
+Result<void> check_size(const Scene& scene) {
+    std::size_t draws = 0;
+    std::size_t lights = 0;
+    for (const std::size_t index : scene.order) {
+        const Node& node = scene.nodes[index];
+        if (node.mesh) draws += scene.meshes[*node.mesh].primitives.size();
+        if (node.light) ++lights;
+    }
+    if (lights == 0 || draws <= kMostLightsOfDraws / lights) return {};
+    return fail(Place{scene.path}, {},
+                fmt::format("has {} draws and {} lights, more than {} pairs of them", draws, lights,
+                            kMostLightsOfDraws),
+                "split the scene");
+}
+
 }  // namespace
 
 Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
@@ -192,6 +210,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
         if (wrong.front().place.file.empty()) wrong.front().place.file = path;
         return tl::unexpected(std::move(wrong));
     }
+    GOBO_TRY_DO(check_size(scene));
     return scene;
 }
 

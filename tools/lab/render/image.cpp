@@ -128,6 +128,8 @@ Result<Image> decode_pfm(std::string_view bytes, const std::string& path) {
 
 /// A picture above this many pixels is taken for a damaged header: 2^28 pixels are 4 GiB as floats.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+/// Nothing is compressed better: a picture of one colour takes a byte for some 500 pixels.
+constexpr std::int64_t kPixelsPerByte = 4096;
 
 class MemoryInput final : public Imf::IStream {
   public:
@@ -200,7 +202,8 @@ Result<Image> decode_exr(std::string_view bytes, const std::string& path) {
         const Imath::Box2i window = file.header().dataWindow();
         const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
         const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-        if (width <= 0 || height <= 0 || width > kMostPixels / height)
+        const auto most = std::min(kMostPixels, kPixelsPerByte * static_cast<std::int64_t>(bytes.size()));
+        if (width <= 0 || height <= 0 || width > most / height)
             return damaged(path, ImageFormat::exr, fmt::format("its size is {} x {}", width, height));
         const std::vector<std::string> names = channels_of(file.header().channels());
         Image image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(names.size()));
