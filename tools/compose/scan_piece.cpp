@@ -6,16 +6,13 @@
 #include <fmt/format.h>
 
 #include "compose/clean_text.hpp"
+#include "compose/text_limits.hpp"
 #include "compose/tokens.hpp"
 #include "core/glsl_version.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
 namespace {
-
-/// glslang 12 recurses once per bracket and overflows its stack on hostile input; no real shader comes
-/// near.
-constexpr int kDeepestNesting = 200;
 
 using Tokens = std::span<const std::string_view>;
 
@@ -101,6 +98,7 @@ class Scanner {
         }
         if (!is_guarded_) result_.guard.clear();
         const std::vector<std::string_view> tokens = tokens_of(clean_.code);
+        GOBO_TRY_DO(check_growth(tokens));
         result_.bindings = bindings_of(tokens);
         result_.warnings = unstated_layouts(tokens, clean_.code, file_, path_);
         for (const int line : clean_.joined_comments)
@@ -136,15 +134,7 @@ class Scanner {
         }
         if (is_outside && seen_code_) is_guarded_ = false;
         seen_code_ = true;
-        for (const char c : bare) {
-            if (c == '(' || c == '[' || c == '{') ++depth_;
-            if (c == ')' || c == ']' || c == '}') depth_ = std::max(0, depth_ - 1);
-            if (depth_ <= kDeepestNesting) continue;
-            return fail({path_, number, 0}, line_of(file_, number).substr(0, 80),
-                        fmt::format("brackets are nested more than {} deep", kDeepestNesting),
-                        "split the expression or the function");
-        }
-        return {};
+        return check_nesting(bare, number);
     }
 
     /// What the composer must know of a directive. Whether it takes the line out of the text.
@@ -194,6 +184,31 @@ class Scanner {
         return true;
     }
 
+    /// Of a directive by itself.
+    Result<void> check_nesting(std::string_view code, int number) {
+        Nesting of_directive;
+        Nesting& nesting = trim(code).starts_with('#') ? of_directive : nesting_;
+        for (const std::string_view token : tokens_of(code))
+            if (const std::optional<std::string> excess = nesting.add(token))
+                return fail({path_, number, 0}, line_of(file_, number).substr(0, 80), *excess,
+                            "split the expression or the function");
+        return {};
+    }
+
+    /// What would double at every step.
+    Result<void> check_growth(Tokens tokens) const {
+        if (const Directive* const macro = endless_macro(result_.directives))
+            return fail_at(*macro, "this macro expands to more than a million tokens",
+                           "define it more simply");
+        const std::string_view name = endless_struct(tokens);
+        if (name.empty()) return {};
+        const int line = line_at(clean_.code, name.data());
+        return fail(
+            {path_, line, 0}, line_of(file_, line),
+            fmt::format("the struct '{}' has more than 10000 members, those of its members counted", name),
+            "nest fewer structs");
+    }
+
     /// #elif, #else and #endif.
     Result<void> go_on(const Directive& directive) {
         if (open_.empty())
@@ -237,7 +252,7 @@ class Scanner {
     std::vector<Condition> open_;
     bool seen_code_ = false;
     bool is_guarded_ = true;
-    int depth_ = 0;
+    Nesting nesting_;
 };
 
 }  // namespace
