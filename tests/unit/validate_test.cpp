@@ -24,7 +24,8 @@ const char* const plain_vertex = "void main() { gl_Position = vec4(0.0); }\n";
 
 class Validate : public testing::Test {
   protected:
-    Validated all(Dialect dialect = Dialect::own, int jobs = 1, bool with_spirv_val = true) {
+    Validated all(Dialect dialect = Dialect::own, int jobs = 1, bool with_spirv_val = true,
+                  bool in_children = false) {
         const MemoryFileSystem disk(files);
         SearchPath search;
         search.add(disk, "", "", false);
@@ -36,6 +37,8 @@ class Validate : public testing::Test {
         ValidateOptions options;
         options.jobs = jobs;
         options.spirv_val = with_spirv_val;
+        options.child_processes = in_children;
+        options.keep_spirv = true;
         return validate(family, composition, options);
     }
 
@@ -87,6 +90,35 @@ TEST_F(Validate, SaysTheSameWhateverTheNumberOfThreads) {
     const std::string alone = texts(1);
     EXPECT_THAT(alone, HasSubstr("error"));
     for (int i = 0; i < 10; ++i) ASSERT_EQ(texts(4), alone);
+}
+
+TEST_F(Validate, SaysTheSameInChildProcesses) {
+    body = features;
+    files["tiny.vert"] =
+        "layout(location = 0) in vec4 position;\nlayout(location = 0) out vec3 normal;\n"
+        "void main() { normal = position.xyz; gl_Position = position; }\n";
+    files["tiny.frag"] =
+        "#include <fog>\nstruct Lamp { vec3 color; bool on; };\nuniform Lamp lamps[2];\n"
+        "layout(std140, binding = 1) uniform B { Lamp lamp; mat3 turn; float x[3]; } b;\n"
+        "layout(binding = 2) uniform sampler2D map;\nlayout(location = 0) in vec3 normal;\n"
+        "layout(location = 0) out vec4 color;\n"
+        "#if POINTS == 1\nvec2 wrong() { return normal; }\n#endif\n"
+        "void main() { color = vec4(lamps[1].color + b.lamp.color + b.turn * normal + b.x[POINTS - 1], "
+        "1.0);\n"
+        "color += texture(map, normal.xy) * seen(); }\n";
+    files["fog/none.glsl"] = "float seen() { return 1.0; }\n";
+    files["fog/linear.glsl"] = "float seen() { if (normal.x > 0.0) discard; return 0.5; }\n";
+    const Validated threads = all(Dialect::own, 3);
+    const Validated children = all(Dialect::own, 3, true, true);
+    EXPECT_EQ(children.diagnostics, threads.diagnostics);
+    EXPECT_THAT(threads.diagnostics, testing::Not(IsEmpty()));
+    ASSERT_EQ(children.stages.size(), threads.stages.size());
+    for (std::size_t i = 0; i < threads.stages.size(); ++i) {
+        EXPECT_EQ(children.stages[i].spirv, threads.stages[i].spirv);
+        EXPECT_EQ(children.stages[i].hash, threads.stages[i].hash);
+        EXPECT_EQ(children.stages[i].interface, threads.stages[i].interface);
+        EXPECT_EQ(children.stages[i].diagnostics, threads.stages[i].diagnostics);
+    }
 }
 
 TEST_F(Validate, RefusesToReadWhatIsNotWritten) {

@@ -10,6 +10,7 @@
 
 #include "compose/conditions.hpp"
 #include "compose/dialect.hpp"
+#include "compose/piece_marks.hpp"
 #include "compose/rewrite.hpp"
 #include "compose/scan_piece.hpp"
 #include "core/text.hpp"
@@ -150,6 +151,12 @@ class PieceLibrary {
         return at->second = add(std::move(copy), entry(piece));
     }
 
+    /// What the composition is warned of when all of it is put together.
+    void add_warnings() {
+        for (const auto& [path, warning] : heads_)
+            if (warning) composition_.warnings.push_back(*warning);
+    }
+
     [[nodiscard]] const Source& source(int file) const { return sources_[static_cast<std::size_t>(file)]; }
     /// The file that a piece is of; null for a generated one.
     [[nodiscard]] const Source* source_of(int piece) const { return entry(piece).source; }
@@ -214,6 +221,7 @@ class PieceLibrary {
         const auto [found, is_unread] = by_file_.try_emplace(
             {piece.path, piece.name, text == piece.text ? "" : text}, static_cast<int>(sources_.size()));
         if (!is_unread) return found->second;
+        note_head(piece);
         GOBO_TRY(ScannedPiece scanned,
                  scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
                             piece.text));
@@ -233,6 +241,21 @@ class PieceLibrary {
         source.is_once = scanned.is_once;
         source.guard = std::move(scanned.guard);
         return found->second;
+    }
+
+    /// Notes what stands before the first mark of a file that is split into pieces.
+    void note_head(const Piece& piece) {
+        const bool is_head = piece.name.find('#') == std::string::npos;
+        if (is_head) heads_[piece.path] = std::nullopt;
+        const int line = is_head || !piece.on_disk ? 0 : line_before_pieces(piece.file_text);
+        if (line == 0) return;
+        Diagnostic warning = fail({piece.path, line, 0}, line_of(piece, line),
+                                  "nothing includes this text: it stands before the first #piece",
+                                  "move it into the piece that needs it")
+                                 .value()
+                                 .front();
+        warning.severity = Severity::warning;
+        heads_.try_emplace(piece.path, std::move(warning));
     }
 
     /// Parts a file at the includes below its top. Each part begins with as many empty lines as stand before
@@ -331,14 +354,24 @@ class PieceLibrary {
         GOBO_TRY(const std::optional<int> file, first_of(paths, from));
         if (file) return file;
         std::string help = fmt::format("searched {}", join(search_.folders(), ", "));
-        if (const auto near = nearest(wanted, search_.all_include_paths()))
+        const std::vector<std::string> all = search_.all_include_paths();
+        const auto near = nearest(wanted, all);
+        if (near == wanted) {  // there, but all of it stands behind marks
+            const std::string folder = wanted.substr(0, wanted.rfind('.')) + "/";
+            const auto piece =
+                std::ranges::find_if(all, [&](const auto& path) { return path.starts_with(folder); });
+            if (piece != all.end())
+                help = fmt::format("'{}' is split into pieces: write which one, as \"{}\"", wanted, *piece);
+        } else if (near) {
             help += fmt::format("; nearest: '{}'", *near);
+        }
         return fail_at(include, std::move(message), std::move(help));
     }
 
     const Family& family_;
     const SearchPath& search_;
     Comments comments_;
+    std::map<std::string, std::optional<Diagnostic>> heads_;  ///< by path; nothing where it is included
     Composition& composition_;
     /// What mentions() is asked for.
     std::vector<std::string> interest_ = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
@@ -400,7 +433,10 @@ class Composer {
         return {};
     }
 
-    Composition result() && { return std::move(composition_); }
+    Composition result() && {
+        library_.add_warnings();
+        return std::move(composition_);
+    }
 
   private:
     Result<void> follow_templates(Placement& placement) {
@@ -776,25 +812,6 @@ Result<Composition> compose(const Family& family, const std::vector<Key>& keys, 
         return tl::unexpected(std::move(added.error()));
     }
     return std::move(composer).result();
-}
-
-Diagnostics same_stages(const Family& family, const Composition& composition) {
-    std::map<StageNumbers, const Permutation*> first_of;
-    std::string example;
-    int more = -1;
-    for (const Permutation& permutation : composition.permutations) {
-        const auto [at, is_new] = first_of.try_emplace(permutation.stages, &permutation);
-        if (is_new || ++more > 0) continue;
-        example = fmt::format("the keys '{}' and '{}' compose to the same stages",
-                              key_text(family, at->second->key), key_text(family, permutation.key));
-    }
-    if (example.empty()) return {};
-    Diagnostics warnings =
-        fail({family.path, 0, 0}, "", more == 0 ? example : fmt::format("{}; so do {} more", example, more),
-             "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there")
-            .value();
-    warnings.front().severity = Severity::warning;
-    return warnings;
 }
 
 }  // namespace gobo

@@ -15,8 +15,4 @@ namespace gobo {
                                           const SearchPath& search, Dialect dialect,
                                           Comments comments = Comments::remove);
 
-/// One warning where several keys compose to the same stages: the first two of them and how many more
-/// there are. The family lacks a rule then by which what cannot matter stands at its default.
-[[nodiscard]] Diagnostics same_stages(const Family& family, const Composition& composition);
-
 }  // namespace gobo

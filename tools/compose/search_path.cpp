@@ -6,32 +6,16 @@
 #include <fmt/format.h>
 
 #include "compose/clean_text.hpp"
+#include "compose/piece_marks.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr std::string_view kMarker = "#piece ";
 constexpr std::string_view kExtension = ".glsl";
 
 /// Bytes; no system opens a longer path.
 constexpr std::size_t kLongestPath = 4096;
-
-/// The name behind `#piece`, where the line is such a marker.
-std::optional<std::string_view> marked(std::string_view line) {
-    if (!line.starts_with(kMarker)) return std::nullopt;
-    return trim(line.substr(kMarker.size()));
-}
-
-/// Calls visit(line) for each, its end left out, until it answers false.
-template <class Visit>
-void for_each_line(std::string_view text, Visit visit) {
-    for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        if (!visit(text.substr(start, end - start))) return;
-        start = end + 1;
-    }
-}
 
 /// The line that marks the name a second time; 0 where none does.
 int marked_twice(std::string_view text, std::string_view name) {
@@ -48,7 +32,7 @@ int marked_twice(std::string_view text, std::string_view name) {
 /// before it: line numbers are the file's. With an empty name, what stands before the first marker, unless
 /// that is but a comment on all that follows.
 std::optional<std::string> section_of(const std::string& text, const std::string& name) {
-    if (text.find(kMarker) == std::string::npos) return name.empty() ? std::optional(text) : std::nullopt;
+    if (text.find("#piece ") == std::string::npos) return name.empty() ? std::optional(text) : std::nullopt;
     std::string section;
     bool is_inside = name.empty();
     bool has_code = false;
@@ -134,6 +118,9 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     }
     GOBO_TRY(const std::string bytes, root.files->read(path));
     const std::string text = unix_lines(bytes);
+    if (const int line = file.ends_with(kExtension) ? misspelt_mark(text) : 0; line > 0)
+        return fail({path, line, 1}, line_of(text, line), "this marks no piece",
+                    "write '#piece NAME' at the start of the line");
     if (const int line = section.empty() ? 0 : marked_twice(text, section); line > 0)
         return fail({path, line, 1}, line_of(text, line),
                     fmt::format("the piece '{}' is here twice", section), "give one of them another name");

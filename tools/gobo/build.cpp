@@ -69,7 +69,7 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
         keys.assign(chosen.begin(), chosen.end());
     }
     GOBO_TRY(const Composition composition, compose_keys(family, keys));
-    GOBO_TRY(Validated validated, compile(world, family.family, composition));
+    GOBO_TRY(Validated validated, compile(world, family, composition));
     const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,
              read_header_templates(world.library(), world.in_library("templates/header")));

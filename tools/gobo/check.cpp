@@ -17,9 +17,9 @@ Result<Outcome> run(const CheckOptions& options, const World& world) {
                        {{.severity = Severity::warning,
                          .message = "the selection holds no keys, so nothing was checked",
                          .help = "see what a selection holds with 'gobo list'"}}};
-    GOBO_TRY(Validated validated,
-             compile(world, family.family, composition, {.spirv_val = options.spirv_val}));
-    append(validated.diagnostics, same_stages(family.family, composition));
+    GOBO_TRY(Validated validated, compile(world, family, composition, {.spirv_val = options.spirv_val}));
+    append(validated.diagnostics, composition.warnings);
+    append(validated.diagnostics, same_programs(family.family, composition, validated));
     return Outcome{{}, std::move(validated.diagnostics)};
 }
 

@@ -9,6 +9,7 @@
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "compose/known_names.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
@@ -92,6 +93,69 @@ Result<T> without_subjects(Result<T> result) {
     return result;
 }
 
+/// How many keys are validated to make those of error messages simpler.
+constexpr int kMostTrials = 100;
+
+/// Puts features at their defaults in the key that an error names where the error stays the same, many at a
+/// time at first.
+class KeySimplifier {
+  public:
+    KeySimplifier(const LoadedFamily& family, ValidateOptions options)
+        : family_(family), options_(std::move(options)) {
+        options_.jobs = 1;
+    }
+
+    /// The subject is a key, perhaps with how many more there are.
+    void simplify(Diagnostic& error) {
+        const std::size_t end = std::min(error.subject.find(", and "), error.subject.size());
+        const Result<Key> named = parse_key(family_.family, error.subject.substr(0, end));
+        // What takes glslang too much time or memory takes it again.
+        if (!named || error.message.starts_with("glslang ")) return;
+        Key key = *named;
+        std::vector<std::size_t> set;
+        for (std::size_t feature = 0; feature < key.size(); ++feature)
+            if (key[feature] != 0) set.push_back(feature);
+        for (std::size_t count = (set.size() + 1) / 2; count > 0 && set.size() > 1; count = count / 2)
+            for (std::size_t first = 0; first < set.size();) {
+                const std::size_t last = std::min(first + count, set.size());
+                if (const std::optional<Key> simpler =
+                        without(key, {set.begin() + first, set.begin() + last}, error)) {
+                    key = *simpler;
+                    set.erase(set.begin() + first, set.begin() + last);
+                } else {
+                    first = last;
+                }
+            }
+        error.subject.replace(0, end, key_text(family_.family, key));
+    }
+
+  private:
+    std::optional<Key> without(Key key, const std::vector<std::size_t>& features, const Diagnostic& error) {
+        for (const std::size_t feature : features) key[feature] = 0;
+        const std::string_view dialect = name_of(family_.dialect);
+        key = canonical(family_.family, std::move(key), dialect);
+        if (forbidding_rule(family_.family, key, dialect) != nullptr || ++trials_ > kMostTrials)
+            return std::nullopt;
+        const Result<Composition> composition = compose_keys(family_, {key});
+        if (!composition) return std::nullopt;
+        const Diagnostics found = validate(family_.family, *composition, options_).diagnostics;
+        const bool is_same = std::ranges::any_of(found, [&](const Diagnostic& other) {
+            return other.place == error.place && other.message == error.message;
+        });
+        return is_same ? std::optional(std::move(key)) : std::nullopt;
+    }
+
+    const LoadedFamily& family_;
+    ValidateOptions options_;
+    int trials_ = 0;
+};
+
+void simplify_subjects(Diagnostics& diagnostics, const LoadedFamily& family, const ValidateOptions& options) {
+    KeySimplifier simplifier(family, options);
+    for (Diagnostic& diagnostic : diagnostics)
+        if (diagnostic.severity == Severity::error) simplifier.simplify(diagnostic);
+}
+
 }  // namespace
 
 OptionGroup common_options(CommonOptions& options) {
@@ -105,7 +169,10 @@ OptionGroup common_options(CommonOptions& options) {
           &options.library},
          {"--color", "auto|always|never", "Colour in messages; auto is on a terminal only", &options.color,
           kOneOf},
-         {"-q,--quiet", "", "Print no summary", &options.quiet}}};
+         {"-q,--quiet", "", "Print no summary", &options.quiet},
+         {"--in-process", "",
+          "Run glslang in gobo's own process, not in child processes: what crashes glslang ends gobo",
+          &options.in_process}}};
 }
 
 Option family_argument(std::string& name) {
@@ -228,10 +295,17 @@ Result<Composition> compose_selection(const World& world, LoadedFamily& family,
     return compose_keys(family, keys);
 }
 
-Result<Validated> compile(const World& world, const Family& family, const Composition& composition,
+Result<Validated> compile(const World& world, const LoadedFamily& family, const Composition& composition,
                           ValidateOptions options) {
     options.jobs = world.jobs();
-    Validated validated = validate(family, composition, options);
+    options.child_processes = !world.options.in_process;
+    Validated validated = validate(family.family, composition, options);
+    if (exit_status(validated.diagnostics) != 0) {
+        simplify_subjects(validated.diagnostics, family, options);
+        return tl::unexpected(std::move(validated.diagnostics));
+    }
+    if (!is_embedded(world, family.name))
+        append(validated.diagnostics, unknown_names(family.family, family.search, composition));
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(std::move(validated.diagnostics));
     return validated;
 }
@@ -270,7 +344,7 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
 }
 
 Result<Validated> compile(const World& world, const Subject& subject, const ValidateOptions& options) {
-    auto validated = compile(world, subject.family.family, subject.composition, options);
+    auto validated = compile(world, subject.family, subject.composition, options);
     if (!subject.are_files) return validated;
     if (validated)
         for (Diagnostic& diagnostic : validated->diagnostics) diagnostic.subject.clear();

@@ -22,6 +22,7 @@ struct CommonOptions {
     std::string color = "auto";
     bool quiet = false;
     bool follow = false;  ///< links out of the folders that are searched for pieces
+    bool in_process = false;  ///< glslang runs in this process, not in children
 };
 [[nodiscard]] OptionGroup common_options(CommonOptions& options);
 
@@ -107,8 +108,9 @@ struct BudgetOptions : Budget {
 [[nodiscard]] Result<Composition> compose_selection(const World& world, LoadedFamily& family,
                                                     const SelectionOptions& options);
 
-/// Validates on all threads. What has errors is no value.
-[[nodiscard]] Result<Validated> compile(const World& world, const Family& family,
+/// Validates on all cores, in child processes unless CommonOptions::in_process. What has errors is no value;
+/// each error names a key with no more features than it takes.
+[[nodiscard]] Result<Validated> compile(const World& world, const LoadedFamily& family,
                                         const Composition& composition, ValidateOptions options = {});
 
 /// What FAMILY and keys name, or loose shader files.

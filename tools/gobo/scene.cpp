@@ -182,9 +182,9 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     for (const Permutation& permutation : composition.permutations) programs.insert(permutation.stages);
     report.distinct_programs = programs.size();
     report.compiled_stages = composition.stages.size();
-    ValidateOptions validate_options;
-    validate_options.jobs = world.jobs();
-    outcome.diagnostics = validate(family, composition, validate_options).diagnostics;
+    outcome.diagnostics =
+        validate(family, composition, {.jobs = world.jobs(), .child_processes = !world.options.in_process})
+            .diagnostics;
     outcome.output = options.json ? scene_json(report) : scene_text(report);
     return outcome;
 }

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,11 +12,13 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "compose/dialect.hpp"
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
 #include "validate/missing_ends.hpp"
+#include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
 
 namespace gobo {
@@ -92,14 +93,17 @@ constexpr std::string_view kEsFunctions =
 /// later versions or extensions, by its errors. Names that are members of structs too are left out:
 /// reflection would show another one.
 std::set<std::string> taken_names(const Diagnostics& errors, const std::vector<const Piece*>& pieces) {
-    static const std::regex form(
-        R"('(\w+)' : (?:function name is redeclaration|redefinition of built-in).*)");
     std::set<std::string> names;
     const GlslVersion version = version_of(pieces.front()->text);
     if (!version.es || version.number > 300) return names;
-    std::smatch match;
-    for (const Diagnostic& error : errors)
-        if (std::regex_search(error.message, match, form)) names.insert(match[1]);
+    for (const Diagnostic& error : errors) {
+        const std::size_t end = error.message.find("' : ");
+        if (!error.message.starts_with('\'') || end == std::string::npos) continue;
+        const std::string_view rest = std::string_view(error.message).substr(end + 4);
+        if (rest.starts_with("function name is redeclaration") ||
+            rest.starts_with("redefinition of built-in"))
+            names.insert(error.message.substr(1, end - 1));
+    }
     std::erase_if(names, [&](const std::string& name) {
         return kEsFunctions.find(fmt::format(" {} ", name)) != std::string_view::npos ||
                std::ranges::any_of(pieces, [&](const Piece* piece) {
@@ -138,6 +142,20 @@ std::string raised_for_spirv(std::string_view prologue, const std::string& funct
                        has_old_functions(version) ? "\n" + functions : "", rest);
 }
 
+/// glslang has read on to the next line, or further, where it finds a directive wrong: the directive's line.
+int line_of_directive(std::string_view message, const Piece& piece, int line) {
+    const std::string_view word = message.starts_with("'#extension'")                ? "extension"
+                                  : message.starts_with("'preprocessor evaluation'") ? "if"
+                                                                                     : "";
+    for (int above = line; !word.empty() && above > 0; --above) {
+        const std::vector<std::string_view> tokens = tokens_of(line_of(piece, above));
+        if (tokens.size() > 1 && tokens[0] == "#" &&
+            (tokens[1] == word || (word == "if" && tokens[1] == "elif")))
+            return above;
+    }
+    return line;
+}
+
 /// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
 /// searched for.
 void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
@@ -149,6 +167,7 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
         const auto parsed = std::from_chars(message.data() + piece->path.size() + 1, end, line);
         if (parsed.ec != std::errc{} || parsed.ptr == end || *parsed.ptr != ':') continue;
         diagnostic.message = trim({parsed.ptr + 1, end});
+        line = line_of_directive(diagnostic.message, *piece, line);
         // A generated piece carries the lines of the file it comes from only where it stands for one.
         put_at(diagnostic, *piece, line);
         if (!diagnostic.quoted_line.empty()) return;  // else another piece of the same file may hold it
@@ -168,15 +187,14 @@ void explain(Diagnostic& diagnostic) {
             "[\"FUNCTION\", \"FUNCTION\"]";
     }
     // The alignment of an array, a struct or a matrix is left to the reader.
-    static const std::regex member(R"(\boffset\s*=\s*(\d{1,9})\s*\)\s*(\w+)\s+\w+\s*;)");
-    std::smatch match;
-    if (!diagnostic.message.starts_with("'offset' : must be a multiple of") ||
-        !std::regex_search(diagnostic.quoted_line, match, member))
-        return;
-    const std::optional<GlslType> type = glsl_type(match[2].str());
+    if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
+    const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
+    const auto at = std::ranges::find(tokens, "offset");
+    if (tokens.end() - at < 5 || at[1] != "=" || at[3] != ")") return;
+    const std::optional<GlslType> type = glsl_type(at[4]);
     if (type && !type->is_matrix())
-        diagnostic.message += fmt::format(": {} is not a multiple of {}, to which a {} is aligned",
-                                          match[1].str(), type->column_alignment(), match[2].str());
+        diagnostic.message += fmt::format(": {} is not a multiple of {}, to which a {} is aligned", at[2],
+                                          type->column_alignment(), at[4]);
 }
 
 /// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
@@ -184,13 +202,13 @@ void explain(Diagnostic& diagnostic) {
 Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
                                const Place& otherwise) {
     constexpr std::string_view given_up = "'' : compilation terminated";
-    // Where glslang gives up, every condition that is open seems to lack its end, an #extension its line's.
+    // Where glslang gives up, an #extension seems to lack its line's end.
     const bool gave_up = log.find(given_up) != std::string_view::npos;
     const auto says_nothing = [&](std::string_view line) {
         const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
         return holds(given_up) || holds("'subroutine' : feature not yet implemented") ||
                holds(" compilation errors.") || holds("No code generated.") ||
-               (gave_up && (holds("'' : missing #endif") || holds("'#extension' : extra tokens")));
+               (gave_up && holds("'#extension' : extra tokens"));
     };
     Diagnostics diagnostics;
     for (const std::string& full_line : split(log, '\n')) {
@@ -207,6 +225,11 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
             diagnostics.back().message += fmt::format(" {}", line);
         }
     }
+    // The composer has seen to the ends of all conditions: another error keeps glslang from finding one.
+    const auto is_missing_end = [](const Diagnostic& diagnostic) {
+        return diagnostic.message == "'' : missing #endif";
+    };
+    if (!std::ranges::all_of(diagnostics, is_missing_end)) std::erase_if(diagnostics, is_missing_end);
     for (Diagnostic& diagnostic : diagnostics) explain(diagnostic);
     return diagnostics;
 }
@@ -310,10 +333,15 @@ tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
     return fail(Fault::internal, fmt::format("glslang refuses a stage that it parsed: {}", log));
 }
 
-/// The faults of the input with the file that holds them.
-tl::unexpected<Diagnostics> at_file(Diagnostics found, const std::string& file) {
-    for (Diagnostic& diagnostic : found)
-        if (diagnostic.fault == Fault::input) diagnostic.place.file = file;
+/// The faults of the input where what they name is declared: "block 'B' takes more than 2 GiB".
+tl::unexpected<Diagnostics> placed(Diagnostics found, const std::vector<const Piece*>& pieces) {
+    for (Diagnostic& diagnostic : found) {
+        const std::vector<std::string> parts = split(diagnostic.message, '\'');
+        const Declaration at = declaration_of(parts.size() > 1 ? parts[1] : "", "", pieces);
+        if (diagnostic.fault != Fault::input) continue;
+        diagnostic.place = at.place;
+        diagnostic.quoted_line = at.quoted_line;
+    }
     return tl::unexpected(std::move(found));
 }
 
@@ -344,8 +372,8 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     const bool is_fine =
         shader.parse(GetDefaultResources(), 110, false, for_spirv ? kSpirvRules : EShMsgDefault);
     const Place place{pieces_.back()->path, 0, 0};
-    const Diagnostics found =
-        with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_);
+    const Diagnostics found = with_macros(
+        with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
     if (is_fine && shader.getIntermediate()->getNumEntryPoints() == 0)
         return fail(place, "", fmt::format("the {} stage has no main()", name_of(kind_)),
                     "write void main() in the template")
@@ -398,8 +426,12 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
     for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
     const bool is_fine = program.link(kSpirvRules);
+    std::vector<const Piece*> earlier;
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i)
+        earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
     Diagnostics found =
-        diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0});
+        with_places(diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0}),
+                    stages.back()->pieces_, earlier);
     if (!is_fine && found.empty())
         return fail(Fault::internal, "glslang refuses to link without saying why").value();
     return found;
@@ -409,7 +441,8 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     glslang::TProgram program;
     program.addShader(&shader_->shader);
     if (!program.link(kSpirvRules)) {  // no main(), recursion
-        Diagnostics found = diagnostics_of_log(program.getInfoLog(), {}, {pieces_.back()->path, 0, 0});
+        Diagnostics found =
+            with_places(diagnostics_of_log(program.getInfoLog(), {}, {pieces_.back()->path, 0, 0}), pieces_);
         if (has_errors(found)) return tl::unexpected(std::move(found));
         return glslang_fault(program.getInfoLog());
     }
@@ -417,11 +450,11 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
-    if (!read) return at_file(std::move(read).error(), pieces_.back()->path);
+    if (!read) return placed(std::move(read).error(), pieces_);
     const spirv::Module& module = *read;
     const spirv::Usage usage = spirv::usage_of(module);
     Result<Interface> interface = reflect_stage(module, usage);
-    if (!interface) return at_file(std::move(interface).error(), pieces_.back()->path);
+    if (!interface) return placed(std::move(interface).error(), pieces_);
     stage.interface = *std::move(interface);
     stage.diagnostics = check_stage(module, usage, pieces_, places_vertices);
     const bool asks_for_bindings = bindings_mapped_ || may_lack_bindings(stage.interface);
@@ -436,6 +469,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
         forget_assigned(stage.interface.samplers, stated, pieces_);
     }
     if (bindings_mapped_ || lacks_locations(stage.interface)) {
+        is_changed_ = true;
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());
         stage.spirv = spirv_of(intermediate, debug_information);
     }

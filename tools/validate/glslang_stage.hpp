@@ -26,6 +26,8 @@ class GlslangStage {
     /// unstated ones are -1.
     /// `places_vertices` as check_stage() wants it.
     [[nodiscard]] Result<ValidatedStage> generate(bool debug_information, bool places_vertices);
+    /// Whether that changed the stage, so that it cannot be linked with another any more.
+    [[nodiscard]] bool is_changed() const { return is_changed_; }
 
     /// What glslang says of the stages as one program. All must have been parsed.
     friend Diagnostics link(const std::vector<GlslangStage*>& stages);
@@ -49,6 +51,7 @@ class GlslangStage {
     std::vector<const Piece*> pieces_;
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
+    bool is_changed_ = false;
 };
 
 }  // namespace gobo

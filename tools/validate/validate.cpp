@@ -3,86 +3,80 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <memory>
-#include <mutex>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
-#include <spirv-tools/libspirv.hpp>
 
+#include "core/child_processes.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "reflect/interface.hpp"
+#include "validate/batch.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/link_rules.hpp"
 
 namespace gobo {
 namespace {
 
-/// A stage's way through glslang. Parsed by the first program that needs it, dropped by the last: so no more
-/// stages are alive than threads and stages that are shared.
-struct Job {
-    std::mutex mutex;
-    std::unique_ptr<GlslangStage> glslang;
-    std::atomic<int> programs_left = 0;
-    bool places_vertices = false;  ///< in some program no stage follows that places them anew
-    bool is_parsed = false;
-    bool is_fine = false;
-    Diagnostics diagnostics;
-};
-
 void append(Diagnostics& all, const Diagnostics& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-/// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
-/// made; empty where it is valid.
-Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
-    Diagnostics found;
-    const auto add = [&](std::string message) {
-        append(found, fail(place, "", std::move(message)).value());
-        found.back().fault = Fault::internal;
-    };
-    spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
-    tools.SetMessageConsumer(
-        [&](spv_message_level_t level, const char*, const spv_position_t& position, const char* message) {
-            if (level <= SPV_MSG_ERROR)
-                add(fmt::format("spirv-val: {} (instruction {})", message, position.index));
-        });
-    if (!tools.Validate(module) && found.empty()) add("spirv-val refuses the module without saying why");
-    return found;
+/// What is known of a stage beside its ValidatedStage.
+struct OfStage {
+    bool is_fine = false;
+    Diagnostics diagnostics = {};
+};
+
+/// glslang builds its tables for a version when it first meets it: once, before there are threads or child
+/// processes.
+void build_tables(const Composition& composition) {
+    std::set<std::string> versions;
+    for (const Stage& stage : composition.stages) {
+        const std::string& prologue = composition.piece(stage.pieces.front()).text;
+        versions.insert(prologue.substr(0, prologue.find('\n') + 1));
+    }
+    for (const std::string& version : versions) {
+        const Piece piece{"", "", version + "void main() {}\n"};
+        GlslangStage(StageKind::vertex, {&piece}).parse();
+    }
+}
+
+std::string reason_text(Death death, const ChildLimits& limits) {
+    if (death == Death::crash) return "glslang crashes on";
+    if (death == Death::killed) return "glslang was killed, perhaps for want of memory, on";
+    if (death == Death::time)
+        return fmt::format("glslang takes more than {} s of processor time for", limits.processor_seconds);
+    return fmt::format("glslang takes more than {} GB of memory for", limits.memory >> 30);
 }
 
 class Validator {
   public:
     Validator(const Composition& composition, const ValidateOptions& options)
-        : composition_(composition), options_(options), jobs_(composition.stages.size()) {
-        validated_.stages.resize(composition.stages.size());
+        : composition_(composition), options_(options), of_stages_(composition.stages.size()) {
         for (const Permutation& permutation : composition.permutations) {
             if (!numbers_.try_emplace(permutation.stages, programs_.size()).second) continue;
-            std::vector<int>& program = programs_.emplace_back();
-            int last = -1;  // before the rasteriser
-            for (const StageNames& stage : kStages) {
-                const int number = permutation.stages[stage.kind];
-                if (number < 0) continue;
-                program.push_back(number);
-                ++job(number).programs_left;
-                if (stage.kind < StageKind::fragment && stage.kind != StageKind::tess_control) last = number;
-            }
-            if (last >= 0) job(last).places_vertices = true;
+            Program& program = programs_.emplace_back();
+            for (const int number : permutation.stages.values)
+                if (number >= 0) program.push_back(number);
         }
         of_programs_.resize(programs_.size());
+        validated_.stages.resize(composition.stages.size());
+        batches_ = batches_of(programs_, options.jobs);
     }
 
-    /// Works off all programs by several threads.
+    /// Works off all programs.
     Validated run(const Family& family) {
-        if (!programs_.empty()) {
-            validate_program(0);  // alone: it builds glslang's tables for the version, once
-            parallel_for(options_.jobs, programs_.size() - 1,
-                         [&](std::size_t i) { validate_program(i + 1); });
-        }
+        build_tables(composition_);
+        std::vector<std::size_t> left(batches_.size());
+        std::iota(left.begin(), left.end(), std::size_t{0});
+        if (options_.child_processes) left = work_off_in_children();
+        work_off_in_threads(left);
         parallel_for(options_.jobs, programs_.size(), [&](std::size_t i) { check_program(i); });
         DiagnosticGroups groups(family);
         for (const Permutation& permutation : composition_.permutations)
@@ -93,13 +87,82 @@ class Validator {
     }
 
   private:
-    Job& job(int stage) { return jobs_[static_cast<std::size_t>(stage)]; }
+    void work_off_in_threads(const std::vector<std::size_t>& batches) {
+        std::vector<BatchResult> results(batches.size());
+        const std::size_t threads = std::min(static_cast<std::size_t>(options_.jobs), batches.size());
+        std::atomic<std::size_t> next = 0;
+        parallel_for(options_.jobs, threads, [&](std::size_t) {
+            BatchWorker worker(composition_, programs_, options_);
+            Note note = 0;
+            for (std::size_t i = next++; i < batches.size(); i = next++)
+                results[i] = worker.work_off(batches_[batches[i]], given_up_, note);
+        });
+        for (BatchResult& result : results) take(std::move(result));
+    }
+
+    /// The batches that are left where no child process can be started.
+    std::vector<std::size_t> work_off_in_children() {
+        BatchWorker worker(composition_, programs_, options_);  // each child goes on with its copy
+        const ChildWork work{
+            [&](std::size_t batch, Note& note) {
+                return bytes_of(worker.work_off(batches_[batch], given_up_, note));
+            },
+            [&](std::size_t, std::string_view bytes) {
+                std::optional<BatchResult> result = result_of(bytes);
+                return result && take(*std::move(result));
+            },
+            [&](std::size_t batch, int note, Death death) { return give_up(batch, note, death); }};
+        return run_in_children(options_.jobs, batches_.size(), work, limits_);
+    }
+
+    /// Whether all the numbers are known, which a child process may have spoilt.
+    bool take(BatchResult result) {
+        const auto is_known = [](auto number, const auto& list) {
+            return static_cast<std::size_t>(number) < list.size();
+        };
+        for (const BatchResult::OfStage& stage : result.stages)
+            if (!is_known(stage.stage, of_stages_)) return false;
+        for (const BatchResult::OfProgram& program : result.programs)
+            if (!is_known(program.program, of_programs_)) return false;
+        for (BatchResult::OfStage& stage : result.stages) {
+            validated_.stages[static_cast<std::size_t>(stage.stage)] = std::move(stage.validated);
+            of_stage(stage.stage) = {stage.is_fine, std::move(stage.diagnostics)};
+        }
+        for (BatchResult::OfProgram& program : result.programs)
+            of_programs_[program.program] = std::move(program.diagnostics);
+        return true;
+    }
+
+    /// Blames the stage or program that a child process died of. Whether the batch is worth another try.
+    bool give_up(std::size_t batch, int note, Death death) {
+        constexpr const char* help = "simplify its longest expressions, its arrays, structs and macros";
+        const std::string reason = reason_text(death, limits_);
+        if (note > 0) {
+            const int stage = note - 1;
+            const std::string what =
+                fmt::format("{} the {} stage", reason, name_of(composition_.stage(stage).kind));
+            return given_up_.try_emplace(note, fail(template_of(stage), "", what, help).value()).second;
+        }
+        if (note < 0) {
+            const auto program = static_cast<std::size_t>(-1 - note);
+            const std::string what = fmt::format("{} linking the stages", reason);
+            return given_up_
+                .try_emplace(note, fail(template_of(programs_[program].back()), "", what, help).value())
+                .second;
+        }
+        const Diagnostics fault = fail(Fault::internal, "a child process died between two stages").value();
+        for (const int stage : batches_[batch].own) of_stage(stage).diagnostics = fault;
+        for (const std::size_t program : batches_[batch].programs) of_programs_[program] = fault;
+        return false;
+    }
+
+    [[nodiscard]] OfStage& of_stage(int stage) { return of_stages_[static_cast<std::size_t>(stage)]; }
 
     /// What is wrong with a permutation's stages, or else with the program.
     [[nodiscard]] Diagnostics diagnostics_of(const Permutation& permutation) {
         const std::size_t index = numbers_.at(permutation.stages);
         Diagnostics all;
-        for (const int stage : programs_[index]) append(all, job(stage).diagnostics);
+        for (const int stage : programs_[index]) append(all, of_stage(stage).diagnostics);
         if (exit_status(all) == 0) append(all, of_programs_[index]);
         return all;
     }
@@ -109,9 +172,9 @@ class Validator {
     void check_program(std::size_t index) {
         std::vector<StageView> views;
         for (const int stage : programs_[index]) {
-            if (!job(stage).is_fine) return;
-            views.push_back(
-                {composition_.stage(stage).kind, validated_.stage(stage).interface, pieces_of(stage)});
+            if (!of_stage(stage).is_fine) return;
+            views.push_back({composition_.stage(stage).kind, validated_.stage(stage).interface,
+                             pieces_of(composition_, stage)});
         }
         if (views.empty()) return;
         Diagnostics& all = of_programs_[index];
@@ -121,82 +184,20 @@ class Validator {
         if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }
 
-    [[nodiscard]] std::vector<const Piece*> pieces_of(int stage) const {
-        std::vector<const Piece*> pieces;
-        for (const int piece : composition_.stage(stage).pieces) pieces.push_back(&composition_.piece(piece));
-        return pieces;
-    }
-    [[nodiscard]] Place template_of(int stage) const { return {pieces_of(stage).back()->path, 0, 0}; }
-
-    void validate_program(std::size_t index) {
-        std::vector<int> stages = programs_[index];
-        bool are_parsed = true;
-        for (const int stage : stages) are_parsed = is_parsed(stage) && are_parsed;
-        if (are_parsed && stages.size() > 1) {
-            std::vector<GlslangStage*> parsed;
-            for (const int stage : stages) parsed.push_back(job(stage).glslang.get());
-            // Locked in the same order by every thread.
-            std::ranges::sort(stages);
-            std::vector<std::unique_lock<std::mutex>> locks;
-            for (const int stage : stages) locks.emplace_back(job(stage).mutex);
-            of_programs_[index] = link(parsed);
-            // glslang keeps a failed link's errors in the stages, which other programs may share.
-            if (exit_status(of_programs_[index]) != 0)
-                for (GlslangStage* stage : parsed) stage->parse();
-        }
-        for (const int stage : programs_[index]) release(stage);
-    }
-
-    bool is_parsed(int stage) {
-        Job& at = job(stage);
-        const std::scoped_lock lock(at.mutex);
-        if (std::exchange(at.is_parsed, true)) return at.is_fine;
-        at.glslang = std::make_unique<GlslangStage>(composition_.stage(stage).kind, pieces_of(stage));
-        at.diagnostics = at.glslang->parse();
-        return at.is_fine = exit_status(at.diagnostics) == 0;
-    }
-
-    /// The last program of a stage makes its SPIR-V: glslang assigns locations then, which would disturb
-    /// later links.
-    void release(int stage) {
-        Job& at = job(stage);
-        if (--at.programs_left > 0) return;
-        const std::scoped_lock lock(at.mutex);
-        if (at.is_fine) generate(stage, at);
-        at.glslang.reset();
-    }
-
-    void generate(int stage, Job& at) {
-        Result<ValidatedStage> generated =
-            at.glslang->generate(options_.debug_information, at.places_vertices);
-        if (!generated) {
-            append(at.diagnostics, generated.error());
-            at.is_fine = false;
-            return;
-        }
-        append(at.diagnostics, generated->diagnostics);
-        if (options_.spirv_val) append(at.diagnostics, spirv_val(generated->spirv, template_of(stage)));
-        if (!options_.keep_spirv) generated->spirv = {};
-        const auto state = [&](auto& list) {
-            for (auto& bound : list) {
-                const auto stated = composition_.stated_bindings.find(bound.name);
-                if (bound.binding < 0 && stated != composition_.stated_bindings.end())
-                    bound.binding = stated->second;
-            }
-        };
-        state(generated->interface.blocks);
-        state(generated->interface.samplers);
-        validated_.stages[static_cast<std::size_t>(stage)] = std::move(*generated);
+    [[nodiscard]] Place template_of(int stage) const {
+        return {pieces_of(composition_, stage).back()->path, 0, 0};
     }
 
     const Composition& composition_;
     const ValidateOptions& options_;
-    /// The distinct ones in the order in which the permutations first need them, their stages in that of the
-    /// pipeline.
-    std::vector<std::vector<int>> programs_;
+    const ChildLimits limits_;
+    /// The distinct ones, in the order in which the permutations first need them.
+    std::vector<Program> programs_;
     std::map<StageNumbers, std::size_t> numbers_;
+    std::vector<Batch> batches_;
+    GivenUp given_up_;
+    std::vector<OfStage> of_stages_;
     std::vector<Diagnostics> of_programs_;
-    std::vector<Job> jobs_;
     Validated validated_;
 };
 
@@ -204,6 +205,50 @@ class Validator {
 
 Validated validate(const Family& family, const Composition& composition, const ValidateOptions& options) {
     return Validator(composition, options).run(family);
+}
+
+Diagnostics same_programs(const Family& family, const Composition& composition, const Validated& validated) {
+    const auto program_of = [&](const Permutation& permutation) {
+        const auto hash = [&](int stage) { return stage < 0 ? 0 : validated.stage(stage).hash; };
+        PerStage<std::uint64_t> hashes;
+        for (const StageNames& stage : kStages) hashes[stage.kind] = hash(permutation.stages[stage.kind]);
+        return hashes;
+    };
+    std::map<PerStage<std::uint64_t>, const Key*> first_of;
+    std::map<Key, PerStage<std::uint64_t>> programs;
+    std::string example;
+    for (const Permutation& permutation : composition.permutations) {
+        const auto program = program_of(permutation);
+        programs.emplace(permutation.key, program);
+        const auto [at, is_new] = first_of.try_emplace(program, &permutation.key);
+        if (!is_new && example.empty())
+            example = fmt::format("'{}' and '{}'", key_text(family, *at->second),
+                                  key_text(family, permutation.key));
+    }
+    if (example.empty()) return {};
+    std::vector<std::string> idle;
+    for (std::size_t feature = 0; feature < family.features.size(); ++feature) {
+        int same = 0;
+        const bool matters = std::ranges::any_of(programs, [&](const auto& entry) {
+            Key key = entry.first;
+            if (std::exchange(key[feature], 0) == 0) return false;
+            const auto without = programs.find(key);
+            if (without == programs.end()) return false;
+            same += without->second == entry.second ? 1 : 0;
+            return without->second != entry.second;
+        });
+        if (!matters && same > 0) idle.push_back("'" + family.features[feature].name + "'");
+    }
+    Diagnostics warnings =
+        fail({family.path, 0, 0}, "",
+             fmt::format(
+                 "the keys {} give the same program: {} of the {} keys are distinct{}", example,
+                 first_of.size(), programs.size(),
+                 idle.empty() ? "" : fmt::format(", and {} changes nothing in any key", join(idle, " or "))),
+             "add a rule: when = \"...\" with default = [...] for the feature that cannot matter there")
+            .value();
+    warnings.front().severity = Severity::warning;
+    return warnings;
 }
 
 Interface interface_of(const Validated& validated, const Permutation& permutation) {

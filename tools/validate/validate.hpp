@@ -17,7 +17,8 @@ using SpirvModule = std::vector<std::uint32_t>;
 
 /// One distinct stage after glslang.
 struct ValidatedStage {
-    SpirvModule spirv;    ///< empty unless asked for
+    SpirvModule spirv;       ///< empty unless asked for
+    std::uint64_t hash = 0;  ///< of its SPIR-V: stages of the same do the same
     Interface interface;  ///< of this stage alone; a location or binding that the source does not state is -1
     Diagnostics diagnostics;  ///< what glslang lets pass within this stage: warnings
 };
@@ -33,10 +34,13 @@ struct Validated {
 };
 
 struct ValidateOptions {
-    int jobs = 1;  ///< threads
+    int jobs = 1;  ///< threads, or child processes
     bool keep_spirv = false;
     /// OpSource and OpLine in the SPIR-V: which piece and line an operation comes from.
     bool debug_information = false;
+    /// glslang runs in as many child processes instead: what crashes it, or takes it too much time or memory,
+    /// is an error at its stage.
+    bool child_processes = false;
     bool spirv_val = false;  ///< also ask SPIRV-Tools' validator
 };
 
@@ -44,6 +48,12 @@ struct ValidateOptions {
 /// come in the order of the permutations, whatever the number of jobs.
 [[nodiscard]] Validated validate(const Family& family, const Composition& composition,
                                  const ValidateOptions& options);
+
+/// A warning where several keys give the same program: how many of the keys are distinct, the first two that
+/// are not, and the features that change nothing in any key. The family lacks a rule then by which what
+/// cannot matter stands at its default.
+[[nodiscard]] Diagnostics same_programs(const Family& family, const Composition& composition,
+                                        const Validated& validated);
 
 /// The interface of a permutation's stages as one program.
 [[nodiscard]] Interface interface_of(const Validated& validated, const Permutation& permutation);

@@ -86,7 +86,7 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
         return std::nullopt;
     GOBO_TRY(LoadedFamily depth, load_family(world, "depth"));
     GOBO_TRY(const Composition stages, compose_selection(world, depth, {}));
-    GOBO_TRY(const Validated validated, compile(world, depth.family, stages, {.keep_spirv = true}));
+    GOBO_TRY(const Validated validated, compile(world, depth, stages, {.keep_spirv = true}));
     const Permutation& permutation = stages.permutations.front();
     verify::ShadowPass pass;
     pass.pass.stages = stages_of(stages, permutation);

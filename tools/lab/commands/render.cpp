@@ -111,7 +111,7 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
                         fmt::format("the key '{}' has a compute stage, which draws nothing",
                                     key_text(family.family, permutation.key)),
                         "leave it out by --where");
-    GOBO_TRY(const Validated validated, compile(world, family.family, composition, {.keep_spirv = true}));
+    GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
     const bool are_usual = std::ranges::all_of(composition.permutations, [](const Permutation& permutation) {
         return permutation.stages.is_usual_pair();
     });

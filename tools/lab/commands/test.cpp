@@ -288,7 +288,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     }
     GOBO_TRY(const Composition composition, compose_keys(family, keys));
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
-    GOBO_TRY(const Validated validated, compile(world, family.family, composition, {.keep_spirv = true}));
+    GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
     if (options.render) return compare_pictures(world, options, family.family, composition, validated);
     verify_options.jobs = world.jobs();
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));

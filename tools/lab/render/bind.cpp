@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -195,6 +196,23 @@ std::optional<std::vector<double>> source_value(std::string_view name, const std
     return fitted;
 }
 
+/// "lights[].color"
+bool is_of_all_elements(const RenderValue& value) {
+    return value.name.find("[]") != std::string::npos;
+}
+
+/// What a value is for: nothing, one, or every element.
+std::vector<Leaf> named_leaves(const std::vector<Leaf>& leaves, const RenderValue& value) {
+    std::vector<Leaf> named;
+    if (is_of_all_elements(value)) {
+        std::ranges::copy_if(leaves, std::back_inserter(named),
+                             [&](const Leaf& leaf) { return without_subscripts(leaf.name) == value.name; });
+    } else if (const auto leaf = find_leaf(leaves, value.name)) {
+        named.push_back(*leaf);
+    }
+    return named;
+}
+
 /// An error where the interface has the block or uniform, but not what the value names in it.
 Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& value) {
     const auto head_of = [](const std::string& name) { return name.substr(0, name.find_first_of(".[")); };
@@ -378,17 +396,18 @@ Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std:
         else
             without_value.insert(without_subscripts(leaf.name));
     }
-    for (const RenderValue& value : values) {
-        const auto leaf = find_leaf(leaves, value.name);
-        if (!leaf) {
-            GOBO_TRY_DO(check_name(leaves, value));
-            continue;
+    std::vector<RenderValue> ordered = values;  // what is said of all elements, then of one
+    std::ranges::stable_partition(ordered, is_of_all_elements);
+    for (const RenderValue& value : ordered) {
+        const std::vector<Leaf> named = named_leaves(leaves, value);
+        if (named.empty()) GOBO_TRY_DO(check_name(leaves, value));
+        for (const Leaf& leaf : named) {
+            GOBO_TRY(Assignment assignment, assign(leaf, value, object));
+            resolved.assignments.push_back(std::move(assignment));
+            std::string name = without_subscripts(leaf.name);
+            without_value.erase(name);
+            if (name.ends_with("[]")) without_value.erase(name.substr(0, name.size() - 2));
         }
-        GOBO_TRY(Assignment assignment, assign(*leaf, value, object));
-        resolved.assignments.push_back(std::move(assignment));
-        std::string name = without_subscripts(leaf->name);
-        without_value.erase(name);
-        if (name.ends_with("[]")) without_value.erase(name.substr(0, name.size() - 2));
     }
     for (const std::string& name : without_value)
         resolved.warnings.push_back(no_value(fmt::format("'{}' has no value and stays 0", name)));

@@ -81,7 +81,8 @@ Result<SceneShaders> shaders_of(const Family& family, const SearchPath& search, 
     SceneShaders shaders;
     shaders.draws = std::move(draws);
     GOBO_TRY(shaders.composition, compose(family, distinct, search, dialect));
-    shaders.validated = validate(family, shaders.composition, {.jobs = jobs, .keep_spirv = true});
+    shaders.validated =
+        validate(family, shaders.composition, {.jobs = jobs, .keep_spirv = true, .child_processes = true});
     if (exit_status(shaders.validated.diagnostics) != 0) return tl::unexpected(shaders.validated.diagnostics);
     for (const Permutation& permutation : shaders.composition.permutations)
         shaders.interfaces.push_back(interface_of(shaders.validated, permutation));

@@ -190,8 +190,8 @@ Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys) {
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     Variants variants;
     GOBO_TRY(variants.composition, compose(subject.family, keys, subject.search, Dialect::own));
-    const Validated validated =
-        validate(subject.family, variants.composition, {.jobs = subject.jobs, .keep_spirv = true});
+    const Validated validated = validate(subject.family, variants.composition,
+                                         {.jobs = subject.jobs, .keep_spirv = true, .child_processes = true});
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);
     GOBO_TRY(variants.all, parallel_results(subject.jobs, keys.size(), [&](std::size_t i) {
                  return decode(validated, variants.composition.permutations[i]);

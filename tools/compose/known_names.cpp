@@ -1,0 +1,87 @@
+#include "compose/known_names.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compose/compose.hpp"
+#include "compose/scan_piece.hpp"
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
+#include "family/key.hpp"
+
+namespace gobo {
+namespace {
+
+struct Named {
+    std::string name;
+    std::string table;
+    Place place;
+};
+
+std::vector<Named> names_of(const Family& family) {
+    std::vector<Named> names;
+    for (const Domain& domain : family.domains) names.push_back({domain.name, "[domain]", domain.place});
+    for (const RenderValue& value : family.render) names.push_back({value.name, "[render]", value.place});
+    for (const Relation& relation : family.relations) {
+        for (const auto* const list : {&relation.names, &relation.turned_back})
+            for (const std::string& name : *list) names.push_back({name, "[[relations]]", relation.place});
+        for (const RenderValue& value : relation.at)
+            names.push_back({value.name, "[[relations]]", value.place});
+    }
+    std::erase_if(names, [&](const Named& named) { return named.place.file != family.path; });
+    return names;
+}
+
+/// The first part of "Lamps.lamps[0].color" that is not among the identifiers; empty where all are.
+std::string unknown_part(const std::string& name, const std::set<std::string, std::less<>>& identifiers) {
+    for (const std::string_view token : tokens_of(name))
+        if (is_identifier(token) && !identifiers.contains(token)) return std::string(token);
+    return {};
+}
+
+}  // namespace
+
+Diagnostics unknown_names(const Family& family, const SearchPath& search, const Composition& composition) {
+    std::vector<Named> names = names_of(family);
+    std::set<std::string, std::less<>> identifiers;
+    bool are_joined = false;  // by ##: names stand nowhere in the text then
+    const auto drop_known = [&](const Composition& more) {
+        for (const Piece& piece : more.pieces) {
+            for (const std::string_view name : identifiers_of(piece.text)) identifiers.emplace(name);
+            are_joined = are_joined || piece.text.find("##") != std::string::npos;
+        }
+        std::erase_if(names,
+                      [&](const Named& named) { return unknown_part(named.name, identifiers).empty(); });
+    };
+    if (!names.empty()) drop_known(composition);
+    for (std::size_t feature = 0; feature < family.features.size() && !names.empty(); ++feature) {
+        const bool is_count = family.features[feature].kind == FeatureKind::count;
+        const auto values = static_cast<int>(family.features[feature].values.size());
+        for (int value = 1; value < (is_count ? 2 : values) && !names.empty(); ++value) {
+            Key key = default_key(family);
+            key[feature] = value;
+            if (const auto other = compose(family, {key}, search, composition.dialect)) drop_known(*other);
+        }
+    }
+    Diagnostics errors;
+    if (are_joined) return errors;
+    std::ranges::stable_sort(names, {}, [](const Named& named) { return named.place.line; });
+    for (const Named& named : names) {
+        const std::string part = unknown_part(named.name, identifiers);
+        std::vector<std::string> known(identifiers.begin(), identifiers.end());
+        std::ranges::stable_partition(known, [&](const std::string& name) { return name[0] == part[0]; });
+        const auto near = nearest(part, known);
+        const Diagnostics error =
+            fail(named.place, "",
+                 fmt::format("'{}' under {} is in none of the shaders", named.name, named.table),
+                 near ? fmt::format("did you mean '{}'?", *near)
+                      : "gobo reflect lists the names that there are")
+                .value();
+        errors.insert(errors.end(), error.begin(), error.end());
+    }
+    return errors;
+}
+
+}  // namespace gobo

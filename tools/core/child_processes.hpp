@@ -1,0 +1,46 @@
+// Work spread over child processes: where it crashes, hangs or takes too much memory, only the child dies.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gobo {
+
+/// What a child process may take; it may write no file.
+struct ChildLimits {
+    int processor_seconds = 10;                 ///< for one task
+    std::size_t memory = std::size_t{2} << 30;  ///< bytes beside what its parent holds
+    std::size_t stack = std::size_t{64} << 20;  ///< bytes, where the system allows so many
+};
+
+enum class Death {
+    crash,
+    time,
+    memory,
+    killed,  ///< from outside, as a system does that runs out of memory
+};
+
+/// What a child is about, for the parent to read where it dies. 0 at first.
+using Note = std::atomic<int>;
+
+struct ChildWork {
+    /// In a child: the result of a task, as bytes.
+    std::function<std::string(std::size_t task, Note& note)> work;
+    /// In the parent, in any order. False where the bytes are not what `work` returns.
+    std::function<bool(std::size_t task, std::string_view bytes)> done;
+    /// In the parent: the child died. A new one, which sees all that the parent knows by now, takes the task
+    /// again if the answer is true.
+    std::function<bool(std::size_t task, int note, Death death)> died;
+};
+
+/// Does each task below `count` once, by `jobs` child processes at a time. They begin as copies of this
+/// process, so they need no input; a parent that dies leaves none behind. The tasks that were not done since
+/// no process could be started.
+[[nodiscard]] std::vector<std::size_t> run_in_children(int jobs, std::size_t count, const ChildWork& work,
+                                                       const ChildLimits& limits = {});
+
+}  // namespace gobo

@@ -1,0 +1,179 @@
+#include "validate/batch.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spirv-tools/libspirv.hpp>
+
+#include "validate/glslang_stage.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr std::size_t kMostPrograms = 32;
+/// How many batches each thread gets at least, where there are so many pairs: one may take longer.
+constexpr std::size_t kBatchesPerJob = 8;
+
+void append(Diagnostics& all, const Diagnostics& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// FNV-1a, word by word.
+std::uint64_t hash_of(const SpirvModule& module) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const std::uint32_t word : module) hash = (hash ^ word) * 0x100000001b3;
+    return hash;
+}
+
+/// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
+/// made; empty where it is valid.
+Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
+    Diagnostics found;
+    const auto add = [&](std::string message) {
+        append(found, fail(place, "", std::move(message)).value());
+        found.back().fault = Fault::internal;
+    };
+    spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
+    tools.SetMessageConsumer(
+        [&](spv_message_level_t level, const char*, const spv_position_t& position, const char* message) {
+            if (level <= SPV_MSG_ERROR)
+                add(fmt::format("spirv-val: {} (instruction {})", message, position.index));
+        });
+    if (!tools.Validate(module) && found.empty()) add("spirv-val refuses the module without saying why");
+    return found;
+}
+
+}  // namespace
+
+std::vector<Batch> batches_of(const std::vector<Program>& programs, int jobs) {
+    std::map<int, int> first_with;  // by the last stage, the first one that goes with it
+    for (const Program& program : programs) first_with.try_emplace(program.back(), program.front());
+    std::vector<std::size_t> order(programs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t program) {
+        const int last = programs[program].back();
+        return std::pair(first_with[last], last);
+    });
+    const std::size_t size = std::clamp(programs.size() / (static_cast<std::size_t>(jobs) * kBatchesPerJob),
+                                        std::size_t{1}, kMostPrograms);
+    std::vector<Batch> batches;
+    std::set<int> seen;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i % size == 0) batches.emplace_back();
+        batches.back().programs.push_back(order[i]);
+        for (const int stage : programs[order[i]])
+            if (seen.insert(stage).second) batches.back().own.push_back(stage);
+    }
+    for (Batch& batch : batches) std::ranges::sort(batch.own);
+    return batches;
+}
+
+std::vector<const Piece*> pieces_of(const Composition& composition, int stage) {
+    std::vector<const Piece*> pieces;
+    for (const int piece : composition.stage(stage).pieces) pieces.push_back(&composition.piece(piece));
+    return pieces;
+}
+
+BatchWorker::BatchWorker(const Composition& composition, const std::vector<Program>& programs,
+                         const ValidateOptions& options)
+    : composition_(composition), programs_(programs), options_(options) {
+    for (const Program& program : programs) {
+        int last = -1;  // before the rasteriser
+        for (const int stage : program) {
+            const StageKind kind = composition.stage(stage).kind;
+            if (kind < StageKind::fragment && kind != StageKind::tess_control) last = stage;
+        }
+        if (last >= 0) placing_.insert(last);
+    }
+}
+
+BatchWorker::~BatchWorker() = default;
+
+BatchResult BatchWorker::work_off(const Batch& batch, const GivenUp& given_up, Note& note) {
+    std::map<int, int> programs_left;  // by stage
+    for (const std::size_t program : batch.programs)
+        for (const int stage : programs_[program]) ++programs_left[stage];
+    std::erase_if(parsed_, [&](const auto& entry) { return !programs_left.contains(entry.first); });
+    BatchResult result;
+    for (const std::size_t number : batch.programs) {
+        const Program& program = programs_[number];
+        bool are_fine = true;
+        for (const int stage : program) are_fine = parsed(stage, given_up, note).is_fine && are_fine;
+        if (are_fine && program.size() > 1)
+            result.programs.push_back({number, link_program(number, given_up, note)});
+        for (const int stage : program) {
+            if (--programs_left[stage] > 0) continue;
+            // Not before its last program: glslang assigns locations then, which would disturb later links.
+            if (std::ranges::binary_search(batch.own, stage)) result.stages.push_back(generate(stage, note));
+            const auto at = parsed_.find(stage);
+            if (stage == program.back() || (at->second.glslang && at->second.glslang->is_changed()))
+                parsed_.erase(at);
+        }
+    }
+    note = 0;
+    return result;
+}
+
+BatchWorker::Parsed& BatchWorker::parsed(int stage, const GivenUp& given_up, Note& note) {
+    const auto [at, is_new] = parsed_.try_emplace(stage);
+    Parsed& parsed = at->second;
+    if (!is_new) return parsed;
+    note = note_of_stage(stage);
+    if (const auto reason = given_up.find(note); reason != given_up.end()) {
+        parsed.diagnostics = reason->second;
+        return parsed;
+    }
+    parsed.glslang =
+        std::make_unique<GlslangStage>(composition_.stage(stage).kind, pieces_of(composition_, stage));
+    parsed.diagnostics = parsed.glslang->parse();
+    parsed.is_fine = exit_status(parsed.diagnostics) == 0;
+    return parsed;
+}
+
+Diagnostics BatchWorker::link_program(std::size_t program, const GivenUp& given_up, Note& note) {
+    note = note_of_program(program);
+    if (const auto reason = given_up.find(note); reason != given_up.end()) return reason->second;
+    std::vector<GlslangStage*> stages;
+    for (const int stage : programs_[program]) stages.push_back(parsed_.at(stage).glslang.get());
+    Diagnostics found = link(stages);
+    // glslang keeps a failed link's errors in the stages, which other programs may share.
+    if (exit_status(found) != 0)
+        for (GlslangStage* const stage : stages) stage->parse();
+    return found;
+}
+
+BatchResult::OfStage BatchWorker::generate(int stage, Note& note) {
+    note = note_of_stage(stage);
+    const Parsed& parsed = parsed_.at(stage);
+    BatchResult::OfStage result{stage, parsed.is_fine, parsed.diagnostics, {}};
+    if (!parsed.is_fine) return result;
+    Result<ValidatedStage> generated =
+        parsed.glslang->generate(options_.debug_information, placing_.contains(stage));
+    if (!generated) {
+        append(result.diagnostics, generated.error());
+        result.is_fine = false;
+        return result;
+    }
+    append(result.diagnostics, generated->diagnostics);
+    if (options_.spirv_val)
+        append(result.diagnostics,
+               spirv_val(generated->spirv, {pieces_of(composition_, stage).back()->path, 0, 0}));
+    generated->hash = hash_of(generated->spirv);
+    if (!options_.keep_spirv) generated->spirv = {};
+    const auto state = [&](auto& list) {
+        for (auto& bound : list) {
+            const auto stated = composition_.stated_bindings.find(bound.name);
+            if (bound.binding < 0 && stated != composition_.stated_bindings.end())
+                bound.binding = stated->second;
+        }
+    };
+    state(generated->interface.blocks);
+    state(generated->interface.samplers);
+    result.validated = *std::move(generated);
+    return result;
+}
+
+}  // namespace gobo

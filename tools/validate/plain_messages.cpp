@@ -1,0 +1,151 @@
+#include "validate/plain_messages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
+#include "validate/declaration.hpp"
+
+namespace gobo {
+namespace {
+
+/// What stands behind a mark in a message, if it does.
+std::string_view behind(std::string_view message, std::string_view mark) {
+    const auto at = message.find(mark);
+    return at == std::string_view::npos ? std::string_view() : trim(message.substr(at + mark.size()));
+}
+
+/// "f" of "f(f1;": glslang's name for a function.
+std::string_view function_name(std::string_view mangled) {
+    return mangled.substr(0, mangled.find('('));
+}
+
+/// The two declarations that a message quotes: "vec3 a" and "vec3 b".
+std::array<std::string, 2> quoted(std::string_view message) {
+    std::array<std::string, 2> texts;
+    for (std::string& text : texts) {
+        message = message.substr(std::min(message.find('"'), message.size()));
+        if (message.empty()) break;
+        text = trim(message.substr(1, message.find('"', 1) - 1));
+        message = message.substr(std::min(message.find('"', 1), message.size() - 1) + 1);
+    }
+    return texts;
+}
+
+/// The last name in a declaration: "a" of "layout( location=0) smooth in vec3 a".
+std::string last_name(std::string_view declaration) {
+    std::string name;
+    for (const std::string_view token : tokens_of(declaration))
+        if (is_identifier(token)) name = token;
+    return name;
+}
+
+Diagnostic function_message(std::string_view message, const PieceList& pieces) {
+    const std::string_view found = behind(message, "No function definition (body) found:");
+    if (!found.empty()) {
+        const std::string_view name = function_name(found);
+        return diagnostic_at(use_of(name, pieces), Severity::error,
+                             fmt::format("the function '{}' has no body", name),
+                             "write it, or include the piece that holds it");
+    }
+    const std::string_view caller = behind(message, "Recursion detected:");
+    const std::string_view name = function_name(caller);
+    const std::string_view called = function_name(behind(caller, "calling"));
+    return diagnostic_at(
+        use_of(name, pieces), Severity::error,
+        name == called ? fmt::format("the function '{}' calls itself", name)
+                       : fmt::format("the function '{}' calls '{}', which leads back to it", name, called),
+        "GLSL has no recursion: write a loop");
+}
+
+/// Of two declarations that must match.
+Diagnostic mismatch_message(std::string_view message, const PieceList& pieces, const PieceList& earlier) {
+    const auto [there, here] = quoted(message);
+    const std::string_view initialised = behind(message, "Initializers must match:");
+    const std::string name = last_name(initialised.empty() ? here : initialised);
+    const Declaration at = declaration_of(name, "", pieces);
+    const std::string other =
+        declaration_of(initialised.empty() ? last_name(there) : name, "", earlier).text();
+    const char* const help = "declare it alike in both stages";
+    if (!initialised.empty())
+        return diagnostic_at(at, Severity::error,
+                             fmt::format("'{}' begins with another value here than in {}", name, other),
+                             help);
+    if (there == here)  // glslang leaves out the name of a struct
+        return diagnostic_at(at, Severity::error,
+                             fmt::format("'{}' is of a struct with another name in {}", name, other), help);
+    return diagnostic_at(at, Severity::error, fmt::format("'{}' here, but '{}' in {}", here, there, other),
+                         help);
+}
+
+/// Where the stage's files define macros, the first time.
+std::map<std::string_view, Place> macros_of(const PieceList& pieces) {
+    std::map<std::string_view, Place> macros;
+    for (const Piece* const piece : pieces) {
+        int number = 0;
+        for (std::string_view rest = piece->text; !rest.empty() && piece != pieces.front();) {
+            const std::string_view line = rest.substr(0, rest.find('\n'));
+            rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+            ++number;
+            if (!trim(line).starts_with('#')) continue;
+            const std::vector<std::string_view> tokens = tokens_of(line);
+            if (tokens.size() > 2 && tokens[1] == "define")
+                macros.try_emplace(tokens[2], Place{piece->path, number, 0});
+        }
+    }
+    return macros;
+}
+
+std::string text_of(const Place& place) {
+    return fmt::format("{}:{}", place.file, place.line);
+}
+
+}  // namespace
+
+Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceList& earlier) {
+    for (Diagnostic& diagnostic : found) {
+        const std::string message = diagnostic.message;
+        const auto says = [&](std::string_view text) { return message.find(text) != std::string::npos; };
+        if (says("Recursion detected:") || says("No function definition (body) found:"))
+            diagnostic = function_message(message, pieces);
+        else if (!earlier.empty() && (says("must match") && (says("\"") || says("Initializers"))))
+            diagnostic = mismatch_message(message, pieces, earlier);
+    }
+    return found;
+}
+
+Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
+    if (found.empty()) return found;
+    const std::map<std::string_view, Place> macros = macros_of(pieces);
+    for (Diagnostic& diagnostic : found) {
+        const std::string_view redefined =
+            behind(diagnostic.message, "Macro redefined; different substitutions:");
+        if (const auto first = macros.find(redefined); first != macros.end()) {
+            diagnostic.message =
+                fmt::format("the macro '{}' has another meaning in {}", redefined, text_of(first->second));
+            diagnostic.help = "give one of them another name, or #undef it behind its last use";
+            continue;
+        }
+        const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
+        const std::string_view message = diagnostic.message;
+        const std::string_view name = message.substr(1, std::max<std::size_t>(message.find('\'', 1), 1) - 1);
+        const bool is_written = std::ranges::find(tokens, name) != tokens.end();
+        const bool is_syntax = message.find("syntax error") != std::string_view::npos;
+        if (!diagnostic.help.empty() || !message.starts_with('\'') || (is_written && !is_syntax)) continue;
+        for (const std::string_view token : tokens)
+            if (const auto macro = macros.find(token);
+                macro != macros.end() && macro->second.file != diagnostic.place.file)
+                diagnostic.help =
+                    fmt::format("'{}' is a macro here: {} defines it", token, text_of(macro->second));
+    }
+    return found;
+}
+
+}  // namespace gobo

@@ -1,0 +1,22 @@
+// glslang's messages with what they leave out: the places that those of linking mean, macros that are the
+// cause.
+#pragma once
+
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
+
+namespace gobo {
+
+using PieceList = std::vector<const Piece*>;
+
+/// For messages of linking. `pieces` are those of the stage, or of the later of two; `earlier` those of the
+/// other, if any.
+[[nodiscard]] Diagnostics with_places(Diagnostics found, const PieceList& pieces,
+                                      const PieceList& earlier = {});
+
+/// For messages of parsing: names the macro of another file where a line does not read as it is written.
+[[nodiscard]] Diagnostics with_macros(Diagnostics found, const PieceList& pieces);
+
+}  // namespace gobo
