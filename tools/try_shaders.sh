@@ -6,7 +6,8 @@ usage() {
 usage: tools/try_shaders.sh [--gobo GOBO] [--link PROGRAM] [--scratch DIR] [--list] FOLDER
   FOLDER holds one folder for each set. In a set, every .toml file is a family, tried over its default set.
   Where a set has none, each vertex file with a fragment file of the same name is a pair, for which a family
-  of three lines is written: .vs .fs, .vert .frag, .vsh .fsh, .glslv .glslf, _vp.glsl _fp.glsl.
+  of three lines is written: .vs .fs, .vert .frag, .vsh .fsh, .glslv .glslf, _vp.glsl _fp.glsl. Files of that
+  name that end in .tcs .tes .gs or .tesc .tese .geom are the stages between.
   --gobo GOBO      the program to try; by default that of build/release
   --link PROGRAM   asks the driver about texts that gobo refuses: reads lines "ID core|es VERTEX FRAGMENT"
                    and answers "ID linked" or "ID refused", a tab between them
@@ -34,7 +35,7 @@ mkdir -p "$scratch" || exit 3
 
 # A family file for each vertex file of a set that has a fragment file of the same name.
 write_pairs() { # SET_FOLDER DIR
-    local vertex fragment number=0 ends
+    local vertex fragment number=0 ends stage ends_with other
     find "$1" -type f | sort | while read -r vertex; do
         for ends in '.vs .fs' '.vert .frag' '.vsh .fsh' '.glslv .glslf' '_vp.glsl _fp.glsl'; do
             fragment=${vertex%"${ends% *}"}${ends#* }
@@ -44,6 +45,17 @@ write_pairs() { # SET_FOLDER DIR
 name     = "pair_$number"
 vertex   = "$(basename "$vertex")"
 fragment = "$(basename "$fragment")"
+END
+            while read -r stage ends_with; do
+                other=$(basename "${vertex%"${ends% *}"}$ends_with")
+                [ -f "$(dirname "$vertex")/$other" ] && echo "$stage = \"$other\"" >> "$2/pair_$number.toml"
+            done <<END
+tess_control .tcs
+tess_control .tesc
+tess_evaluation .tes
+tess_evaluation .tese
+geometry .gs
+geometry .geom
 END
             dirname "$vertex" > "$2/pair_$number.folder"
         done
@@ -62,6 +74,7 @@ try() { # COUNT LOG ARGUMENTS...
 driver_links() { # FAMILY FOLDER KEY LOG
     local context=core
     [ -n "$link" ] || { echo '?'; return; }
+    grep -E '^(tess|geometry|compute)' "$1" > /dev/null && { echo '?'; return; }  # it links pairs
     "$gobo" show "$1" "$3" -I "$2" --stage vertex > "$4.vert" 2> /dev/null || { echo '?'; return; }
     "$gobo" show "$1" "$3" -I "$2" --stage fragment > "$4.frag" 2> /dev/null || { echo '?'; return; }
     head -n 1 "$4.vert" | grep ' es' >/dev/null && context=es

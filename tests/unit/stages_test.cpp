@@ -262,6 +262,30 @@ const Row with_compute[] = {
      {"tiny.comp: error: a compute stage needs GLSL 430, but this is 330"}},
 };
 
+/// A choice between the functions of a subroutine uniform, and Mesa's verdict on each.
+TEST(SubroutineUniforms, BecomeChoices) {
+    const MemoryFileSystem disk(std::map<std::string, std::string, std::less<>>{
+        {"tiny.vert", std::string("#version 430 core\n") + plain},
+        {"tiny.frag",
+         "#version 430 core\nsubroutine vec4 Shade(float x);\nsubroutine uniform Shade shade;\n"
+         "out vec4 c;\nlayout(index = 1) subroutine(Shade) vec4 red(float x) { return vec4(x, 0, 0, 1); }\n"
+         "subroutine (Shade)\nvec4 blue(float x) { return vec4(0, 0, x, 1); }\n"
+         "void main() { c = shade(0.5); }\n"}});
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = family_of("[features.shade]\nvalues = [\"red\", \"blue\"]\ndefine = \"shade\"\n");
+    const Composition composition = compose(family, {{0}, {1}}, search, Dialect::own).value();
+    EXPECT_EQ(first_text(validate(family, composition, {}).diagnostics), "");
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << first_text(context.error());
+    ASSERT_EQ(composition.permutations.size(), 2U);
+    for (const Permutation& permutation : composition.permutations) {
+        const Result<Program> program = link_program(*context, stages_of(composition, permutation));
+        EXPECT_TRUE(program) << first_text(program.error());
+    }
+    EXPECT_NE(composition.permutations[0].stages, composition.permutations[1].stages);
+}
+
 const auto name_of_row = [](const auto& row) { return std::string(row.param.name); };
 INSTANTIATE_TEST_SUITE_P(Geometry, Stages, testing::ValuesIn(with_geometry), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Tessellation, Stages, testing::ValuesIn(with_tessellation), name_of_row);

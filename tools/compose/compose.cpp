@@ -13,6 +13,7 @@
 #include "compose/piece_marks.hpp"
 #include "compose/rewrite.hpp"
 #include "compose/scan_piece.hpp"
+#include "compose/subroutines.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "spirv/glsl_type.hpp"
@@ -90,6 +91,7 @@ class PieceLibrary {
         for (const Feature& feature : family.features) {
             if (!feature.macro.empty()) interest_.push_back(feature.macro);
             if (!feature.substituted.empty()) has_substitutions_ = true;
+            if (feature.kind == FeatureKind::choice) chosen_functions_.insert(feature.macro);
         }
         for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
         if (!family.substitutions.empty() || family.compatibility) has_substitutions_ = true;
@@ -225,6 +227,7 @@ class PieceLibrary {
         GOBO_TRY(ScannedPiece scanned,
                  scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
                             piece.text));
+        choose_subroutines(scanned.text, scanned.code, chosen_functions_);
         composition_.stated_bindings.merge(scanned.bindings);
         Diagnostics& warnings = composition_.warnings;
         warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
@@ -383,6 +386,7 @@ class PieceLibrary {
     std::map<Substitutions, int> variants_;
     int variant_ = 0;
     bool has_substitutions_ = false;
+    std::set<std::string> chosen_functions_;  ///< macros of choices: where a file has them as subroutines
     /// Root, path and variant; also what is known to be absent.
     std::map<std::tuple<std::string, std::string, int>, std::optional<int>> by_path_;
     /// Path, name and, where something is replaced in it, text: two paths may lead to one file.
