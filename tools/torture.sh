@@ -203,15 +203,20 @@ one 'a folder as a family: status 3' exits 3 "$gobo" list family1/torn.toml/../p
 mkdir folder.toml
 one 'a folder named as a family: status 3' exits 3 "$gobo" list folder.toml
 one 'a device that never ends as keys: status 3' exits 3 "$gobo" list lit --keys-from /dev/zero
-wrong=0 tried=0
-for memory in 20000 40000 60000 80000 100000 150000 200000; do
-  prepare 1
-  (ulimit -v $memory; build)
-  status=$?
-  tried=$((tried + 1))
-  [ $status -eq 0 ] && new_outputs 1 || { [ $status -eq 3 ] || [ $status -eq 127 ] && old_outputs 1; } || wrong=$((wrong + 1))
-done
-row 'little memory (ulimit -v): new outputs, or old ones and status 3' $tried $wrong
+what='little memory (ulimit -v): new outputs, or old ones and status 3'
+if (ulimit -v 4000000; "$gobo" --version >/dev/null 2>&1); then  # AddressSanitizer wants more than there is
+  wrong=0 tried=0
+  for memory in 20000 40000 60000 80000 100000 150000 200000; do
+    prepare 1
+    (ulimit -v $memory; build)
+    status=$?
+    tried=$((tried + 1))
+    [ $status -eq 0 ] && new_outputs 1 || { [ $status -eq 3 ] || [ $status -eq 127 ] && old_outputs 1; } || wrong=$((wrong + 1))
+  done
+  row "$what" $tried $wrong
+else
+  skipped "$what"
+fi
 (cd work && "$gobo" list lit --cover 2 >../expected_keys)
 wrong=0 tried=0
 for locale in C POSIX C.UTF-8 de_DE.UTF-8 tr_TR.ISO-8859-9 no_such '' /; do
