@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -37,6 +38,18 @@ std::string nearest_text(const std::vector<StudiedKey>& keys, const Budget& budg
                : fmt::format("the cheapest one costs {}", short_number(least(&StudiedKey::cost)));
 }
 
+/// The worst of several chips: how many times the cycles of the cheapest key a key takes. By one chip the
+/// cycles.
+void set_costs(std::vector<StudiedKey>& keys, const std::vector<std::vector<double>>& cycles) {
+    for (std::size_t gpu = 0; !cycles.empty() && gpu < cycles.front().size(); ++gpu) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::vector<double>& of_key : cycles) least = std::min(least, of_key[gpu]);
+        const double unit = cycles.front().size() == 1 || !std::isfinite(least) ? 1 : least;
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            keys[i].cost = gpu == 0 ? cycles[i][gpu] / unit : std::max(keys[i].cost, cycles[i][gpu] / unit);
+    }
+}
+
 }  // namespace
 
 Key effects_of(const Family& family, Key key) {
@@ -45,7 +58,8 @@ Key effects_of(const Family& family, Key key) {
     return canonical(family, std::move(key), kStudiedDialect);
 }
 
-Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path, const Family& family) {
+Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path, const Family& family,
+                                    const std::vector<std::string>& gpus) {
     const auto problem = [&](std::size_t row, std::string message) {
         return fail_at_row(path, row, std::move(message),
                            fmt::format("remake the study: gobo study {} -o FOLDER", family.name));
@@ -59,7 +73,17 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         columns[i] = *column;
     }
     const auto [effects_at, key_at, scene_at, error_at, cost_at, front_at] = columns;
+    std::vector<std::size_t> cycles_at;
+    for (const std::string& gpu : gpus) {
+        const auto column = table.column("cycles_" + gpu);
+        if (!column)
+            return fail({path, 1, 0}, "", fmt::format("holds no cycles of {}", gpu),
+                        fmt::format("add them: gobo cost {} --study {} --gpu {} > FILE", family.name, path,
+                                    join(gpus, ",")));
+        cycles_at.push_back(*column);
+    }
     StudiedEffects studied;
+    std::map<Key, std::vector<std::vector<double>>> cycles;  // by effects, key and chip
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const std::vector<std::string>& row = table.rows[i];
         if (row[scene_at] != kAllScenes) continue;
@@ -68,7 +92,10 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         if (!effects || !key) return problem(i, (effects ? key : effects).error().front().message);
         studied[*effects].push_back(
             {*key, number_in(row[error_at]), number_in(row[cost_at]), row[front_at] == "yes"});
+        std::vector<double>& of_key = cycles[*effects].emplace_back();
+        for (const std::size_t at : cycles_at) of_key.push_back(number_in(row[at]));
     }
+    for (auto& [effects, keys] : studied) set_costs(keys, cycles[effects]);
     return studied;
 }
 

@@ -17,7 +17,7 @@ inline constexpr const char* kAllScenes = "*";
 /// allows.
 struct Budget {
     double max_error = 0;  ///< linear radiance; 0: no limit
-    double max_cost = 0;   ///< additions a fragment, as the study's column `cost`; 0: no limit
+    double max_cost = 0;   ///< in the unit of StudiedKey::cost; 0: no limit
 
     [[nodiscard]] bool is_set() const { return max_error > 0 || max_cost > 0; }
 };
@@ -36,17 +36,22 @@ inline constexpr std::string_view kStudiedDialect = "450";
 struct StudiedKey {
     Key key;
     double error = 0;  ///< the worst
-    double cost = 0;   ///< the mean
+    /// Additions a fragment, the mean over scenes. By one chip, its cycles for 64 fragments; by several, the
+    /// worst of their cycles, each relative to the cheapest key of the same effects. Infinite where a study
+    /// has none.
+    double cost = 0;
     bool on_front = false;
 };
 
 /// By effects.
 using StudiedEffects = std::map<Key, std::vector<StudiedKey>>;
 
-/// The rows of all scenes of a study.csv. Errors, at `path` and the line: a missing column, a key that the
-/// family does not have (a study of another version of it).
+/// The rows of all scenes of a study.csv, with costs by its columns of those chips, cycles_NAME, where any
+/// are named. Errors, at `path` and the line: a missing column, a key that the family does not have (a study
+/// of another version of it).
 [[nodiscard]] Result<StudiedEffects> read_studied(std::string_view csv, const std::string& path,
-                                                  const Family& family);
+                                                  const Family& family,
+                                                  const std::vector<std::string>& gpus = {});
 
 /// The key that the budget buys. Fault::input, for `subject`, where there is none; it says what is nearest.
 [[nodiscard]] Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& budget,

@@ -1,11 +1,13 @@
 // Budgets on the command line: which quality each combination of effects is built with.
 #include "budget/budget.hpp"
 
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/input.hpp"
 
@@ -18,7 +20,7 @@ Result<StudiedEffects> load_studied(const World& world, LoadedFamily& family, co
     if (options.study.empty() && !world.shipped.is_file(shipped)) return StudiedEffects{};
     GOBO_TRY(const auto study, read_or_shipped(world, options.study, shipped));
     if (!options.study.empty() && options.study != "-") family.files.push_back(options.study);
-    return read_studied(study.text, study.path, family.family);
+    return read_studied(study.text, study.path, family.family, split(join(options.gpus, ","), ','));
 }
 
 /// The key that the budget chooses for one combination of effects.
@@ -28,6 +30,12 @@ Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
     const std::string text = key_text(family.family, effects);
     const auto found = studied.find(effects);
     const bool is_studied = found != studied.end();
+    if (!is_studied && !options.gpus.empty())
+        return fail(
+            {.message = "no study has measured these effects, so there are no cycles to choose by",
+             .help = fmt::format("study them: gobo study {} --effects '{}' --no-time --gpu {} -o study",
+                                 family.name, text, join(options.gpus, ",")),
+             .subject = text});
     if (!is_studied && !world.measure)
         return fail(
             Fault::needs_lab, fmt::format("no study has measured '{}': that needs gobo-lab", text),
@@ -37,7 +45,8 @@ Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
                 family.name, text));
     GOBO_TRY(auto keys, is_studied ? found->second : world.measure(world, family, studied, effects));
     std::erase_if(keys, [&](const StudiedKey& key) {
-        return forbidding_rule(family.family, key.key, name_of(family.dialect)) != nullptr;
+        const bool has_cost = options.gpus.empty() || std::isfinite(key.cost);
+        return !has_cost || forbidding_rule(family.family, key.key, name_of(family.dialect)) != nullptr;
     });
     GOBO_TRY(const StudiedKey chosen, choose(keys, options, text));
     return QualityChoice{chosen.key, kSafety * chosen.error, chosen.error, chosen.cost,
@@ -57,6 +66,10 @@ OptionGroup budget_options(BudgetOptions& options) {
           "Choose the most accurate quality that costs no more, in additions a fragment; with --max-error a "
           "second limit",
           &options.max_cost, kPositive},
+         {"--gpu", "A,B,...",
+          "Cost is a chip's cycles for 64 fragments, as --study holds them; of several chips the worst, each "
+          "relative to its cheapest quality",
+          &options.gpus},
          {"--study", "FILE",
           "The study.csv or summary.csv to choose by; by default the one that came with the family",
           &options.study}}};

@@ -91,6 +91,7 @@ struct SelectionOptions {
 /// What a budget chooses qualities by.
 struct BudgetOptions : Budget {
     std::string study;  ///< a study.csv or summary.csv; empty: the shipped one of the family
+    std::vector<std::string> gpus = {};  ///< chips whose cycles are the cost
 };
 [[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
 

@@ -10,6 +10,7 @@
 #include "lab/commands/lab_input.hpp"
 #include "lab/cost/baseline.hpp"
 #include "lab/cost/compile_on_chips.hpp"
+#include "lab/cost/study_cycles.hpp"
 #include "lab/render/render.hpp"
 
 namespace gobo {
@@ -27,6 +28,7 @@ struct CostCommandOptions : SelectionOptions {
     std::string baseline;  ///< a CSV file
     double tolerance = 2;  ///< percent
     bool update = false;
+    std::string study;   ///< a study.csv
     std::string folder;  ///< for SPIR-V that a driver does not take; empty: it is not kept
 };
 
@@ -221,6 +223,26 @@ Result<Outcome> hold_to_baseline(const World& world, const CostCommandOptions& o
                    std::move(diagnostics)};
 }
 
+/// The study's table with cycles.
+Result<Outcome> cost_study(const World& world, const CostCommandOptions& options,
+                           const std::vector<cost::Chip>& chips) {
+    if (options.names.size() != 1)
+        return fail(Fault::usage, "--study goes with one family",
+                    "name it: gobo cost lit --study study.csv --gpu navi21");
+    GOBO_TRY(const LoadedFamily family, load_family(world, options.names.front()));
+    GOBO_TRY(const std::string text, read_input(world, options.study));
+    const CsvTable study = read_csv(text);
+    for (const std::string_view column : cost::kStudyColumns)
+        if (!study.column(column))
+            return fail({options.study, 1, 0}, "",
+                        fmt::format("is not a study.csv: it has no column '{}'", column),
+                        fmt::format("make one: gobo study {} -o FOLDER", family.name));
+    Diagnostics diagnostics;
+    const auto costs =
+        costs_of_study(world, family, study, options.study, chips, options.driver, diagnostics);
+    return Outcome{csv_text(cost::with_cycles(study, costs)), std::move(diagnostics)};
+}
+
 Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
@@ -228,6 +250,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (options.names.empty())
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");
+    if (!options.study.empty()) return cost_study(world, options, chips);
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     if (subject.composition.permutations.empty())
         return Outcome{{},
@@ -261,6 +284,38 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
 
 }  // namespace
 
+std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,
+                                           const CsvTable& study, const std::string& path,
+                                           const std::vector<cost::Chip>& chips, const std::string& driver,
+                                           Diagnostics& diagnostics) {
+    CostCommandOptions options;
+    options.driver = driver;
+    Subject subject{.family = family, .composition = {}};
+    std::vector<Key> keys;
+    const std::size_t at = study.column("key").value();
+    for (std::size_t i = 0; i < study.rows.size(); ++i) {
+        const auto key = parse_key(family.family, study.rows[i][at], {path, static_cast<int>(i) + 2, 0});
+        if (!key)
+            append(diagnostics, key.error());
+        else if (std::find(keys.begin(), keys.end(), *key) == keys.end())
+            keys.push_back(*key);
+    }
+    auto composition = compose_keys(family, keys);
+    if (!composition) {
+        append(diagnostics, composition.error());
+        return {};
+    }
+    subject.composition = *std::move(composition);
+    const auto validated = compile(world, subject, {.keep_spirv = true});
+    if (!validated) {
+        append(diagnostics, validated.error());
+        return {};
+    }
+    const Pairs pairs = pairs_of(options, subject, *validated);
+    append(diagnostics, pairs.errors);
+    return costs_of(world, options, subject, pairs, chips, diagnostics);
+}
+
 Command cost_command() {
     const auto options = std::make_shared<CostCommandOptions>();
     return {
@@ -280,6 +335,9 @@ Command cost_command() {
           &options->tolerance,
           {.least = 0, .needs = "--baseline"}},
          {"--update", "", "Write the table instead", &options->update, {.needs = "--baseline"}},
+         {"--study", "FILE",
+          "Print this study.csv with cycles and fronts of the chips, for gobo build --max-error --gpu",
+          &options->study},
          {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
          {"--json", "", "Print JSON", &options->json},
          {"--csv", "", "Print CSV, with instructions by kind", &options->csv, {.excludes = "--json"}},

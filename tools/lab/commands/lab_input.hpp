@@ -6,12 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "core/csv.hpp"
 #include "gobo/commands.hpp"
 #include "lab/render/image.hpp"
 #include "lab/study/study.hpp"
 #include "lab/verify/shadow_map_check.hpp"
 
 namespace gobo {
+
+namespace cost {
+struct Chip;
+struct ChipCost;
+}  // namespace cost
 
 /// A mesh of that name, or of an .obj file.
 [[nodiscard]] Result<Mesh> load_mesh(const World& world, const std::string& name);
@@ -62,6 +68,13 @@ using CubeImages = std::map<std::string, Image>;
                                                                 const LoadedFamily& family,
                                                                 const StudiedEffects& studied,
                                                                 const Key& effects);
+
+/// What the keys of a study.csv at `path` cost on chips, by a Vulkan driver, a shared library. What cannot be
+/// told is added to `diagnostics`.
+[[nodiscard]] std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,
+                                                         const CsvTable& study, const std::string& path,
+                                                         const std::vector<cost::Chip>& chips,
+                                                         const std::string& driver, Diagnostics& diagnostics);
 
 /// A note about a file, or where the name is empty about none.
 [[nodiscard]] Diagnostic note_in(const std::string& file, std::string message);

@@ -8,6 +8,8 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
+#include "lab/cost/compile_on_chips.hpp"
+#include "lab/cost/study_cycles.hpp"
 #include "lab/study/front.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/study/report.hpp"
@@ -27,6 +29,7 @@ struct StudyCommandOptions {
     bool no_time = false;
     bool weigh = false;
     bool callgrind = false;
+    std::vector<std::string> gpus;
     std::string front;  ///< effects of a finished study to show
     std::string svg;
     std::string study_file;
@@ -41,6 +44,7 @@ std::string command_line(const StudyCommandOptions& options) {
     for (const std::string& effects : options.study.effects) line += fmt::format(" --effects '{}'", effects);
     if (options.study.quick) line += " --quick";
     if (options.no_time) line += " --no-time";
+    if (!options.gpus.empty()) line += fmt::format(" --gpu {}", join(options.gpus, ","));
     if (options.rounds != study::kLeastRounds) line += fmt::format(" --rounds {}", options.rounds);
     if (!options.plan.empty()) line += " --plan " + shell_word(options.plan);
     if (!options.weights_from.empty()) line += " --weights-from " + shell_word(options.weights_from);
@@ -188,6 +192,7 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
                     "name the folder for index.html, the charts and the tables: -o study");
     if (options.weigh) return weigh(options, world);
     if (!options.draw.empty()) return draw(options, world);
+    GOBO_TRY(const auto chips, cost::chips_named(split(join(options.gpus, ","), ',')));
     GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
     const Family& family = loaded.family;
     study::StudyOptions study_options = options.study;
@@ -223,8 +228,16 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     files["summary.csv"] = study::study_csv(study::summary_of(family, rows));
     files["curves.csv"] = study::curves_csv(study.curves);
     files["weights.csv"] = study::weights_csv({weights});
+    Diagnostics diagnostics;
+    if (!chips.empty()) {
+        const auto costs = costs_of_study(world, loaded, read_csv(files["study.csv"]), "study.csv", chips,
+                                          cost::CompileOptions{}.driver, diagnostics);
+        for (const char* table : {"study.csv", "summary.csv"})
+            files[table] = csv_text(cost::with_cycles(read_csv(files[table]), costs));
+    }
     for (const auto& [name, text] : files) GOBO_TRY_DO(world.disk.write(options.folder + "/" + name, text));
-    return Outcome{study_summary(family, study, weights), {}, options.folder + "/index.html"};
+    return Outcome{study_summary(family, study, weights), std::move(diagnostics),
+                   options.folder + "/index.html"};
 }
 
 }  // namespace
@@ -248,6 +261,9 @@ Command study_command() {
          {"--rounds", "N", "Interleaved rounds of timing", &options->rounds,
           between(study::kLeastRounds, 1000)},
          {"--backend", "osmesa|egl", "What is timed", &options->backend},
+         {"--gpu", "A,B,...",
+          "Chips, as gobo cost has them: their cycles and fronts are columns of the tables too",
+          &options->gpus},
          {"--callgrind", "",
           "Count the instructions of a fragment too, for the last effects; needs valgrind, some 15 s each",
           &options->callgrind},

@@ -1,0 +1,76 @@
+#include "lab/cost/study_cycles.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace gobo::cost {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+/// A column of that name, added where there is none.
+std::size_t column_of(CsvTable& table, const std::string& name) {
+    if (const auto found = table.column(name)) return *found;
+    table.columns.push_back(name);
+    for (auto& row : table.rows) row.emplace_back();
+    return table.columns.size() - 1;
+}
+
+/// Cycles of 64 fragments and of so many vertices to each; kNone where they cannot be ranked.
+double cycles_of(const KeyCost& key, double vertices_per_fragment) {
+    double cycles = 0;
+    for (const StageCost& stage : key.stages) {
+        if (stage.has_loop) return kNone;
+        const double share = stage.stage == "vertex" ? vertices_per_fragment : 1;
+        cycles += share * static_cast<double>(stage.cycles);
+    }
+    return cycles;
+}
+
+}  // namespace
+
+CsvTable with_cycles(CsvTable study, const std::vector<ChipCost>& costs) {
+    std::array<std::size_t, kStudyColumns.size()> columns{};
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        columns[i] = column_of(study, std::string(kStudyColumns[i]));
+    const auto [effects_at, key_at, scene_at, error_at, vertices_at] = columns;
+    for (const ChipCost& cost : costs) {
+        const std::size_t cycles_at = column_of(study, fmt::format("cycles_{}", cost.chip.name));
+        const std::size_t front_at = column_of(study, fmt::format("front_{}", cost.chip.name));
+        const std::size_t driver_at = column_of(study, fmt::format("driver_{}", cost.chip.name));
+        std::map<std::string, const KeyCost*> by_key;
+        for (const KeyCost& key : cost.keys) by_key[key.key] = &key;
+        struct Point {
+            std::size_t row = 0;
+            double error = kNone;
+            double cycles = kNone;
+        };
+        std::map<std::pair<std::string, std::string>, std::vector<Point>> fronts;  // by effects and scene
+        for (std::size_t i = 0; i < study.rows.size(); ++i) {
+            auto& row = study.rows[i];
+            row[cycles_at] = row[front_at] = "";
+            row[driver_at] = cost.driver;
+            const auto key = by_key.find(row[key_at]);
+            if (key == by_key.end()) continue;
+            const double cycles = cycles_of(*key->second, number_in_cell(row[vertices_at]).value_or(0));
+            if (cycles == kNone) continue;
+            row[cycles_at] = fmt::format("{:.1f}", cycles);
+            fronts[{row[effects_at], row[scene_at]}].push_back(
+                {i, number_in_cell(row[error_at]).value_or(kNone), cycles});
+        }
+        for (const auto& [which, points] : fronts)
+            for (const Point& point : points) {
+                const bool is_beaten = std::any_of(points.begin(), points.end(), [&](const Point& other) {
+                    return other.error <= point.error && other.cycles <= point.cycles &&
+                           (other.error < point.error || other.cycles < point.cycles);
+                });
+                study.rows[point.row][front_at] = is_beaten ? "no" : "yes";
+            }
+    }
+    return study;
+}
+
+}  // namespace gobo::cost
