@@ -108,6 +108,7 @@ TEST_P(GeneratedHeader, ACallerSurvivesOneFeatureAndOneValueMore) {
 TEST_P(GeneratedHeader, BuildsAProgramThroughAnyLoader) {
     write_header(sample::lit(), "lit");
     EXPECT_EQ(compile_and_run("gl_caller"), "");
+    EXPECT_EQ(compile_and_run("gl_caller", "-DGLM_FORCE_DEFAULT_ALIGNED_GENTYPES"), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Compilers, GeneratedHeader,

@@ -1,6 +1,7 @@
 // gobo/gl.hpp with a loader whose functions are macros for function pointers (as glad's, GLEW's and epoxy's
 // are), and with a table. The driver behind both is a pretended one that notes what it is told: no OpenGL is
 // needed.
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -114,21 +115,21 @@ void UniformBlockBinding(unsigned, unsigned block, unsigned binding) {
 
 // A loader: pointers in variables, macros with OpenGL's names.
 #define GL_VERSION_2_0 1
-#define LOADER_FUNCTIONS(DO)                                                                   \
-    DO(CreateShader)                                                                           \
-    DO(ShaderSource)                                                                           \
-    DO(CompileShader)                                                                          \
-    DO(GetShaderiv)                                                                            \
-    DO(GetShaderInfoLog)                                                                       \
-    DO(DeleteShader)                                                                           \
-    DO(CreateProgram)                                                                          \
-    DO(AttachShader)                                                                           \
-    DO(BindAttribLocation)                                                                     \
-    DO(LinkProgram)                                                                            \
-    DO(GetProgramiv) DO(GetProgramInfoLog) DO(DeleteProgram) DO(UseProgram) DO(GetIntegerv)    \
-        DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding) \
-            DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray)       \
-                DO(VertexAttribPointer) DO(VertexAttribIPointer)
+#define LOADER_FUNCTIONS(DO)                                                                             \
+    DO(CreateShader)                                                                                     \
+    DO(ShaderSource)                                                                                     \
+    DO(CompileShader)                                                                                    \
+    DO(GetShaderiv)                                                                                      \
+    DO(GetShaderInfoLog)                                                                                 \
+    DO(DeleteShader)                                                                                     \
+    DO(CreateProgram)                                                                                    \
+    DO(AttachShader)                                                                                     \
+    DO(BindAttribLocation)                                                                               \
+    DO(LinkProgram)                                                                                      \
+    DO(GetProgramiv)                                                                                     \
+    DO(GetProgramInfoLog) DO(DeleteProgram) DO(UseProgram) DO(GetIntegerv) DO(GetUniformLocation)        \
+        DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding) DO(Uniform1fv) DO(ActiveTexture) \
+            DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer) DO(VertexAttribIPointer)
 #define LOADER_POINTER(name) static decltype(&pretended::name) loader_gl##name = &pretended::name;
 LOADER_FUNCTIONS(LOADER_POINTER)
 #define glCreateShader loader_glCreateShader
@@ -228,9 +229,13 @@ struct Vertex {
 };
 
 void test_places() {
-    const char* const calls =
-        "uniform 5: 0.500000\nunit of 5: 7\nactive unit 4\ntexture 9 as 35866\n"
-        "enable 0\npointer 0: 3 of 5126 each 28 from 4\nenable 1\npointer 1: 3 of 5126 each 28 from 16\n";
+    const auto pointed = [](int location, std::size_t offset) {
+        const std::string number = std::to_string(location);
+        return "enable " + number + "\npointer " + number + ": 3 of 5126 each " +
+               std::to_string(sizeof(Vertex)) + " from " + std::to_string(offset) + "\n";
+    };
+    const std::string calls = "uniform 5: 0.500000\nunit of 5: 7\nactive unit 4\ntexture 9 as 35866\n" +
+                              pointed(0, offsetof(Vertex, position)) + pointed(1, offsetof(Vertex, normal));
     pretended::driver = {};
     const auto locations = gobo::gl::find_locations(permutation(), 3);
     gobo::gl::set(locations, lit::uniform::exposure, 0.5F);
