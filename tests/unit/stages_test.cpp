@@ -1,12 +1,14 @@
 // Programs of other stages than the vertex and the fragment stage: what gobo says of them, and whether Mesa
 // links them.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
-#include "lab/render/program.hpp"
+#include "lab/render/render.hpp"
 #include "small_families.hpp"
 #include "validate/validate.hpp"
 
@@ -261,6 +263,69 @@ const Row with_compute[] = {
      false,
      {"tiny.comp: error: a compute stage needs GLSL 430, but this is 330"}},
 };
+
+struct PictureRow {
+    const char* name;
+    std::vector<StageRow> stages;
+    const char* error;  ///< in part; empty where it is drawn
+};
+
+constexpr const char* flat_plane =
+    "in vec3 position;\nvoid main() { gl_Position = vec4(position.xz, 0.0, 1.0); gl_PointSize = 4.0; }\n";
+constexpr const char* of_triangles =
+    "layout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\nvoid main() {\n"
+    "for (int i = 0; i < 3; ++i) { gl_Position = gl_in[i].gl_Position; EmitVertex(); }\n}\n";
+constexpr const char* of_points =
+    "layout(points) in;\nlayout(points, max_vertices = 1) out;\n"
+    "void main() { gl_Position = gl_in[0].gl_Position; EmitVertex(); }\n";
+constexpr const char* of_lines =
+    "layout(lines) in;\nlayout(points, max_vertices = 1) out;\n"
+    "void main() { gl_Position = gl_in[0].gl_Position; EmitVertex(); }\n";
+constexpr const char* triangles =
+    "layout(triangles) in;\nvoid main() { gl_Position = gl_in[0].gl_Position * gl_TessCoord.x +\n"
+    "gl_in[1].gl_Position * gl_TessCoord.y + gl_in[2].gl_Position * gl_TessCoord.z; }\n";
+constexpr const char* quads =
+    "layout(quads) in;\nvoid main() { gl_Position = gl_in[0].gl_Position + gl_TessCoord.x; }\n";
+
+TEST(Pictures, AreDrawnThroughStagesBetween) {
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << first_text(context.error());
+    const PictureRow rows[] = {
+        {"triangles", {{kVertex, flat_plane}, {kGeometry, of_triangles}, {kFragment, white}}, ""},
+        {"points", {{kVertex, flat_plane}, {kGeometry, of_points}, {kFragment, white}}, ""},
+        {"patches", {{kVertex, flat_plane}, {kEvaluation, triangles}, {kFragment, white}}, ""},
+        {"lines",
+         {{kVertex, flat_plane}, {kGeometry, of_lines}, {kFragment, white}},
+         "the renderer draws triangles or points, the geometry stage takes others"},
+        {"quads",
+         {{kVertex, flat_plane}, {kEvaluation, quads}, {kFragment, white}},
+         "the renderer draws patches of three vertices, these stages take others"},
+    };
+    for (const PictureRow& row : rows) {
+        SCOPED_TRACE(row.name);
+        std::vector<StageText> stages;
+        Interface interface;
+        for (const auto& [kind, text] : row.stages) {
+            stages.push_back(
+                stage_text(kind, std::string(name_of(kind)), std::string("#version 430 core\n") + text));
+            interface.stages.emplace_back(name_of(kind));
+        }
+        interface.inputs = {{"position", "vec3", -1, {}}};
+        View view;
+        view.width = view.height = 16;
+        std::vector<Object> objects(1);
+        objects.front().mesh = make_plane(1, 4);
+        const Result<Picture> picture = render_permutation(*context, stages, interface, objects, {}, view);
+        if (*row.error != '\0') {
+            ASSERT_FALSE(picture);
+            EXPECT_THAT(first_text(picture.error()), HasSubstr(row.error));
+            continue;
+        }
+        ASSERT_TRUE(picture) << first_text(picture.error());
+        EXPECT_EQ(std::ranges::max(picture->color.values), 1.0F);
+        EXPECT_GT(std::ranges::count(picture->color.values, 1.0F), 16 * 16 + 20) << "beside alpha";
+    }
+}
 
 /// A choice between the functions of a subroutine uniform, and Mesa's verdict on each.
 TEST(SubroutineUniforms, BecomeChoices) {
