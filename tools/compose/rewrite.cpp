@@ -138,8 +138,11 @@ std::string substituted(std::string_view text, const Substitutions& substitution
 std::optional<LoopHead> loop_head(const std::string& text) {
     static const std::regex form(
         R"(for\s*\(\s*int\s+(\w+)\s*=\s*(\d{1,4})\s*;\s*(\w+)\s*<\s*([^;{}]*[^;{}\s])\s*;\s*(?:(\w+)\s*\+\+|\+\+\s*(\w+))\s*\)\s*\{)");
+    // std::regex recurses once per character of a run: a longer head exhausts the stack.
+    constexpr std::size_t kLongestHead = 4000;
+    const std::string head = text.substr(0, kLongestHead);
     std::smatch match;
-    if (!std::regex_search(text, match, form)) return std::nullopt;
+    if (!std::regex_search(head, match, form)) return std::nullopt;
     const std::string index = match[1];
     if (match[3] != index || match[5].str() + match[6].str() != index) return std::nullopt;
     return LoopHead{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()),
