@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"version_by_dialect", "version = \"330 core\"\n", "#version 410\nmain", "default",
             "#version 450 core\nmain\n", StageKind::fragment, Dialect::glsl450},
         Row{"version_of_another", "version = \"330 core\"\n", "\n#version 410\nmain", "default",
-            "tiny.frag:2:1: error: #version 410 where the family states 330 core\n"
+            "tiny.frag:2:1: error: #version 410 where the family states 330 core [default]\n"
             "    #version 410\n"
             "    ^\n"
             "  help: leave one of them out: the family's is at tiny.toml:4\n"},
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"prologue_with_extension", "[prologue]\ntext = \"#extension GL_A : enable\"\n", "main", "default",
             "#version 450 core\n#extension GL_A : enable\nmain\n"},
         Row{"prologue_with_version", "[prologue]\ntext = '''\n#version 330\n'''\n", "main", "default",
-            "tiny.toml:6:1: error: a #version in the family's prologue\n"
+            "tiny.toml:6:1: error: a #version in the family's prologue [default]\n"
             "    #version 330\n"
             "    ^\n"
             "  help: write version = \"330\" at the top of the family file\n"},
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"count_above_its_least", "[features.steps]\ncount = [2, 4]\nconstant = \"STEPS\"\n", "STEPS",
             "steps=4", "#version 450 core\n#define STEPS 4\nSTEPS\n"},
         Row{"clash", half, "\n#define HALF 0.5\nHALF", "half=on",
-            "tiny.frag:2:1: error: this gives 'HALF' another text than feature 'half' does\n"
+            "tiny.frag:2:1: error: this gives 'HALF' another text than feature 'half' does [half=on]\n"
             "    #define HALF 0.5\n"
             "    ^\n"
             "  help: put it between #ifndef HALF and #endif, as what holds where the key leaves it "
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"clash_in_the_prologue",
             "[prologue]\ntext = \"#define HALF 0.5\"\n[features.half]\ndefine = \"HALF\"\n", "HALF",
             "half=on",
-            "tiny.toml:5:1: error: this gives 'HALF' another text than feature 'half' does\n"
+            "tiny.toml:5:1: error: this gives 'HALF' another text than feature 'half' does [half=on]\n"
             "    #define HALF 0.5\n"
             "    ^\n"
             "  help: put it between #ifndef HALF and #endif, as what holds where the key leaves it "
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
             "unroll_loop_end\n#endif\n"},
         Row{"loop_of_another_form", lamps,
             "\n#pragma unroll_loop_start\nwhile (true) {}\n#pragma unroll_loop_end\n", "default",
-            "tiny.frag:2:1: error: the loop behind this has another form than can be unrolled\n"
+            "tiny.frag:2:1: error: the loop behind this has another form than can be unrolled [default]\n"
             "    #pragma unroll_loop_start\n"
             "    ^\n"
             "  help: write for (int i = 0; i < COUNT; i++) { ... }, without an #include, between the two "
@@ -168,7 +168,8 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"loop_without_a_known_end", lamps,
             "#pragma unroll_loop_start\nfor (int i = 0; i < GL_many; i++) {}\n#pragma unroll_loop_end\n",
             "default",
-            "tiny.frag:1:1: error: the loop behind this ends at 'GL_many', which is no number below 4096\n"
+            "tiny.frag:1:1: error: the loop behind this ends at 'GL_many', which is no number below 4096 "
+            "[default]\n"
             "    #pragma unroll_loop_start\n"
             "    ^\n"
             "  help: define it by a count of the family or a macro\n"},
@@ -244,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
         RuleRow{"call", "@include(\"b.glsl\");", "#version 450 core\nint begin;\nimported\nend\n"},
         RuleRow{"within_a_comment", "/*\n#include <nothing>\n*/", "#version 450 core\nint begin;\nend\n"},
         RuleRow{"missing", "#include <nothing>",
-                "tiny.frag:2:1: error: no piece 'chunks/nothing.glsl'\n"
+                "tiny.frag:2:1: error: no piece 'chunks/nothing.glsl' [default]\n"
                 "    #include <nothing>\n"
                 "    ^\n"
                 "  help: searched .; nearest: 'chunks/fog.glsl'\n"}),
