@@ -437,12 +437,70 @@ class Composer {
         return {};
     }
 
+    /// Every identifier that the stages of any key may hold: of all that templates include, whichever value
+    /// chooses it and whatever conditions say.
+    std::set<std::string, std::less<>> all_identifiers() {
+        std::set<std::string, std::less<>> identifiers;
+        const auto add = [&](std::string_view text) {
+            for (const std::string_view name : identifiers_of(text)) identifiers.emplace(name);
+        };
+        for (const Feature& feature : family_.features)
+            for (const auto& [value, text] : feature.texts) add(text.value_or(""));
+        for (const PrologueText& part : family_.prologue) add(part.text);
+        for (const Varying& varying : family_.varyings) add(varying.name + " " + varying.value);
+        for (const StageNames& stage : kStages)
+            for (const Source* source : reachable(stage.kind))
+                for (const int piece : source->pieces) add(composition_.piece(piece).text);
+        return identifiers;
+    }
+
     Composition result() && {
         library_.add_warnings();
         return std::move(composition_);
     }
 
   private:
+    /// The files that the stage of any key may hold.
+    std::set<const Source*> reachable(StageKind stage) {
+        Key key = default_key(family_);
+        library_.substitute_for(key, stage);
+        std::vector<std::pair<Include, const Source*>> open;
+        const auto ask = [&](const std::string& path) {
+            open.push_back({{false, path, {family_.path, 0, 0}, ""}, nullptr});
+        };
+        for (const Templates& templates : family_.programs) std::ranges::for_each(templates[stage], ask);
+        if (stage == StageKind::vertex)
+            for (const Varying& varying : family_.varyings)
+                if (!varying.piece.empty()) ask(varying.piece);
+        std::set<const Source*> found;
+        const auto visit = [&](int file) {
+            const Source& source = library_.source(file);
+            if (!found.insert(&source).second) return;
+            for (const Include& needed : source.includes) open.emplace_back(needed, &source);
+            for (const Directive& directive : source.directives)
+                if (directive.word == "include")
+                    if (const auto below = read_include(directive)) open.emplace_back(*below, &source);
+        };
+        for (const PrologueText& part : family_.prologue)
+            if (const auto file = library_.prologue(part)) visit(*file);
+        while (!open.empty()) {
+            const auto [include, from] = open.back();
+            open.pop_back();
+            const std::optional<int> index =
+                include.in_angles ? family_.index_of(include.target.substr(0, include.target.find('/')))
+                                  : std::nullopt;
+            const std::size_t values =
+                index ? family_.features[static_cast<std::size_t>(*index)].values.size() : 1;
+            for (std::size_t value = 0; value < values; ++value) {
+                if (index) key[static_cast<std::size_t>(*index)] = static_cast<int>(value);
+                const auto file = library_.find(include, key, stage, from);
+                if (file && *file) visit(**file);  // what is missing is told where a key asks for it
+            }
+            if (index) key[static_cast<std::size_t>(*index)] = 0;
+        }
+        return found;
+    }
+
     Result<void> follow_templates(Placement& placement) {
         const std::vector<std::string>& paths = family_.templates_of(placement.key)[placement.stage];
         if (paths.empty()) return {};
@@ -816,6 +874,11 @@ Result<Composition> compose(const Family& family, const std::vector<Key>& keys, 
         return tl::unexpected(std::move(added.error()));
     }
     return std::move(composer).result();
+}
+
+std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family, const SearchPath& search,
+                                                           Dialect dialect) {
+    return Composer(family, search, dialect, Comments::remove).all_identifiers();
 }
 
 }  // namespace gobo

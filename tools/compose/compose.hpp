@@ -1,6 +1,9 @@
 // From a family and keys to the distinct pieces, the stages as lists of them, and the permutations.
 #pragma once
 
+#include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -14,5 +17,10 @@ namespace gobo {
 [[nodiscard]] Result<Composition> compose(const Family& family, const std::vector<Key>& keys,
                                           const SearchPath& search, Dialect dialect,
                                           Comments comments = Comments::remove);
+
+/// Every identifier that the shaders of any key may hold, of all dialects' conditions.
+[[nodiscard]] std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family,
+                                                                         const SearchPath& search,
+                                                                         Dialect dialect);
 
 }  // namespace gobo

@@ -9,7 +9,6 @@
 #include "compose/scan_piece.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
-#include "family/key.hpp"
 
 namespace gobo {
 namespace {
@@ -46,27 +45,22 @@ std::string unknown_part(const std::string& name, const std::set<std::string, st
 Diagnostics unknown_names(const Family& family, const SearchPath& search, const Composition& composition) {
     std::vector<Named> names = names_of(family);
     std::set<std::string, std::less<>> identifiers;
-    bool are_joined = false;  // by ##: names stand nowhere in the text then
-    const auto drop_known = [&](const Composition& more) {
-        for (const Piece& piece : more.pieces) {
-            for (const std::string_view name : identifiers_of(piece.text)) identifiers.emplace(name);
-            are_joined = are_joined || piece.text.find("##") != std::string::npos;
-        }
+    const auto drop_known = [&] {
         std::erase_if(names,
                       [&](const Named& named) { return unknown_part(named.name, identifiers).empty(); });
     };
-    if (!names.empty()) drop_known(composition);
-    for (std::size_t feature = 0; feature < family.features.size() && !names.empty(); ++feature) {
-        const bool is_count = family.features[feature].kind == FeatureKind::count;
-        const auto values = static_cast<int>(family.features[feature].values.size());
-        for (int value = 1; value < (is_count ? 2 : values) && !names.empty(); ++value) {
-            Key key = default_key(family);
-            key[feature] = value;
-            if (const auto other = compose(family, {key}, search, composition.dialect)) drop_known(*other);
-        }
+    // What joins names by ## or replaces them has them nowhere in its text.
+    bool is_rewritten = std::ranges::any_of(
+        family.features, [](const Feature& feature) { return !feature.substituted.empty(); });
+    for (const Piece& piece : composition.pieces) {
+        for (const std::string_view name : identifiers_of(piece.text)) identifiers.emplace(name);
+        is_rewritten = is_rewritten || piece.text.find("##") != std::string::npos;
     }
+    drop_known();
+    if (names.empty() || is_rewritten) return {};
+    identifiers.merge(identifiers_of_all_keys(family, search, composition.dialect));
+    drop_known();
     Diagnostics errors;
-    if (are_joined) return errors;
     std::ranges::stable_sort(names, {}, [](const Named& named) { return named.place.line; });
     for (const Named& named : names) {
         const std::string part = unknown_part(named.name, identifiers);

@@ -7,7 +7,7 @@
 namespace gobo {
 
 /// An error for each name under [domain], [render] and [[relations]] of the family's own file that no key's
-/// shaders mention. Other keys than those of `composition` are composed only for names that it lacks.
+/// shaders mention. Files that no key of `composition` has are read only for names that it lacks.
 [[nodiscard]] Diagnostics unknown_names(const Family& family, const SearchPath& search,
                                         const Composition& composition);
 
