@@ -152,10 +152,11 @@ Shaded shaded_by(const evaluate::Program& fragment, const evaluate::Invocations&
 /// One stage alone, as a permutation of only this.
 Composition alone(const Composition& composition, int stage) {
     const Stage& source = composition.stages[static_cast<std::size_t>(stage)];
-    const bool is_vertex = source.kind == StageKind::vertex;
     Composition result = composition;
     result.stages = {source};
-    result.permutations = {{composition.permutations.front().key, is_vertex ? 0 : -1, is_vertex ? -1 : 0}};
+    Permutation permutation{composition.permutations.front().key};
+    permutation.stages[source.kind] = 0;
+    result.permutations = {std::move(permutation)};
     return result;
 }
 
