@@ -50,13 +50,15 @@ TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
 
 TEST(SearchPath, RefusesAPieceThatAFileHoldsTwice) {
     MemoryFileSystem files({{"lib/fog.glsl", "#piece linear\na\n#piece none\nb\n#piece linear\nc\n"},
-                            {"lib/light.glsl", "#piece linear\nd\n"}});
+                            {"lib/light.glsl", "#piece off\n\n#piece on\nd\n"}});
     SearchPath search;
     search.add(files, "lib", "lib/", false);
     EXPECT_EQ(to_text(search.find("fog/linear.glsl").error().front()),
               "lib/fog.glsl:5:1: error: the piece 'linear' is here twice\n    #piece linear\n    ^\n"
               "  help: give one of them another name\n");
     EXPECT_EQ(search.find("fog/none.glsl").value().value().text, "\n\n\nb\n");
+    EXPECT_EQ(search.find("light/off.glsl").value().value().text, "\n\n") << "one may be empty";
+    EXPECT_EQ(search.find("light/dim.glsl").value(), std::nullopt);
 }
 
 TEST(SearchPath, FindsPiecesThatShareAFile) {

@@ -35,17 +35,17 @@ std::optional<std::string> section_of(const std::string& text, const std::string
     if (text.find("#piece ") == std::string::npos) return name.empty() ? std::optional(text) : std::nullopt;
     std::string section;
     bool is_inside = name.empty();
-    bool has_code = false;
+    bool is_piece = false;  // a marked one may be empty
     for_each_line(text, [&](std::string_view line) {
         const std::optional<std::string_view> mark = marked(line);
         if (mark && is_inside) return false;
-        if (mark) is_inside = *mark == name;
+        if (mark) is_piece = is_inside = *mark == name;
         if (is_inside && !mark) section += line;
-        has_code = has_code || (is_inside && !mark && !line.empty() && !line.starts_with("//"));
+        is_piece = is_piece || (is_inside && !line.empty() && !line.starts_with("//"));
         section += '\n';
         return true;
     });
-    return has_code ? std::optional(std::move(section)) : std::nullopt;
+    return is_piece ? std::optional(std::move(section)) : std::nullopt;
 }
 
 /// "a/b.frag" -> "b.frag"
