@@ -1,5 +1,6 @@
 // What OpenGL had built in before 3.1, for families that say `compatibility = true`: in their files `gl_Vertex` is
 // read as `legacy_Vertex` and so on, and of these pieces a stage takes those whose name it mentions.
+// Lookups are functions, since a variable may be called `texture`.
 // Source: The OpenGL Shading Language 1.20, sections 7.1 to 7.6 and 8.7.
 
 #piece ModelViewMatrix
@@ -20,6 +21,24 @@ uniform mat4 legacy_ModelViewProjectionMatrix;
 #piece ModelViewProjectionMatrixInverse
 uniform mat4 legacy_ModelViewProjectionMatrixInverse;
 
+#piece ModelViewMatrixTranspose
+uniform mat4 legacy_ModelViewMatrixTranspose;
+
+#piece ModelViewMatrixInverseTranspose
+uniform mat4 legacy_ModelViewMatrixInverseTranspose;
+
+#piece ProjectionMatrixTranspose
+uniform mat4 legacy_ProjectionMatrixTranspose;
+
+#piece ProjectionMatrixInverseTranspose
+uniform mat4 legacy_ProjectionMatrixInverseTranspose;
+
+#piece ModelViewProjectionMatrixTranspose
+uniform mat4 legacy_ModelViewProjectionMatrixTranspose;
+
+#piece ModelViewProjectionMatrixInverseTranspose
+uniform mat4 legacy_ModelViewProjectionMatrixInverseTranspose;
+
 #piece NormalMatrix
 uniform mat3 legacy_NormalMatrix;
 
@@ -37,7 +56,7 @@ uniform mat4 legacy_TextureMatrix[8];
 
 #piece in.frag
 #if __VERSION__ >= 130
-#define LEGACY_IN in
+#define LEGACY_IN in highp
 #else
 #define LEGACY_IN varying
 #endif
@@ -78,6 +97,22 @@ LEGACY_IN vec4 legacy_MultiTexCoord2;
 #include "compatibility/in.glsl"
 LEGACY_IN vec4 legacy_MultiTexCoord3;
 
+#piece MultiTexCoord4
+#include "compatibility/in.glsl"
+LEGACY_IN vec4 legacy_MultiTexCoord4;
+
+#piece MultiTexCoord5
+#include "compatibility/in.glsl"
+LEGACY_IN vec4 legacy_MultiTexCoord5;
+
+#piece MultiTexCoord6
+#include "compatibility/in.glsl"
+LEGACY_IN vec4 legacy_MultiTexCoord6;
+
+#piece MultiTexCoord7
+#include "compatibility/in.glsl"
+LEGACY_IN vec4 legacy_MultiTexCoord7;
+
 #piece FrontColor
 #include "compatibility/in.glsl"
 LEGACY_OUT vec4 legacy_FrontColor;
@@ -93,6 +128,17 @@ LEGACY_OUT vec4 legacy_FrontSecondaryColor;
 #piece FrontSecondaryColor.frag
 #include "compatibility/in.glsl"
 LEGACY_IN vec4 legacy_FrontSecondaryColor;
+
+#piece BackColor
+#include "compatibility/in.glsl"
+LEGACY_OUT vec4 legacy_BackColor;
+
+#piece BackSecondaryColor
+#include "compatibility/in.glsl"
+LEGACY_OUT vec4 legacy_BackSecondaryColor;
+
+#piece TextureEnvColor
+uniform vec4 legacy_TextureEnvColor[8];
 
 #piece TexCoord
 #include "compatibility/in.glsl"
@@ -112,14 +158,14 @@ LEGACY_IN float legacy_FogFragCoord;
 
 #piece FragColor
 #if __VERSION__ >= 130
-out vec4 legacy_FragColor;
+out highp vec4 legacy_FragColor;
 #else
 #define legacy_FragColor gl_FragColor
 #endif
 
 #piece FragData
 #if __VERSION__ >= 130
-out vec4 legacy_FragData[8];
+out highp vec4 legacy_FragData[8];
 #else
 #define legacy_FragData gl_FragData
 #endif
@@ -210,45 +256,104 @@ uniform legacy_FogParameters legacy_Fog;
 
 #piece texture1D
 #if __VERSION__ >= 130
-#define texture1D texture
+highp vec4 legacy_texture1D(sampler1D map, highp float place) { return texture(map, place); }
+#define texture1D legacy_texture1D
+#endif
+
+#piece texture1D.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture1D(sampler1D map, highp float place) { return texture(map, place); }
+highp vec4 legacy_texture1D(sampler1D map, highp float place, highp float bias) { return texture(map, place, bias); }
+#define texture1D legacy_texture1D
 #endif
 
 #piece texture2D
 #if __VERSION__ >= 130
-#define texture2D texture
+highp vec4 legacy_texture2D(sampler2D map, highp vec2 place) { return texture(map, place); }
+#define texture2D legacy_texture2D
+#endif
+
+#piece texture2D.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture2D(sampler2D map, highp vec2 place) { return texture(map, place); }
+highp vec4 legacy_texture2D(sampler2D map, highp vec2 place, highp float bias) { return texture(map, place, bias); }
+#define texture2D legacy_texture2D
 #endif
 
 #piece texture3D
 #if __VERSION__ >= 130
-#define texture3D texture
+highp vec4 legacy_texture3D(highp sampler3D map, highp vec3 place) { return texture(map, place); }
+#define texture3D legacy_texture3D
+#endif
+
+#piece texture3D.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture3D(highp sampler3D map, highp vec3 place) { return texture(map, place); }
+highp vec4 legacy_texture3D(highp sampler3D map, highp vec3 place, highp float bias) { return texture(map, place, bias); }
+#define texture3D legacy_texture3D
 #endif
 
 #piece textureCube
 #if __VERSION__ >= 130
-#define textureCube texture
+highp vec4 legacy_textureCube(samplerCube map, highp vec3 place) { return texture(map, place); }
+#define textureCube legacy_textureCube
+#endif
+
+#piece textureCube.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_textureCube(samplerCube map, highp vec3 place) { return texture(map, place); }
+highp vec4 legacy_textureCube(samplerCube map, highp vec3 place, highp float bias) { return texture(map, place, bias); }
+#define textureCube legacy_textureCube
 #endif
 
 #piece texture2DProj
 #if __VERSION__ >= 130
-#define texture2DProj textureProj
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec3 place) { return textureProj(map, place); }
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec4 place) { return textureProj(map, place); }
+#define texture2DProj legacy_texture2DProj
+#endif
+
+#piece texture2DProj.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec3 place) { return textureProj(map, place); }
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec3 place, highp float bias) { return textureProj(map, place, bias); }
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec4 place) { return textureProj(map, place); }
+highp vec4 legacy_texture2DProj(sampler2D map, highp vec4 place, highp float bias) { return textureProj(map, place, bias); }
+#define texture2DProj legacy_texture2DProj
 #endif
 
 #piece texture2DLod
 #if __VERSION__ >= 130
-#define texture2DLod textureLod
+highp vec4 legacy_texture2DLod(sampler2D map, highp vec2 place, highp float lod) { return textureLod(map, place, lod); }
+#define texture2DLod legacy_texture2DLod
 #endif
 
 #piece textureCubeLod
 #if __VERSION__ >= 130
-#define textureCubeLod textureLod
+highp vec4 legacy_textureCubeLod(samplerCube map, highp vec3 place, highp float lod) { return textureLod(map, place, lod); }
+#define textureCubeLod legacy_textureCubeLod
 #endif
 
 #piece shadow2D
 #if __VERSION__ >= 130
-#define shadow2D(map, place) vec4(texture(map, place))
+highp vec4 legacy_shadow2D(highp sampler2DShadow map, highp vec3 place) { return vec4(texture(map, place)); }
+#define shadow2D legacy_shadow2D
 #endif
 
 #piece shadow2DProj
 #if __VERSION__ >= 130
-#define shadow2DProj(map, place) vec4(textureProj(map, place))
+highp vec4 legacy_shadow2DProj(highp sampler2DShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+#define shadow2DProj legacy_shadow2DProj
+#endif
+
+#piece texture2DLodEXT
+#include "compatibility/texture2DLod.glsl"
+#if __VERSION__ >= 130
+#define texture2DLodEXT texture2DLod
+#endif
+
+#piece textureCubeLodEXT
+#include "compatibility/textureCubeLod.glsl"
+#if __VERSION__ >= 130
+#define textureCubeLodEXT textureCubeLod
 #endif

@@ -226,7 +226,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = [4, 4]\n"
      "            ^\n"
-     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST above LEAST\n"},
     {"version_unknown", "version = \"335 core\"\n",
      "tiny.toml:4:11: error: GLSL has no version '335 core'\n"
      "    version = \"335 core\"\n"
@@ -325,7 +325,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = 4\n"
      "            ^\n"
-     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST above LEAST\n"},
     {"count_without_constant",
      "[features.point]\n"
      "count = [0, 4]\n",
@@ -551,10 +551,10 @@ const BadRow bad_rows[] = {
     {"default_set_negative_cover",
      "[default_set]\n"
      "cover = -2\n",
-     "tiny.toml:4:1: error: [default_set] selects nothing\n"
-     "    [default_set]\n"
-     "    ^\n"
-     "  help: add keys = [...], all = true or cover = 2\n"},
+     "tiny.toml:5:9: error: [default_set] has no valid cover\n"
+     "    cover = -2\n"
+     "            ^\n"
+     "  help: write cover = T, a whole number from 1 to 8\n"},
     {"default_set_of_wrong_type",
      "[default_set]\n"
      "all = 1\n",

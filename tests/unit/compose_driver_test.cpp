@@ -105,10 +105,11 @@ INSTANTIATE_TEST_SUITE_P(
                   "version = \"330 core\"\n[prologue]\nfragment = '''\nout vec4 color;\nconst float shade = "
                   "0.5;\n'''\n",
                   "default", core_vertex, "void main() { color = vec4(shade); }\n", ""},
-        FamilyRow{"mistake_in_the_prologue",
-                  "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float shade = "
-                  "oops;\n'''\n",
-                  "default", core_vertex, "void main() { color = vec4(shade); }\n", "tiny.toml:9"},
+        FamilyRow{
+            "mistake_in_the_prologue",
+            "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float shade = "
+            "oops;\n'''\n",
+            "default", core_vertex, "void main() { color = vec4(shade); }\n", "tiny.toml:9"},
         FamilyRow{"mistake_behind_the_prologue",
                   "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\n'''\n", "default",
                   core_vertex, "void main() { color = vec4(oops); }\n", "tiny.frag:1"},
@@ -159,6 +160,21 @@ INSTANTIATE_TEST_SUITE_P(
                   "void main() {\n    gl_FragColor = gl_Color * texture2D(map, gl_TexCoord[0].xy) *\n"
                   "                   shadow2D(shadow, gl_TexCoord[0].xyz).r * gl_FrontMaterial.shininess;\n"
                   "}\n",
+                  ""},
+        FamilyRow{"legacy_array_sized_again", "version = \"150\"\ncompatibility = true\n", "default",
+                  "varying vec4 gl_TexCoord[2];\n"
+                  "void main() { gl_TexCoord[1] = gl_MultiTexCoord4; gl_Position = ftransform(); }\n",
+                  "in vec4\n  gl_TexCoord [2] ;\nvoid main() { gl_FragColor = gl_TexCoord[1]; }\n", ""},
+        FamilyRow{"legacy_beside_a_variable_called_texture", "version = \"150\"\ncompatibility = true\n",
+                  "default", "void main() { gl_BackColor = gl_Color; gl_Position = ftransform(); }\n",
+                  "uniform sampler2D texture;\n"
+                  "void main() { gl_FragColor = texture2D(texture, vec2(0.5), 1.0); }\n",
+                  ""},
+        FamilyRow{"legacy_before_its_precision", "version = \"300 es\"\ncompatibility = true\n", "default",
+                  "attribute vec3 position;\nvarying vec2 uv;\n"
+                  "void main() { uv = position.xy; gl_Position = vec4(position, 1.0); }\n",
+                  "precision mediump float;\nvarying vec2 uv;\nuniform sampler2D map;\n"
+                  "void main() { gl_FragColor = texture2D(map, uv) + texture2DLodEXT(map, uv, 1.0); }\n",
                   ""},
         FamilyRow{"mistake_in_legacy", "version = \"150\"\ncompatibility = true\n", "default",
                   "\nvoid main() { gl_Position = ftransform(); oops; }\n",

@@ -217,9 +217,10 @@ class PieceLibrary {
     /// The number of a file, which is scanned where it is new, as the family rewrites it.
     Result<int> add_file(Piece piece, std::string folder, std::string root) {
         if (piece.file_text.empty()) piece.file_text = piece.text;
-        const std::string text = substitutions_.empty() || folder == kLegacyFolder
-                                     ? piece.text
-                                     : substituted(piece.text, substitutions_);
+        std::string text = substitutions_.empty() || folder == kLegacyFolder
+                               ? piece.text
+                               : substituted(piece.text, substitutions_);
+        if (family_.compatibility && folder != kLegacyFolder) text = without_redeclarations(std::move(text));
         const auto [found, is_unread] = by_file_.try_emplace(
             {piece.path, piece.name, text == piece.text ? "" : text}, static_cast<int>(sources_.size()));
         if (!is_unread) return found->second;
@@ -540,7 +541,12 @@ class Composer {
 
     /// Refuses a file whose version is not the one that the family states.
     Result<void> check_version(const Source& source) const {
-        const auto plain = [](std::string_view version) { return version.substr(0, version.find(" core")); };
+        const auto plain = [](std::string_view version) {
+            std::string text;  // with one blank where there are several
+            for (const char character : version)
+                if (character != ' ' || !text.ends_with(' ')) text += character;
+            return text.substr(0, text.find(" core"));
+        };
         const bool is_free =
             source.version.empty() || family_.version.empty() || composition_.dialect != Dialect::own;
         if (is_free || plain(source.version) == plain(family_.version)) return {};

@@ -1,6 +1,8 @@
 #include "compose/rewrite.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <optional>
 #include <regex>
 
@@ -47,19 +49,55 @@ bool is_of_family(std::string_view line, const Family& family) {
     return name == "varyings" || (index && family.features[static_cast<std::size_t>(*index)].macro.empty());
 }
 
+/// The identifier that ends at `end`, blanks behind it aside.
+std::string_view word_before(std::string_view text, std::size_t end) {
+    while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1])) != 0) --end;
+    std::size_t begin = end;
+    while (begin > 0 && is_identifier_part(text[begin - 1])) --begin;
+    return text.substr(begin, end - begin);
+}
+
 }  // namespace
+
+std::string without_redeclarations(std::string text) {
+    constexpr std::array kQualifiers = {"varying", "in",    "out",     "centroid",
+                                        "smooth",  "highp", "mediump", "lowp"};
+    constexpr std::string_view name = "legacy_TexCoord";
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        const std::string_view all = text;
+        std::string_view word = word_before(all, at);
+        const std::size_t end = all.find_first_not_of(" \t\n", at + name.size());
+        if (word != "vec4" || end == std::string_view::npos || all[end] != '[') continue;
+        const std::size_t last = all.find_first_of(";{}", end);
+        if (last == std::string_view::npos || all[last] != ';') continue;
+        auto begin = static_cast<std::size_t>(word.data() - all.data());
+        for (word = word_before(all, begin); std::ranges::find(kQualifiers, word) != kQualifiers.end();
+             word = word_before(all, begin))
+            begin = static_cast<std::size_t>(word.data() - all.data());
+        for (std::size_t i = begin; i <= last; ++i)
+            if (text[i] != '\n') text[i] = ' ';
+    }
+    return text;
+}
 
 const std::vector<std::string>& legacy_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all = {"attribute",      "varying",     "texture1D",     "texture2D",
-                                        "texture3D",      "textureCube", "texture2DProj", "texture2DLod",
-                                        "textureCubeLod", "shadow2D",    "shadow2DProj",  "ftransform"};
+        std::vector<std::string> all = {
+            "attribute",         "varying",       "texture1D",    "texture2D",      "texture3D",
+            "textureCube",       "texture2DProj", "texture2DLod", "textureCubeLod", "texture2DLodEXT",
+            "textureCubeLodEXT", "shadow2D",      "shadow2DProj", "ftransform"};
         for (const char* name : {"ModelViewMatrix",
                                  "ModelViewMatrixInverse",
+                                 "ModelViewMatrixTranspose",
+                                 "ModelViewMatrixInverseTranspose",
                                  "ProjectionMatrix",
                                  "ProjectionMatrixInverse",
+                                 "ProjectionMatrixTranspose",
+                                 "ProjectionMatrixInverseTranspose",
                                  "ModelViewProjectionMatrix",
                                  "ModelViewProjectionMatrixInverse",
+                                 "ModelViewProjectionMatrixTranspose",
+                                 "ModelViewProjectionMatrixInverseTranspose",
                                  "NormalMatrix",
                                  "TextureMatrix",
                                  "Vertex",
@@ -71,8 +109,15 @@ const std::vector<std::string>& legacy_names() {
                                  "MultiTexCoord1",
                                  "MultiTexCoord2",
                                  "MultiTexCoord3",
+                                 "MultiTexCoord4",
+                                 "MultiTexCoord5",
+                                 "MultiTexCoord6",
+                                 "MultiTexCoord7",
                                  "FrontColor",
                                  "FrontSecondaryColor",
+                                 "BackColor",
+                                 "BackSecondaryColor",
+                                 "TextureEnvColor",
                                  "TexCoord",
                                  "FogFragCoord",
                                  "FragColor",

@@ -30,6 +30,10 @@ inline constexpr std::string_view kLegacyFolder = "compatibility";
 /// is not found within a longer name.
 [[nodiscard]] std::string substituted(std::string_view text, const Substitutions& substitutions);
 
+/// The text without `varying vec4 legacy_TexCoord[2];`, by which old shaders size what they had built in:
+/// blanks stand there.
+[[nodiscard]] std::string without_redeclarations(std::string text);
+
 /// The head of a loop: `for (int i = 0; i < COUNT; i++) {`.
 struct LoopHead {
     std::size_t begin;  ///< in the text

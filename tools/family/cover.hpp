@@ -8,6 +8,9 @@
 
 namespace gobo {
 
+/// Covers of more features at once have too many keys to be of use.
+inline constexpr int kLargestCover = 8;
+
 /// Keys of the space that together contain every combination of `strength` feature values that some key of
 /// the space contains. Sorted; the same for the same space. A strength above the number of features asks for
 /// all keys.

@@ -1,12 +1,12 @@
 #include "family/read_family.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "core/glsl_version.hpp"
 #include "core/text.hpp"
+#include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/read_features.hpp"
 #include "family/toml_reader.hpp"
@@ -192,11 +192,14 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
     Selection selection;
     for (const std::string& text : table->strings("keys")) selection.keys.push_back({text});
     selection.all = table->boolean("all").value_or(false);
-    selection.cover = static_cast<int>(
-        std::clamp<std::int64_t>(table->integer("cover").value_or(0), 0, std::numeric_limits<int>::max()));
+    const std::optional<std::int64_t> cover = table->integer("cover");
+    if (cover && (*cover < 1 || *cover > kLargestCover))
+        table->error("cover", "has no valid cover",
+                     fmt::format("write cover = T, a whole number from 1 to {}", kLargestCover));
+    selection.cover = static_cast<int>(std::clamp<std::int64_t>(cover.value_or(0), 0, kLargestCover));
     selection.over = table->strings("over");
     selection.where = table->string("where").value_or("");
-    if (selection.names_nothing())
+    if (selection.names_nothing() && !cover)
         table->error({}, "selects nothing", "add keys = [...], all = true or cover = 2");
     if (root.reader.failed()) return selection;
     // Errors in its keys, features and condition are the family's, not those of who uses it.

@@ -70,7 +70,8 @@ void read_count(const TomlTable& table, Feature& feature) {
     if (bound(0) < 0 || bound(1) <= bound(0) || bound(1) > kLargestCount)
         return table.error(
             "count", "has no valid count",
-            fmt::format("write count = [LEAST, MOST], whole numbers from 0 to {}", kLargestCount));
+            fmt::format("write count = [LEAST, MOST], whole numbers from 0 to {}, MOST above LEAST",
+                        kLargestCount));
     feature.lowest = static_cast<int>(bound(0));
     for (std::int64_t i = bound(0); i <= bound(1); ++i) feature.values.push_back(std::to_string(i));
 }

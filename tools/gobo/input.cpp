@@ -11,6 +11,7 @@
 #include "compose/dialect.hpp"
 #include "compose/known_names.hpp"
 #include "core/text.hpp"
+#include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "scene/read_scene.hpp"
@@ -254,7 +255,7 @@ OptionGroup selection_options(SelectionOptions& options) {
               &options.bucket_lights},
              {"--all", "", "Every valid key", &options.more.all},
              {"--cover", "T", "Few keys that contain every combination of T feature values",
-              &options.more.cover, between(1, 8)},
+              &options.more.cover, between(1, kLargestCover)},
              {"--over", "A,B,...", "Features that --all and --cover vary; the others stand at their defaults",
               &options.more.over},
              {"--where", "EXPR", "Condition on the keys, such as 'point <= 2 && fog != none'",

@@ -99,6 +99,11 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
 
 Result<void> refuse_other_stages(const Family& family, const Composition& composition,
                                  const std::string& what, bool wants_pair) {
+    const auto program = family.index_of("program");
+    const std::string help =
+        program ? fmt::format("leave such keys out: --where 'program == {}'",
+                              family.features[static_cast<std::size_t>(*program)].values.front())
+                : "";
     for (const Permutation& permutation : composition.permutations)
         for (const StageNames& stage : kStages) {
             const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
@@ -106,7 +111,8 @@ Result<void> refuse_other_stages(const Family& family, const Composition& compos
             if (is_usual ? has || !wants_pair : !has) continue;
             Diagnostics errors = fail(Place{family.path}, "",
                                       fmt::format("{} a vertex and a fragment stage, and here is {} {} stage",
-                                                  what, has ? "a" : "no", stage.name))
+                                                  what, has ? "a" : "no", stage.name),
+                                      help)
                                      .value();
             if (!permutation.key.empty()) errors.front().subject = key_text(family, permutation.key);
             return tl::unexpected(std::move(errors));
