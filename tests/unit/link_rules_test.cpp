@@ -474,6 +474,43 @@ const Row outputs[] = {
 };
 
 constexpr auto name_of_row = [](const auto& row) { return std::string(row.param.name); };
+const Row language[] = {
+    {"lod_query",
+     "330 core",
+     plain,
+     "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = vec4(textureQueryLod(map, vec2(0.5)), 0.0, "
+     "1.0); }\n",
+     Mesa::refuses,
+     {"tiny.frag:4: error: textureQueryLod() came with GLSL 4.00"}},
+    {"lod_query_by_extension",
+     "330 core",
+     plain,
+     "#extension GL_ARB_texture_query_lod : require\nuniform sampler2D map;\nout vec4 c;\n"
+     "void main() { c = vec4(textureQueryLOD(map, vec2(0.5)), 0.0, 1.0); }\n",
+     Mesa::links,
+     {}},
+    {"block_indexed_by_a_variable",
+     "330 core",
+     plain,
+     "layout(std140) uniform B { vec4 v; } b[2];\nuniform int k;\nout vec4 c;\nvoid main() { c = b[k].v; }\n",
+     Mesa::refuses,
+     {"the array of blocks 'B' is indexed by what is no constant, which came with GLSL 4.00"}},
+    {"block_indexed_by_a_constant",
+     "330 core",
+     plain,
+     "layout(std140) uniform B { vec4 v; } b[2];\nout vec4 c;\nvoid main() { c = b[1].v; }\n",
+     Mesa::links,
+     {}},
+    {"constant_of_vulkan",
+     "450",
+     plain,
+     "layout(constant_id = 0) const int k = 3;\nlayout(location = 0) out vec4 c;\nvoid main() { c = vec4(k); "
+     "}\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: OpenGL's GLSL has no constant_id: it is Vulkan's"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Language, LinkRule, testing::ValuesIn(language), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Varyings, LinkRule, testing::ValuesIn(varyings), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Names, LinkRule, testing::ValuesIn(names), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Places, LinkRule, testing::ValuesIn(places), name_of_row);

@@ -25,6 +25,7 @@ class StageCheck {
           kind_(static_cast<StageKind>(module.entry_points.front().model)) {}
 
     Diagnostics run(bool places_vertices) {
+        check_language();
         if (places_vertices) check_position();
         if (kind_ == StageKind::compute) check_local_size();
         if (kind_ == StageKind::fragment) {
@@ -38,6 +39,44 @@ class StageCheck {
   private:
     void warn(const Declaration& at, std::string message, std::string help) {
         found_.push_back(diagnostic_at(at, Severity::warning, std::move(message), std::move(help)));
+    }
+
+    void refuse(const Declaration& at, std::string message, std::string help) {
+        found_.push_back(diagnostic_at(at, Severity::error, std::move(message), std::move(help)));
+    }
+
+    /// What glslang takes although OpenGL, or the version, has it not.
+    void check_language() {
+        for (const auto& [place, literal] : module_.decorations)
+            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId)
+                return refuse(use_of("constant_id", pieces_),
+                              "OpenGL's GLSL has no constant_id: it is Vulkan's",
+                              "write a #define, or make it a count or a choice of the family");
+        const std::string& prologue = pieces_.front()->text;
+        const GlslVersion version = version_of(prologue);
+        if (version.es || version.number >= 400) return;
+        const bool queries_lods = prologue.find("GL_ARB_texture_query_lod ") != std::string::npos;
+        const bool indexes_blocks = prologue.find("GL_ARB_gpu_shader5 ") != std::string::npos;
+        for (const spirv::Instruction& instruction : module_.instructions) {
+            if (instruction.opcode == spv::OpImageQueryLod && !queries_lods)
+                return refuse(use_of("textureQueryLod", pieces_), "textureQueryLod() came with GLSL 4.00",
+                              "state #version 400, or #extension GL_ARB_texture_query_lod : require");
+            if (instruction.opcode == spv::OpAccessChain && !indexes_blocks) check_block_index(instruction);
+        }
+    }
+
+    void check_block_index(const spirv::Instruction& access) {
+        const auto variable = std::ranges::find(module_.variables, access.id(3), &spirv::Variable::id);
+        if (variable == module_.variables.end() || variable->storage != spv::StorageClassUniform) return;
+        const spirv::Type& type = module_.type(variable->type);
+        if (!type.is_array() || module_.integers.contains(access.id(4))) return;
+        const std::string block = spirv::type_name(module_, type.element);
+        const Place place = module_.place(access.line);
+        refuse(place.line > 0 ? Declaration{place, "", false} : declared(block),
+               fmt::format(
+                   "the array of blocks '{}' is indexed by what is no constant, which came with GLSL 4.00",
+                   block),
+               "state #version 400, or put an array into one block");
     }
 
     [[nodiscard]] Declaration declared(const std::string& name) const {
