@@ -554,7 +554,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: [default_set] has no valid cover\n"
      "    cover = -2\n"
      "            ^\n"
-     "  help: write cover = T, a whole number from 1 to 8\n"},
+     "  help: write cover = T, a whole number from 0, for none, to 8\n"},
     {"default_set_of_wrong_type",
      "[default_set]\n"
      "all = 1\n",

@@ -193,13 +193,13 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
     for (const std::string& text : table->strings("keys")) selection.keys.push_back({text});
     selection.all = table->boolean("all").value_or(false);
     const std::optional<std::int64_t> cover = table->integer("cover");
-    if (cover && (*cover < 1 || *cover > kLargestCover))
+    if (cover && (*cover < 0 || *cover > kLargestCover))
         table->error("cover", "has no valid cover",
-                     fmt::format("write cover = T, a whole number from 1 to {}", kLargestCover));
+                     fmt::format("write cover = T, a whole number from 0, for none, to {}", kLargestCover));
     selection.cover = static_cast<int>(std::clamp<std::int64_t>(cover.value_or(0), 0, kLargestCover));
     selection.over = table->strings("over");
     selection.where = table->string("where").value_or("");
-    if (selection.names_nothing() && !cover)
+    if (selection.names_nothing() && cover.value_or(0) == 0)
         table->error({}, "selects nothing", "add keys = [...], all = true or cover = 2");
     if (root.reader.failed()) return selection;
     // Errors in its keys, features and condition are the family's, not those of who uses it.
