@@ -21,7 +21,7 @@ struct CommonOptions {
     std::string library;  ///< a folder to read shader_lib and templates from instead of the embedded ones
     std::string color = "auto";
     bool quiet = false;
-    bool follow = false;  ///< links out of the folders that are searched for pieces
+    bool follow = false;      ///< links out of the folders that are searched for pieces
     bool in_process = false;  ///< glslang runs in this process, not in children
 };
 [[nodiscard]] OptionGroup common_options(CommonOptions& options);
@@ -90,7 +90,7 @@ struct SelectionOptions {
 
 /// What a budget chooses qualities by.
 struct BudgetOptions : Budget {
-    std::string study;  ///< a study.csv or summary.csv; empty: the shipped one of the family
+    std::string study;                   ///< a study.csv or summary.csv; empty: the shipped one of the family
     std::vector<std::string> gpus = {};  ///< chips whose cycles are the cost
 };
 [[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
