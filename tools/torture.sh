@@ -192,7 +192,7 @@ else
   skipped "$what"
 fi
 
-# Streams, pipes, limits, surroundings.
+# Streams, pipes, limits, the environment.
 one 'standard output closed: status 3' exits 3 sh -c '"$0" list lit >&-' "$gobo"
 one 'all streams closed: outputs all the same' eval 'prepare 1; build <&- >&- && new_outputs 1'
 one 'a pipe whose reader is gone: status 3, no signal' eval '{ sleep 0.2; "$gobo" list lit --cover 2 2>/dev/null; echo $? >status; } | true; [ "$(cat status)" = 3 ]'
