@@ -1,0 +1,173 @@
+#include "compose/piece_library.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compose/conditions.hpp"
+#include "compose/piece_marks.hpp"
+#include "compose/subroutines.hpp"
+#include "core/text.hpp"
+
+namespace gobo {
+namespace {
+
+/// How many characters a text's first lines take.
+std::size_t size_of_lines(std::string_view text, int lines) {
+    std::size_t size = 0;
+    for (; lines > 0 && size < text.size(); --lines) size = text.find('\n', size) + 1;
+    return size;
+}
+
+}  // namespace
+
+const Feature* feature_defined_by(const Directive& directive, const Family& family) {
+    if (directive.word != "define") return nullptr;
+    const auto found = std::ranges::find(family.features, macro_name(directive.rest), &Feature::macro);
+    return found == family.features.end() ? nullptr : &*found;
+}
+
+PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, Comments comments,
+                           Composition& composition)
+    : family_(family), search_(search), comments_(comments), composition_(composition) {
+    for (const Feature& feature : family.features) {
+        if (!feature.macro.empty()) interest_.push_back(feature.macro);
+        if (!feature.substituted.empty()) has_substitutions_ = true;
+        if (feature.kind == FeatureKind::choice) chosen_functions_.insert(feature.macro);
+    }
+    for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
+    if (!family.substitutions.empty() || family.compatibility) has_substitutions_ = true;
+    if (family.compatibility) interest_.insert(interest_.end(), legacy_names().begin(), legacy_names().end());
+}
+
+void PieceLibrary::substitute_for(const Key& key, StageKind stage) {
+    if (!has_substitutions_) return;
+    substitutions_ = substitutions_of(family_, key, stage);
+    const auto next = static_cast<int>(variants_.size());
+    variant_ = variants_.try_emplace(substitutions_, next).first->second;
+}
+
+Result<int> PieceLibrary::prologue(const PrologueText& part) {
+    const std::string name =
+        fmt::format("{}[prologue{}{}]", family_.name, part.stage.empty() ? "" : ".", part.stage);
+    const std::string lines_before(static_cast<std::size_t>(std::max(part.place.line - 1, 0)), '\n');
+    GOBO_TRY(const int file, add_file({name, part.place.file, lines_before + part.text, false}, "", ""));
+    const Source& source = sources_[static_cast<std::size_t>(file)];
+    if (source.version.empty()) return file;
+    return fail(source.version_line.place, source.version_line.line, "a #version in the family's prologue",
+                fmt::format("write version = \"{}\" at the top of the family file", source.version));
+}
+
+int PieceLibrary::generated(Piece piece) {
+    const auto [at, is_new] = by_generated_text_.try_emplace(piece.text, -1);
+    if (is_new) at->second = add(std::move(piece), {std::vector<char>(interest_.size(), 0), nullptr});
+    return at->second;
+}
+
+int PieceLibrary::round(int piece, const LoopHead& head, int index) {
+    const auto [at, is_new] = rounds_.try_emplace({piece, index}, -1);
+    if (!is_new) return at->second;
+    Piece copy = composition_.piece(piece);
+    copy.text = round_of_loop(copy.text, head, index);
+    return at->second = add(std::move(copy), entry(piece));
+}
+
+void PieceLibrary::add_warnings() {
+    for (const auto& [path, warning] : heads_)
+        if (warning) composition_.warnings.push_back(*warning);
+}
+
+int PieceLibrary::add(Piece piece, Entry entry) {
+    if (piece.on_disk) composition_.files.insert(piece.path);
+    composition_.pieces.push_back(std::move(piece));
+    entries_.push_back(std::move(entry));
+    return static_cast<int>(entries_.size()) - 1;
+}
+
+Result<std::optional<int>> PieceLibrary::load(const std::string& path, const std::string& root) {
+    const auto [known, is_new] = by_path_.try_emplace({root, path, variant_});
+    if (!is_new) return known->second;
+    GOBO_TRY(std::optional<Piece> piece, search_.find(path, root));
+    if (!piece) return std::nullopt;
+    const bool is_of_root = piece->path.ends_with("/" + path);
+    const std::string found_in =
+        is_of_root ? piece->path.substr(0, piece->path.size() - path.size() - 1) : "";
+    GOBO_TRY(known->second, add_file(std::move(*piece), folder_of(path), found_in));
+    return known->second;
+}
+
+Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string root) {
+    if (piece.file_text.empty()) piece.file_text = piece.text;
+    std::string text = substitutions_.empty() || folder == kLegacyFolder
+                           ? piece.text
+                           : substituted(piece.text, substitutions_);
+    if (family_.compatibility && folder != kLegacyFolder) text = without_redeclarations(std::move(text));
+    const auto [found, is_unread] = by_file_.try_emplace(
+        {piece.path, piece.name, text == piece.text ? "" : text}, static_cast<int>(sources_.size()));
+    if (!is_unread) return found->second;
+    note_head(piece);
+    GOBO_TRY(ScannedPiece scanned,
+             scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
+                        piece.text));
+    choose_subroutines(scanned.text, scanned.code, chosen_functions_);
+    composition_.stated_bindings.merge(scanned.bindings);
+    Diagnostics& warnings = composition_.warnings;
+    warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
+    Source& source = sources_.emplace_back();
+    source.name = piece.name;
+    source.folder = std::move(folder);
+    source.root = std::move(root);
+    add_pieces(source, piece, scanned);
+    source.version = std::move(scanned.version);
+    source.version_line = std::move(scanned.version_line);
+    source.includes = std::move(scanned.includes);
+    source.directives = std::move(scanned.directives);
+    source.extensions = std::move(scanned.extensions);
+    source.is_once = scanned.is_once;
+    source.guard = std::move(scanned.guard);
+    return found->second;
+}
+
+void PieceLibrary::note_head(const Piece& piece) {
+    const bool is_head = piece.name.find('#') == std::string::npos;
+    if (is_head) heads_[piece.path] = std::nullopt;
+    const int line = is_head || !piece.on_disk ? 0 : line_before_pieces(piece.file_text);
+    if (line == 0) return;
+    Diagnostic warning = fail({piece.path, line, 0}, line_of(piece, line),
+                              "nothing includes this text: it stands before the first #piece",
+                              "move it into the piece that needs it")
+                             .value()
+                             .front();
+    warning.severity = Severity::warning;
+    heads_.try_emplace(piece.path, std::move(warning));
+}
+
+void PieceLibrary::add_pieces(Source& source, const Piece& file, const ScannedPiece& scanned) {
+    std::string_view text = comments_ == Comments::keep ? scanned.text : scanned.code;
+    std::string_view code = scanned.code;
+    int line = 1;  // the first of what is left
+    const auto add_up_to = [&](int last) {
+        Piece piece = file;
+        piece.text.assign(static_cast<std::size_t>(line - 1), '\n');
+        const std::size_t size = size_of_lines(text, last - line + 1);
+        const std::size_t code_size = size_of_lines(code, last - line + 1);
+        piece.text += text.substr(0, size);
+        const auto identifiers = identifiers_of(code.substr(0, code_size));
+        Entry entry{{}, &source};
+        for (const std::string& identifier : interest_)
+            entry.mentions.push_back(identifiers.contains(identifier) ? 1 : 0);
+        source.pieces.push_back(add(std::move(piece), std::move(entry)));
+        text.remove_prefix(size);
+        code.remove_prefix(code_size);
+        line = last + 1;
+    };
+    for (const Directive& directive : scanned.directives) {
+        const bool parts =
+            directive.word == "include" || (directive.word == "pragma" && family_.unrolls_loops);
+        if (parts) add_up_to(directive.place.line);
+        if (parts || directive.word == "extension" || feature_defined_by(directive, family_) != nullptr)
+            source.is_fixed = false;
+    }
+    add_up_to(static_cast<int>(std::ranges::count(scanned.code, '\n')));
+}
+}  // namespace gobo

@@ -1,0 +1,43 @@
+#include "compose/stage_prologue.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace gobo {
+namespace {
+
+/// The macros of the features that the stage mentions, or that the text of another one does.
+std::vector<std::string> macros_of(const Family& family, const Placement& placement,
+                                   const Mentions& mentions) {
+    std::vector<std::string> definitions(family.features.size());
+    std::set<std::string, std::less<>> mentioned;  // by texts
+    for (bool goes_on = true; std::exchange(goes_on, false);) {
+        for (std::size_t i = 0; i < definitions.size(); ++i) {
+            const Feature& feature = family.features[i];
+            const bool is_in_stage =
+                feature.stages.empty() || std::ranges::count(feature.stages, name_of(placement.stage)) > 0;
+            if (feature.macro.empty() || !definitions[i].empty() || !is_in_stage) continue;
+            if (!mentions(feature.macro) && !mentioned.contains(feature.macro)) continue;
+            const std::optional<std::string> text = feature.text_of(placement.key[i]);
+            if (!text) continue;
+            definitions[i] = fmt::format("#define {}{}{}\n", feature.macro, text->empty() ? "" : " ", *text);
+            for (const std::string_view name : identifiers_of(*text))
+                goes_on = mentioned.emplace(name).second || goes_on;
+        }
+    }
+    return definitions;
+}
+
+}  // namespace
+
+std::string stage_prologue(const Family& family, Dialect dialect, const Placement& placement,
+                           const Mentions& mentions) {
+    std::string text =
+        dialect_prologue(dialect, placement.stage, placement.version, placement.extensions, mentions);
+    for (const std::string& definition : macros_of(family, placement, mentions)) text += definition;
+    return text;
+}
+}  // namespace gobo
