@@ -6,4 +6,5 @@ function __gobo_complete
     set -l current (commandline -ct)
     $program complete $words "$current" 2>/dev/null
 end
-complete -c gobo -a '(__gobo_complete)'
+# Files only where gobo itself offers nothing.
+complete -c gobo -f -n 'count (__gobo_complete) >/dev/null' -a '(__gobo_complete)'
