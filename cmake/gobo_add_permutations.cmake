@@ -18,6 +18,9 @@
 # GOBO_PROGRAM, where it is set, is the gobo that runs instead of the package's own. When cross-compiling it is by default one
 # of the host that lies in PATH.
 #
+# GOBO_CACHE_DIR, where it is set, is a folder where gobo keeps results: a stage that some build folder compiled is not
+# compiled again.
+#
 # The header follows every file that it was made from, and is left untouched where its text stays the same. Relative
 # paths are relative to the current source folder. docs/build_integration.md says more.
 cmake_policy(PUSH)
@@ -38,6 +41,12 @@ function(gobo_add_permutations target)
   _gobo_command_line(arguments inputs)
   _gobo_find_program(program)
 
+  set(cache "")
+  if(GOBO_CACHE_DIR)
+    get_filename_component(cache "${GOBO_CACHE_DIR}" ABSOLUTE BASE_DIR "${CMAKE_BINARY_DIR}")
+    set(cache --cache "${cache}")
+  endif()
+
   # Make compares times and would run gobo again for ever where the header stays untouched: the stamp is what has been
   # made. A changed command line must run it too, and Make knows of that by a file alone.
   set(stamp "${folder}/${header_name}.stamp")
@@ -46,7 +55,7 @@ function(gobo_add_permutations target)
   add_custom_command(
     OUTPUT "${stamp}"
     BYPRODUCTS "${folder}${header_folder}/${header_name}.hpp" "${folder}${header_folder}/${header_name}.json"
-    COMMAND ${program} build ${arguments} -o "${folder}${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
+    COMMAND ${program} build ${arguments} ${cache} -o "${folder}${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
     DEPENDS ${program} ${inputs} "${folder}/${header_name}.arguments"
     DEPFILE "${folder}${header_folder}/${header_name}.d"

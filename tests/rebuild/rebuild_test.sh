@@ -98,4 +98,9 @@ expect_quoted() {
 }
 expect_quoted odd_key "$odd_key"
 expect_quoted odd_condition "$odd_condition"
+
+# A cache that CMake names is gobo's.
+cmake -D GOBO_CACHE_DIR="$scratch/kept" "$work/build" >"$scratch/configure.log" 2>&1
+cmake --build "$work/build" --target foggy_lit_permutations >"$scratch/cached.log" 2>&1 || { fail "foggy with a cache"; cat "$scratch/cached.log"; }
+[ -n "$(find "$scratch/kept" -name '*.result' -print -quit)" ] || fail "the cache that CMake names stays empty"
 exit "$((failures > 0))"

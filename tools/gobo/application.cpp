@@ -15,6 +15,8 @@
 
 #include "core/shipped_files.hpp"
 #include "core/text.hpp"
+#include "core/write_together.hpp"
+#include "gobo/kept_answers.hpp"
 
 namespace gobo {
 namespace {
@@ -91,6 +93,22 @@ void become_lab(const std::vector<std::string>& arguments) {
     execvp("gobo-lab", passed.data());
 }
 
+/// Writes the files of an outcome, and says in its summary what was new.
+Result<Outcome> with_files_written(Outcome outcome) {
+    std::vector<std::string> notes;
+    if (outcome.compiled >= 0)
+        notes.push_back(
+            fmt::format("{} {} compiled", outcome.compiled, outcome.compiled == 1 ? "stage" : "stages"));
+    if (!outcome.files.empty()) {
+        std::vector<NewFile> files;
+        for (const OutputFile& file : outcome.files) files.push_back({file.path, file.content});
+        GOBO_TRY(const bool is_changed, write_together(files));
+        if (!is_changed) notes.emplace_back("unchanged");
+    }
+    if (!notes.empty()) outcome.summary += fmt::format(" ({})", join(notes, ", "));
+    return outcome;
+}
+
 Result<Outcome> answer(const Application& application, const World& world,
                        const std::vector<std::string>& arguments) {
     const bool completes = arguments.size() > 1 && arguments.front() == "complete";
@@ -104,7 +122,10 @@ Result<Outcome> answer(const Application& application, const World& world,
     if (name == "manual") return Outcome{manual_page(application)};
     GOBO_TRY(const CommandLine line, read_command_line(application, arguments));
     if (line.command == nullptr) return Outcome{line.text};
-    return line.command->run(world);
+    Diagnostics warnings;
+    GOBO_TRY(Outcome outcome, run_with_cache(*line.command, world, application.name, arguments, warnings));
+    append(outcome.diagnostics, warnings);
+    return with_files_written(std::move(outcome));
 }
 
 int run(Application application, const std::vector<std::string>& arguments) {

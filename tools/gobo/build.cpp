@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/write_together.hpp"
 #include "emit/depfile_names.hpp"
 #include "emit/emit.hpp"
 #include "gobo/commands.hpp"
@@ -86,13 +85,13 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
     const std::string manifest = emit_manifest(input);
     const std::string depfile = emit_depfile({target}, {files.begin(), files.end()});
     // The header is what others are compiled with: where it is new, the rest is.
-    GOBO_TRY(const bool is_changed,
-             write_together({{stem + ".d", depfile}, {stem + ".json", manifest}, {stem + ".hpp", header}}));
     return Outcome{
         {},
         std::move(validated.diagnostics),
-        fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", stem, composition.permutations.size(),
-                    composition.stages.size(), composition.pieces.size(), is_changed ? "" : " (unchanged)")};
+        fmt::format("{}.hpp: {} permutations, {} stages, {} pieces", stem, composition.permutations.size(),
+                    composition.stages.size(), composition.pieces.size()),
+        {{stem + ".d", depfile}, {stem + ".json", manifest}, {stem + ".hpp", header}},
+        world.cache == nullptr ? -1 : static_cast<int>(validated.compiled)};
 }
 
 }  // namespace

@@ -59,11 +59,18 @@ struct Title {
     std::string summary;
 };
 
+struct OutputFile {
+    std::string path;
+    std::string content;
+};
+
 /// What a command leaves: its data for standard output, and messages for standard error.
 struct Outcome {
     std::string output;
     Diagnostics diagnostics = {};
-    std::string summary = {};  ///< a closing line for standard error, unless --quiet
+    std::string summary = {};            ///< a closing line for standard error, unless --quiet
+    std::vector<OutputFile> files = {};  ///< to be written together, the one that others go by last
+    int compiled = -1;  ///< how many stages had to be compiled, where a cache was asked first
 };
 
 struct Command {
@@ -74,6 +81,15 @@ struct Command {
     std::function<Result<Outcome>(const World&)> run = nullptr;  ///< null: gobo-lab does it
     std::string notes = {};
     bool hidden = false;
+    /// The same arguments and files give the same outcome, which may be kept; the command writes nothing.
+    bool is_repeatable = false;
+    bool manages_cache = false;
 };
+
+/// The command, whose outcome depends on its arguments and on files that it reads through World::disk alone.
+[[nodiscard]] inline Command repeatable(Command command) {
+    command.is_repeatable = true;
+    return command;
+}
 
 }  // namespace gobo

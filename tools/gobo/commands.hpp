@@ -12,6 +12,7 @@ namespace gobo {
 [[nodiscard]] Command reflect_command();
 [[nodiscard]] Command scene_command();
 [[nodiscard]] Command library_command();
+[[nodiscard]] Command cache_command();
 
 namespace titles {
 inline const Title kEval = {"eval", "Evaluate one invocation of a stage, in fp32 and fp64"};

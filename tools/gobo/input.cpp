@@ -111,7 +111,7 @@ class KeySimplifier {
         const std::size_t end = std::min(error.subject.find(", and "), error.subject.size());
         const Result<Key> named = parse_key(family_.family, error.subject.substr(0, end));
         // What takes glslang too much time or memory takes it again.
-        if (!named || error.message.starts_with("glslang ")) return;
+        if (!named || is_of_stopped_glslang(error)) return;
         Key key = *named;
         std::vector<std::size_t> set;
         for (std::size_t feature = 0; feature < key.size(); ++feature)
@@ -173,7 +173,12 @@ OptionGroup common_options(CommonOptions& options) {
          {"-q,--quiet", "", "Print no summary", &options.quiet},
          {"--in-process", "",
           "Run glslang in gobo's own process, not in child processes: what crashes glslang ends gobo",
-          &options.in_process}}};
+          &options.in_process},
+         {"--cache", "DIR",
+          "A folder where results are kept for later runs; by default what GOBO_CACHE_DIR names, or none",
+          &options.cache},
+         {"--cache-size", "MB", "How much the cache may hold; what was used longest ago goes first",
+          &options.cache_megabytes, between(1, 1'000'000)}}};
 }
 
 Option family_argument(std::string& name) {
@@ -300,6 +305,7 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, const 
                           ValidateOptions options) {
     options.jobs = world.jobs();
     options.child_processes = !world.options.in_process;
+    options.cache = world.cache;
     Validated validated = validate(family.family, composition, options);
     if (exit_status(validated.diagnostics) != 0) {
         simplify_subjects(validated.diagnostics, family, options);

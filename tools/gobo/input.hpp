@@ -23,6 +23,8 @@ struct CommonOptions {
     bool quiet = false;
     bool follow = false;      ///< links out of the folders that are searched for pieces
     bool in_process = false;  ///< glslang runs in this process, not in children
+    std::string cache;        ///< a folder; empty: as the environment says
+    int cache_megabytes = 1024;
 };
 [[nodiscard]] OptionGroup common_options(CommonOptions& options);
 
@@ -38,6 +40,7 @@ struct World {
     FileSystem& shipped;  ///< paths as in the source tree: "shader_lib/fog/linear.glsl"
     const CommonOptions& options;
     MeasureQualities measure;
+    ResultCache* cache = nullptr;  ///< where results are kept from one run to the next; null: nowhere
 
     [[nodiscard]] int jobs() const {
         return options.jobs > 0 ? options.jobs

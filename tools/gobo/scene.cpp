@@ -183,7 +183,8 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     report.distinct_programs = programs.size();
     report.compiled_stages = composition.stages.size();
     outcome.diagnostics =
-        validate(family, composition, {.jobs = world.jobs(), .child_processes = !world.options.in_process})
+        validate(family, composition,
+                 {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache})
             .diagnostics;
     outcome.output = options.json ? scene_json(report) : scene_text(report);
     return outcome;

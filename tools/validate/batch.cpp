@@ -77,18 +77,22 @@ std::vector<const Piece*> pieces_of(const Composition& composition, int stage) {
     return pieces;
 }
 
-BatchWorker::BatchWorker(const Composition& composition, const std::vector<Program>& programs,
-                         const ValidateOptions& options)
-    : composition_(composition), programs_(programs), options_(options) {
+std::set<int> placing_stages(const Composition& composition, const std::vector<Program>& programs) {
+    std::set<int> placing;
     for (const Program& program : programs) {
         int last = -1;  // before the rasteriser
         for (const int stage : program) {
             const StageKind kind = composition.stage(stage).kind;
             if (kind < StageKind::fragment && kind != StageKind::tess_control) last = stage;
         }
-        if (last >= 0) placing_.insert(last);
+        if (last >= 0) placing.insert(last);
     }
+    return placing;
 }
+
+BatchWorker::BatchWorker(const Composition& composition, const std::vector<Program>& programs,
+                         const std::set<int>& placing, const ValidateOptions& options)
+    : composition_(composition), programs_(programs), placing_(placing), options_(options) {}
 
 BatchWorker::~BatchWorker() = default;
 
@@ -163,15 +167,6 @@ BatchResult::OfStage BatchWorker::generate(int stage, Note& note) {
                spirv_val(generated->spirv, {pieces_of(composition_, stage).back()->path, 0, 0}));
     generated->hash = hash_of(generated->spirv);
     if (!options_.keep_spirv) generated->spirv = {};
-    const auto state = [&](auto& list) {
-        for (auto& bound : list) {
-            const auto stated = composition_.stated_bindings.find(bound.name);
-            if (bound.binding < 0 && stated != composition_.stated_bindings.end())
-                bound.binding = stated->second;
-        }
-    };
-    state(generated->interface.blocks);
-    state(generated->interface.samplers);
     result.validated = *std::move(generated);
     return result;
 }

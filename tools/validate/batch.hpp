@@ -61,6 +61,10 @@ struct BatchResult {
 /// The texts of a stage.
 [[nodiscard]] std::vector<const Piece*> pieces_of(const Composition& composition, int stage);
 
+/// Those that in some program no stage follows which places vertices anew.
+[[nodiscard]] std::set<int> placing_stages(const Composition& composition,
+                                           const std::vector<Program>& programs);
+
 /// By their notes, the stages and programs that nobody shall try again, with the reason.
 using GivenUp = std::map<int, Diagnostics>;
 
@@ -68,8 +72,9 @@ using GivenUp = std::map<int, Diagnostics>;
 /// program, which hardly recurs.
 class BatchWorker {
   public:
+    /// What it is given must outlive it.
     BatchWorker(const Composition& composition, const std::vector<Program>& programs,
-                const ValidateOptions& options);
+                const std::set<int>& placing, const ValidateOptions& options);
     BatchWorker(const BatchWorker&) = delete;
     BatchWorker& operator=(const BatchWorker&) = delete;
     ~BatchWorker();
@@ -90,10 +95,9 @@ class BatchWorker {
 
     const Composition& composition_;
     const std::vector<Program>& programs_;
+    const std::set<int>& placing_;
     const ValidateOptions& options_;
     std::map<int, Parsed> parsed_;
-    /// Those that in some program no stage follows which places vertices anew.
-    std::set<int> placing_;
 };
 
 }  // namespace gobo

@@ -18,6 +18,7 @@
 #include "reflect/interface.hpp"
 #include "validate/batch.hpp"
 #include "validate/glslang_stage.hpp"
+#include "validate/known_results.hpp"
 #include "validate/link_rules.hpp"
 
 namespace gobo {
@@ -67,16 +68,19 @@ class Validator {
         }
         of_programs_.resize(programs_.size());
         validated_.stages.resize(composition.stages.size());
-        batches_ = batches_of(programs_, options.jobs);
+        placing_ = placing_stages(composition, programs_);
+        if (options.cache != nullptr) known_.emplace(composition, programs_, placing_, options);
+        choose_work();
+        batches_ = batches_of(work_, options.jobs);
+        for (Batch& batch : batches_)
+            std::erase_if(batch.own, [&](int stage) { return is_known_[static_cast<std::size_t>(stage)]; });
     }
 
     /// Works off all programs.
     Validated run(const Family& family) {
-        build_tables(composition_);
-        std::vector<std::size_t> left(batches_.size());
-        std::iota(left.begin(), left.end(), std::size_t{0});
-        if (options_.child_processes) left = work_off_in_children();
-        work_off_in_threads(left);
+        if (!batches_.empty()) compile();
+        if (known_) keep_results();
+        state_bindings();
         parallel_for(options_.jobs, programs_.size(), [&](std::size_t i) { check_program(i); });
         DiagnosticGroups groups(family);
         for (const Permutation& permutation : composition_.permutations)
@@ -87,12 +91,92 @@ class Validator {
     }
 
   private:
+    /// Takes what is known, and leaves to be done what is not: programs that must be linked, and stages
+    /// alone.
+    void choose_work() {
+        is_known_.assign(composition_.stages.size(), false);
+        is_linked_.assign(programs_.size(), false);
+        if (known_)
+            for (std::size_t stage = 0; stage < is_known_.size(); ++stage)
+                if (auto result = known_->stage(static_cast<int>(stage))) {
+                    take(*std::move(result));
+                    is_known_[stage] = true;
+                }
+        std::set<int> alone;
+        for (std::size_t i = 0; i < programs_.size(); ++i) {
+            const auto is_unknown = [&](int stage) { return !is_known_[static_cast<std::size_t>(stage)]; };
+            const bool can_link = std::ranges::all_of(
+                programs_[i], [&](int stage) { return is_unknown(stage) || of_stage(stage).is_fine; });
+            if (known_ && programs_[i].size() > 1)
+                if (std::optional<Diagnostics> found = known_->program(i)) {
+                    of_programs_[i] = *std::move(found);
+                    is_linked_[i] = true;
+                }
+            if (!is_linked_[i] && can_link && programs_[i].size() > 1) {
+                add_work(programs_[i], i);
+            } else {
+                for (const int stage : programs_[i])
+                    if (is_unknown(stage)) alone.insert(stage);
+            }
+        }
+        for (const int stage : alone) add_work({stage}, programs_.size());
+        validated_.compiled = static_cast<std::size_t>(std::ranges::count(is_known_, false));
+    }
+
+    void add_work(Program program, std::size_t number) {
+        work_.push_back(std::move(program));
+        numbers_of_work_.push_back(number);
+    }
+
+    void compile() {
+        build_tables(composition_);
+        std::vector<std::size_t> left(batches_.size());
+        std::iota(left.begin(), left.end(), std::size_t{0});
+        if (options_.child_processes) left = work_off_in_children();
+        work_off_in_threads(left);
+    }
+
+    void keep_results() {
+        const auto may_change = [](const Diagnostics& found) {
+            return exit_status(found) > 1 || std::ranges::any_of(found, is_of_stopped_glslang);
+        };
+        for (int stage = 0; stage < static_cast<int>(is_known_.size()); ++stage) {
+            const OfStage& found = of_stage(stage);
+            if (!is_known_[static_cast<std::size_t>(stage)] && !may_change(found.diagnostics))
+                known_->keep(
+                    BatchResult::OfStage{stage, found.is_fine, found.diagnostics, validated_.stage(stage)});
+        }
+        for (std::size_t i = 0; i < work_.size(); ++i) {
+            const std::size_t program = numbers_of_work_[i];
+            if (program == programs_.size() || may_change(of_programs_[program])) continue;
+            const auto is_fine = [&](int stage) { return of_stage(stage).is_fine; };
+            if (std::ranges::all_of(work_[i], is_fine))
+                known_->keep(BatchResult::OfProgram{program, of_programs_[program]});
+        }
+        known_->keep_links();
+    }
+
+    /// Puts in the bindings that pieces state where their dialect's text cannot carry them.
+    void state_bindings() {
+        const auto state = [&](auto& list) {
+            for (auto& bound : list) {
+                const auto stated = composition_.stated_bindings.find(bound.name);
+                if (bound.binding < 0 && stated != composition_.stated_bindings.end())
+                    bound.binding = stated->second;
+            }
+        };
+        for (ValidatedStage& stage : validated_.stages) {
+            state(stage.interface.blocks);
+            state(stage.interface.samplers);
+        }
+    }
+
     void work_off_in_threads(const std::vector<std::size_t>& batches) {
         std::vector<BatchResult> results(batches.size());
         const std::size_t threads = std::min(static_cast<std::size_t>(options_.jobs), batches.size());
         std::atomic<std::size_t> next = 0;
         parallel_for(options_.jobs, threads, [&](std::size_t) {
-            BatchWorker worker(composition_, programs_, options_);
+            BatchWorker worker(composition_, work_, placing_, options_);
             Note note = 0;
             for (std::size_t i = next++; i < batches.size(); i = next++)
                 results[i] = worker.work_off(batches_[batches[i]], given_up_, note);
@@ -102,7 +186,7 @@ class Validator {
 
     /// The batches that are left where no child process can be started.
     std::vector<std::size_t> work_off_in_children() {
-        BatchWorker worker(composition_, programs_, options_);  // each child goes on with its copy
+        BatchWorker worker(composition_, work_, placing_, options_);  // each child goes on with its copy
         const ChildWork work{
             [&](std::size_t batch, Note& note) {
                 return bytes_of(worker.work_off(batches_[batch], given_up_, note));
@@ -123,15 +207,20 @@ class Validator {
         for (const BatchResult::OfStage& stage : result.stages)
             if (!is_known(stage.stage, of_stages_)) return false;
         for (const BatchResult::OfProgram& program : result.programs)
-            if (!is_known(program.program, of_programs_)) return false;
-        for (BatchResult::OfStage& stage : result.stages) {
-            validated_.stages[static_cast<std::size_t>(stage.stage)] = std::move(stage.validated);
-            of_stage(stage.stage) = {stage.is_fine, std::move(stage.diagnostics)};
-        }
+            if (!is_known(program.program, work_) || is_alone(program.program)) return false;
+        for (BatchResult::OfStage& stage : result.stages) take(std::move(stage));
         for (BatchResult::OfProgram& program : result.programs)
-            of_programs_[program.program] = std::move(program.diagnostics);
+            of_programs_[numbers_of_work_[program.program]] = std::move(program.diagnostics);
         return true;
     }
+
+    void take(BatchResult::OfStage stage) {
+        validated_.stages[static_cast<std::size_t>(stage.stage)] = std::move(stage.validated);
+        of_stage(stage.stage) = {stage.is_fine, std::move(stage.diagnostics)};
+    }
+
+    /// Whether the work is to compile a stage, not to link a program.
+    [[nodiscard]] bool is_alone(std::size_t work) const { return numbers_of_work_[work] == programs_.size(); }
 
     /// Blames the stage or program that a child process died of. Whether the batch is worth another try.
     bool give_up(std::size_t batch, int note, Death death) {
@@ -147,12 +236,13 @@ class Validator {
             const auto program = static_cast<std::size_t>(-1 - note);
             const std::string what = fmt::format("{} linking the stages", reason);
             return given_up_
-                .try_emplace(note, fail(template_of(programs_[program].back()), "", what, help).value())
+                .try_emplace(note, fail(template_of(work_[program].back()), "", what, help).value())
                 .second;
         }
         const Diagnostics fault = fail(Fault::internal, "a child process died between two stages").value();
         for (const int stage : batches_[batch].own) of_stage(stage).diagnostics = fault;
-        for (const std::size_t program : batches_[batch].programs) of_programs_[program] = fault;
+        for (const std::size_t work : batches_[batch].programs)
+            if (!is_alone(work)) of_programs_[numbers_of_work_[work]] = fault;
         return false;
     }
 
@@ -194,7 +284,14 @@ class Validator {
     /// The distinct ones, in the order in which the permutations first need them.
     std::vector<Program> programs_;
     std::map<StageNumbers, std::size_t> numbers_;
-    std::vector<Batch> batches_;
+    std::set<int> placing_;
+    std::optional<KnownResults> known_;
+    std::vector<bool> is_known_;   ///< by stage, whether its result came from the cache
+    std::vector<bool> is_linked_;  ///< by program
+    /// What is not known: programs to be linked, and stages alone, which have the number past all programs.
+    std::vector<Program> work_;
+    std::vector<std::size_t> numbers_of_work_;
+    std::vector<Batch> batches_;  ///< of the work
     GivenUp given_up_;
     std::vector<OfStage> of_stages_;
     std::vector<Diagnostics> of_programs_;
@@ -202,6 +299,12 @@ class Validator {
 };
 
 }  // namespace
+
+bool is_of_stopped_glslang(const Diagnostic& diagnostic) {
+    return diagnostic.message.starts_with("glslang crashes on ") ||
+           diagnostic.message.starts_with("glslang was killed, ") ||
+           diagnostic.message.starts_with("glslang takes more than ");
+}
 
 Validated validate(const Family& family, const Composition& composition, const ValidateOptions& options) {
     return Validator(composition, options).run(family);

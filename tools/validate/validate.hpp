@@ -12,6 +12,8 @@
 
 namespace gobo {
 
+class ResultCache;
+
 /// A SPIR-V module, as words.
 using SpirvModule = std::vector<std::uint32_t>;
 
@@ -27,6 +29,7 @@ struct ValidatedStage {
 struct Validated {
     std::vector<ValidatedStage> stages;  ///< those of failed permutations are empty
     Diagnostics diagnostics;             ///< errors and warnings, grouped over permutations
+    std::size_t compiled = 0;  ///< how many stages went through glslang; the others were in the cache
 
     [[nodiscard]] const ValidatedStage& stage(int number) const {
         return stages[static_cast<std::size_t>(number)];
@@ -42,12 +45,18 @@ struct ValidateOptions {
     /// is an error at its stage.
     bool child_processes = false;
     bool spirv_val = false;  ///< also ask SPIRV-Tools' validator
+    /// What is known there of stages and programs is not found out again; what is not is put there. Null:
+    /// nothing is known.
+    ResultCache* cache = nullptr;
 };
 
 /// Validates a composition. What several permutations share is reported once, with how many there are; errors
 /// come in the order of the permutations, whatever the number of jobs.
 [[nodiscard]] Validated validate(const Family& family, const Composition& composition,
                                  const ValidateOptions& options);
+
+/// Whether the message says that glslang was stopped, by its limits or a crash: another run may not be.
+[[nodiscard]] bool is_of_stopped_glslang(const Diagnostic& diagnostic);
 
 /// A warning where several keys give the same program: how many of the keys are distinct, the first two that
 /// are not, and the features that change nothing in any key. The family lacks a rule then by which what

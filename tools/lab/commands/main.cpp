@@ -5,8 +5,8 @@
 int main(int argc, char** argv) {
     using namespace gobo;
     // Commands of gobo that come here where a budget needs a measurement.
-    Command build = build_command();
-    Command scene = scene_command();
+    Command build = repeatable(build_command());
+    Command scene = repeatable(scene_command());
     build.hidden = scene.hidden = true;
     return run_application({"gobo-lab",
                             "proves, draws and measures what gobo builds; `gobo COMMAND` runs it.",

@@ -1,0 +1,217 @@
+// Results on disk: found again whole or not at all, and never too many.
+#include "core/result_cache.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/file_trace.hpp"
+
+namespace gobo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
+
+class ResultsOnDisk : public testing::Test {
+  protected:
+    void SetUp() override { folder = ::mkdtemp(folder.data()); }
+    void TearDown() override { fs::remove_all(folder); }
+    /// The path of a result.
+    [[nodiscard]] std::string path_of(const Digest& key) const {
+        return folder + "/" + hex(key).front() + "/" + hex(key) + ".result";
+    }
+    std::string folder = "/tmp/gobo_results_XXXXXX";
+};
+
+Digest key(int number) {
+    return digest_of("key " + std::to_string(number));
+}
+
+TEST_F(ResultsOnDisk, AreFoundByALaterOne) {
+    DiskCache(folder, kMegabyte).keep(key(1), "one");
+    DiskCache(folder, kMegabyte).keep(key(2), "");
+    DiskCache(folder, kMegabyte).keep(key(1), "uno");
+    DiskCache later(folder, kMegabyte);
+    EXPECT_EQ(later.find(key(1)), "uno");
+    EXPECT_EQ(later.find(key(2)), "");
+    EXPECT_EQ(later.find(key(3)), std::nullopt);
+}
+
+struct DamageRow {
+    const char* name;
+    std::function<void(std::string& content)> damage;
+};
+
+void PrintTo(const DamageRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class Damage : public ResultsOnDisk, public testing::WithParamInterface<DamageRow> {};
+
+TEST_P(Damage, MakesAResultNoneAndRemovesIt) {
+    DiskCache cache(folder, kMegabyte);
+    cache.keep(key(1), "the result of something");
+    std::stringstream whole;
+    whole << std::ifstream(path_of(key(1)), std::ios::binary).rdbuf();
+    std::string content = whole.str();
+    GetParam().damage(content);
+    std::ofstream(path_of(key(1)), std::ios::binary | std::ios::trunc) << content;
+    EXPECT_EQ(cache.find(key(1)), std::nullopt);
+    EXPECT_FALSE(fs::exists(path_of(key(1))));
+    cache.keep(key(1), "again");
+    EXPECT_EQ(cache.find(key(1)), "again");
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Damage,
+                         testing::Values(DamageRow{"empty", [](auto& content) { content.clear(); }},
+                                         DamageRow{"half_a_head", [](auto& content) { content.resize(20); }},
+                                         DamageRow{"torn",
+                                                   [](auto& content) { content.resize(content.size() - 1); }},
+                                         DamageRow{"longer", [](auto& content) { content += 'x'; }},
+                                         DamageRow{"other_magic", [](auto& content) { content[0] ^= 1; }},
+                                         DamageRow{"other_version", [](auto& content) { content[8] ^= 1; }},
+                                         DamageRow{"other_size", [](auto& content) { content[17] ^= 1; }},
+                                         DamageRow{"other_sum", [](auto& content) { content[30] ^= 1; }},
+                                         DamageRow{"other_byte", [](auto& content) { content.back() ^= 1; }}),
+                         [](const auto& row) { return row.param.name; });
+
+TEST_F(ResultsOnDisk, OfAnotherNameAreNone) {
+    DiskCache cache(folder, kMegabyte);
+    cache.keep(key(1), "one");
+    fs::create_directories(fs::path(path_of(key(2))).parent_path());
+    fs::copy_file(path_of(key(1)), path_of(key(2)));
+    EXPECT_EQ(cache.find(key(2)), std::nullopt);
+}
+
+TEST_F(ResultsOnDisk, ThatWereUsedLongestAgoGoFirst) {
+    DiskCache cache(folder, 16 * 4096);
+    const std::string result(900, 'x');
+    std::vector<Digest> of_a_part;  // all of one part of the folder, which may hold four of them
+    for (int i = 0; of_a_part.size() < 6; ++i)
+        if (hex(key(i)).front() == '0') of_a_part.push_back(key(i));
+    const auto now = fs::file_time_type::clock::now();
+    for (std::size_t i = 0; i < 5; ++i) {
+        cache.keep(of_a_part[i], result);
+        fs::last_write_time(path_of(of_a_part[i]), now - std::chrono::hours(10 - i));
+    }
+    EXPECT_TRUE(cache.find(of_a_part[0])) << "is marked as used";
+    cache.keep(of_a_part[5], result);
+    EXPECT_THAT(cache.tidy(), testing::IsEmpty());
+    std::vector<bool> left;
+    for (const Digest& one : of_a_part) left.push_back(cache.find(one).has_value());
+    EXPECT_THAT(left, testing::ElementsAre(true, false, false, true, true, true));
+}
+
+TEST_F(ResultsOnDisk, ThatDeadWritersLeftAreRemovedWhenTheyAreOld) {
+    DiskCache cache(folder, kMegabyte);
+    cache.keep(key(1), "one");
+    const std::string left = path_of(key(1)) + ".new.1.0";
+    const std::string others = fs::path(path_of(key(1))).parent_path().string() + "/notes.txt";
+    for (const std::string& path : {left, others}) {
+        std::ofstream(path) << "half";
+        fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    }
+    cache.keep(key(1), "two");
+    EXPECT_THAT(cache.tidy(), testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(others)) << "is not the cache's";
+    EXPECT_EQ(cache.find(key(1)), "two");
+}
+
+TEST_F(ResultsOnDisk, AreCountedAndCleared) {
+    DiskCache cache(folder, kMegabyte);
+    for (int i = 0; i < 40; ++i) cache.keep(key(i), "result");
+    EXPECT_EQ(cache.size().results, 40U);
+    EXPECT_EQ(cache.size().bytes, 40U * (40 + 6));
+    std::ofstream(folder + "/mine.txt") << "stays";
+    EXPECT_EQ(cache.clear().value().results, 40U);
+    EXPECT_EQ(cache.size().results, 0U);
+    EXPECT_TRUE(fs::exists(folder + "/mine.txt"));
+}
+
+TEST_F(ResultsOnDisk, ThatCannotBeWrittenAreWarnedOfOnce) {
+    std::ofstream(folder + "/file") << "in the way";
+    DiskCache cache(folder + "/file", kMegabyte);
+    cache.keep(key(1), "one");
+    cache.keep(key(2), "two");
+    const Diagnostics warnings = cache.tidy();
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].severity, Severity::warning);
+    EXPECT_EQ(cache.find(key(1)), std::nullopt);
+}
+
+TEST_F(ResultsOnDisk, MayBeKeptByManyAtOnce) {
+    constexpr int kWriters = 4;
+    constexpr int kResults = 50;
+    std::vector<pid_t> writers;
+    for (int writer = 0; writer < kWriters; ++writer) {
+        const pid_t process = ::fork();
+        if (process == 0) {
+            DiskCache cache(folder, 100 * kMegabyte);
+            bool is_right = true;
+            for (int i = 0; i < kResults; ++i) {
+                const std::string result(10'000, static_cast<char>('a' + i % 26));
+                const auto found = cache.find(key(i));
+                is_right = is_right && (!found || *found == result);
+                cache.keep(key(i), result);
+            }
+            ::_exit(is_right && cache.tidy().empty() ? 0 : 1);
+        }
+        writers.push_back(process);
+    }
+    for (const pid_t writer : writers) {
+        int status = 0;
+        ::waitpid(writer, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+    EXPECT_EQ(DiskCache(folder, kMegabyte).size().results, std::uint64_t{kResults});
+}
+
+TEST(TracedFiles, AreAnsweredAlikeUntilOneChanges) {
+    struct Change {
+        const char* name;
+        std::function<void(MemoryFileSystem&)> change;
+        bool is_alike;
+    };
+    const std::vector<Change> changes = {
+        {"none", [](MemoryFileSystem&) {}, true},
+        {"a file that nobody asked for", [](auto& files) { (void)files.write("other", "x"); }, true},
+        {"a file that was read", [](auto& files) { (void)files.write("lib/a.glsl", "x"); }, false},
+        {"a file that was not there", [](auto& files) { (void)files.write("lib/b.glsl", "x"); }, false},
+        {"a file that could not be read", [](auto& files) { (void)files.write("lib/c.glsl", "x"); }, false},
+        {"a file in a folder that was listed", [](auto& files) { (void)files.write("all/d", "x"); }, false},
+    };
+    for (const Change& change : changes) {
+        MemoryFileSystem files({{"lib/a.glsl", "a"}, {"all/one", ""}});
+        TracedFiles traced(files);
+        EXPECT_TRUE(traced.read("lib/a.glsl"));
+        EXPECT_FALSE(traced.is_file("lib/b.glsl"));
+        EXPECT_FALSE(traced.read("lib/c.glsl"));
+        EXPECT_EQ(traced.files_below("all").size(), 1U);
+        EXPECT_TRUE(traced.is_repeatable());
+        change.change(files);
+        EXPECT_EQ(are_answered_alike(traced.questions(), files), change.is_alike) << change.name;
+    }
+}
+
+TEST(TracedFiles, AreNotRepeatableWhereSomethingIsWrittenOrAStreamIsRead) {
+    DiskFileSystem disk;
+    TracedFiles device(disk);
+    EXPECT_TRUE(device.read("/dev/null"));
+    EXPECT_FALSE(device.is_repeatable());
+    MemoryFileSystem files;
+    TracedFiles written(files);
+    EXPECT_TRUE(written.write("a", "b"));
+    EXPECT_FALSE(written.is_repeatable());
+}
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,95 @@
+#include "core/file_trace.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/text.hpp"
+
+namespace gobo {
+namespace {
+
+using Kind = FileQuestion::Kind;
+
+Digest answer(bool is_file) {
+    return {0, is_file ? 1U : 0U};
+}
+
+Digest answer(const Result<std::string>& content) {
+    if (content) return digest_of(*content);
+    std::string text = "error\n";
+    for (const Diagnostic& error : content.error()) text += to_text(error);
+    return digest_of(text);
+}
+
+Digest answer(const std::vector<std::string>& paths) {
+    return digest_of(join(paths, "\n"));
+}
+
+Digest answer(const std::string& real_path) {
+    return digest_of(real_path);
+}
+
+/// Whether it may be read again with the same result.
+bool is_lasting(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
+}  // namespace
+
+bool TracedFiles::is_file(const std::string& path) const {
+    const bool is = files_.is_file(path);
+    note(Kind::is_file, path, answer(is));
+    return is;
+}
+
+Result<std::string> TracedFiles::read(const std::string& path) const {
+    Result<std::string> content = files_.read(path);
+    is_repeatable_ = is_repeatable_ && is_lasting(path);
+    note(Kind::read, path, answer(content));
+    return content;
+}
+
+std::vector<std::string> TracedFiles::files_below(const std::string& folder) const {
+    std::vector<std::string> paths = files_.files_below(folder);
+    note(Kind::files_below, folder, answer(paths));
+    return paths;
+}
+
+Result<bool> TracedFiles::write(const std::string& path, std::string_view content) {
+    is_repeatable_ = false;
+    return files_.write(path, content);
+}
+
+std::string TracedFiles::real_path(const std::string& path) const {
+    std::string real = files_.real_path(path);
+    note(Kind::real_path, path, answer(real));
+    return real;
+}
+
+std::vector<FileQuestion> TracedFiles::questions() const {
+    std::vector<FileQuestion> questions;
+    for (const auto& [question, answer] : answers_)
+        questions.push_back({question.first, question.second, answer});
+    return questions;
+}
+
+bool are_answered_alike(const std::vector<FileQuestion>& questions, const FileSystem& files) {
+    return std::ranges::all_of(questions, [&](const FileQuestion& question) {
+        const std::string& path = question.path;
+        switch (question.kind) {
+            case Kind::is_file:
+                return answer(files.is_file(path)) == question.answer;
+            case Kind::read:
+                return answer(files.read(path)) == question.answer;
+            case Kind::files_below:
+                return answer(files.files_below(path)) == question.answer;
+            case Kind::real_path:
+                return answer(files.real_path(path)) == question.answer;
+        }
+        return false;
+    });
+}
+
+}  // namespace gobo

@@ -1,0 +1,216 @@
+#include "core/result_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <tuple>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/file_error.hpp"
+
+namespace gobo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kParts = "0123456789abcdef";
+constexpr std::string_view kEnd = ".result";
+/// Between the name of a file that is being written and a number that no other writer has.
+constexpr std::string_view kUnfinished = ".new.";
+/// Seconds. A file that is read is marked as used where its mark is older.
+constexpr std::time_t kFreshMark = 600;
+/// Seconds, after which whoever was writing a file is taken for dead.
+constexpr std::time_t kLongestWrite = 3600;
+
+/// Stands before a result.
+struct Head {
+    std::array<char, 8> magic = {'g', 'o', 'b', 'o', ' ', 'r', 'e', 's'};
+    std::uint64_t version = 1;
+    std::uint64_t size = 0;
+    Digest check;  ///< of the file's name and the result
+
+    friend bool operator==(const Head&, const Head&) = default;
+};
+static_assert(sizeof(Head) == 40);
+
+Head head_of(const Digest& key, std::string_view result) {
+    std::string text = hex(key);
+    text += result;
+    Head head;
+    head.size = result.size();
+    head.check = digest_of(text);
+    return head;
+}
+
+/// The whole file, and when it was last marked as used. Nothing where there is none.
+std::optional<std::string> content_of(const std::string& path, struct stat& status) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return std::nullopt;
+    std::optional<std::string> content;
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
+        content.emplace(static_cast<std::size_t>(status.st_size), '\0');
+        std::size_t done = 0;
+        while (done < content->size()) {
+            const ::ssize_t count = ::read(file, content->data() + done, content->size() - done);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) break;
+            done += static_cast<std::size_t>(count);
+        }
+        content->resize(done);
+    }
+    ::close(file);
+    return content;
+}
+
+/// 0, or errno.
+int write_new(const std::string& path, const Head& head, std::string_view result) {
+    const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0) return errno;
+    std::string content(reinterpret_cast<const char*>(&head), sizeof head);
+    content += result;
+    return write_and_close(::fdopen(descriptor, "w"), content);
+}
+
+struct File {
+    std::string path;
+    std::uint64_t bytes = 0;
+    ::timespec used = {};
+    bool is_finished = false;
+};
+
+/// The results of a part, and what is being written there.
+std::vector<File> files_in(const std::string& part) {
+    std::vector<File> files;
+    std::error_code error;
+    fs::directory_iterator at(part, error);
+    for (; !error && at != fs::directory_iterator(); at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        const bool is_finished = name.ends_with(kEnd);
+        struct stat status {};
+        if (!is_finished && name.find(kUnfinished) == std::string::npos) continue;
+        if (::lstat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+        files.push_back(
+            {at->path().string(), static_cast<std::uint64_t>(status.st_size), status.st_mtim, is_finished});
+    }
+    return files;
+}
+
+}  // namespace
+
+std::optional<std::string> MemoryCache::find(const Digest& key) {
+    const auto found = results_.find(key);
+    return found == results_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void MemoryCache::keep(const Digest& key, std::string_view result) {
+    results_.insert_or_assign(key, std::string(result));
+}
+
+std::string DiskCache::path_of(const Digest& key) const {
+    const std::string name = hex(key);
+    return fmt::format("{}/{}/{}{}", folder_, name.front(), name, kEnd);
+}
+
+std::optional<std::string> DiskCache::find(const Digest& key) {
+    const std::string path = path_of(key);
+    struct stat status {};
+    std::optional<std::string> content = content_of(path, status);
+    if (!content) return std::nullopt;
+    Head head;
+    const bool is_long = content->size() >= sizeof head;
+    if (is_long) std::memcpy(&head, content->data(), sizeof head);
+    const std::string_view result = std::string_view(*content).substr(is_long ? sizeof head : 0);
+    if (!is_long || head != head_of(key, result)) {
+        ::unlink(path.c_str());
+        return std::nullopt;
+    }
+    // What was used longest ago goes first.
+    if (status.st_mtim.tv_sec + kFreshMark < std::time(nullptr))
+        ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+    content->erase(0, sizeof head);
+    return content;
+}
+
+void DiskCache::keep(const Digest& key, std::string_view result) {
+    if (error_ != 0) return;  // a full disk will not be emptier for the next one
+    const std::string path = path_of(key);
+    const std::string beside = fmt::format("{}{}{}.{}", path, kUnfinished, ::getpid(), written_++);
+    const Head head = head_of(key, result);
+    int error = write_new(beside, head, result);
+    if (error == ENOENT) {
+        std::error_code made;
+        fs::create_directories(fs::path(path).parent_path(), made);
+        error = made ? made.value() : write_new(beside, head, result);
+    }
+    if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) error = errno;
+    if (error != 0) {
+        ::unlink(beside.c_str());
+        error_ = error;
+    }
+    grown_.insert(hex(key).front());
+}
+
+Diagnostics DiskCache::tidy() {
+    for (const char part : grown_) {
+        std::vector<File> files = files_in(fmt::format("{}/{}", folder_, part));
+        std::uint64_t bytes = 0;
+        for (const File& file : files) {
+            if (file.is_finished) bytes += file.bytes;
+            if (!file.is_finished && file.used.tv_sec + kLongestWrite < std::time(nullptr))
+                ::unlink(file.path.c_str());
+        }
+        if (bytes <= most_bytes_ / kParts.size()) continue;
+        std::erase_if(files, [](const File& file) { return !file.is_finished; });
+        std::ranges::sort(files, {}, [](const File& file) {
+            return std::tuple(file.used.tv_sec, file.used.tv_nsec, file.path);
+        });
+        for (const File& file : files) {
+            if (bytes <= most_bytes_ / kParts.size()) break;
+            if (::unlink(file.path.c_str()) == 0) bytes -= file.bytes;
+        }
+    }
+    grown_.clear();
+    if (error_ == 0) return {};
+    Diagnostics warning = file_error(folder_, "written", error_).value();
+    warning.front().severity = Severity::warning;
+    warning.front().help = "results of this run are computed again by the next; name another folder, or none";
+    error_ = 0;
+    return warning;
+}
+
+DiskCache::Size DiskCache::size() const {
+    Size size;
+    for (const char part : kParts)
+        for (const File& file : files_in(fmt::format("{}/{}", folder_, part))) {
+            size.results += file.is_finished ? 1 : 0;
+            size.bytes += file.bytes;
+        }
+    return size;
+}
+
+Result<DiskCache::Size> DiskCache::clear() {
+    Size removed;
+    for (const char part : kParts) {
+        const std::string folder = fmt::format("{}/{}", folder_, part);
+        for (const File& file : files_in(folder)) {
+            if (::unlink(file.path.c_str()) != 0 && errno != ENOENT)
+                return file_error(file.path, "removed", errno);
+            removed.results += file.is_finished ? 1 : 0;
+            removed.bytes += file.bytes;
+        }
+        ::rmdir(folder.c_str());  // stays where it holds something else
+    }
+    ::rmdir(folder_.c_str());
+    return removed;
+}
+
+}  // namespace gobo

@@ -1,0 +1,72 @@
+// Results kept for later runs, found by the digest of all that they were computed from.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/diagnostic.hpp"
+#include "core/digest.hpp"
+
+namespace gobo {
+
+class ResultCache {
+  public:
+    ResultCache() = default;
+    ResultCache(const ResultCache&) = delete;
+    ResultCache& operator=(const ResultCache&) = delete;
+    virtual ~ResultCache() = default;
+
+    [[nodiscard]] virtual std::optional<std::string> find(const Digest& key) = 0;
+    virtual void keep(const Digest& key, std::string_view result) = 0;
+};
+
+/// For as long as the process lives.
+class MemoryCache final : public ResultCache {
+  public:
+    [[nodiscard]] std::optional<std::string> find(const Digest& key) override;
+    void keep(const Digest& key, std::string_view result) override;
+
+  private:
+    std::map<Digest, std::string> results_;
+};
+
+/// A folder with a file for each result, which several processes may use at once. A file is written under
+/// another name and renamed; one that is not whole counts as none and is removed.
+class DiskCache final : public ResultCache {
+  public:
+    /// The folder is made when the first result is kept.
+    explicit DiskCache(std::string folder, std::uint64_t most_bytes)
+        : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+
+    [[nodiscard]] std::optional<std::string> find(const Digest& key) override;
+    void keep(const Digest& key, std::string_view result) override;
+
+    /// Removes the results that were used longest ago from the sixteen parts of the folder to which something
+    /// was added, until each holds no more than its sixteenth of `most_bytes`. A warning where a result could
+    /// not be kept.
+    [[nodiscard]] Diagnostics tidy();
+
+    struct Size {
+        std::uint64_t results = 0;
+        std::uint64_t bytes = 0;
+    };
+    [[nodiscard]] Size size() const;
+    /// Removes every result, and nothing else; what it held. Fault::file where one cannot be removed.
+    [[nodiscard]] Result<Size> clear();
+
+  private:
+    [[nodiscard]] std::string path_of(const Digest& key) const;
+
+    std::string folder_;
+    std::uint64_t most_bytes_;
+    std::set<char> grown_;  ///< parts, by their names' digit
+    int error_ = 0;         ///< errno of a result that could not be kept
+    std::uint64_t written_ = 0;
+};
+
+}  // namespace gobo

@@ -1,0 +1,101 @@
+#include "gobo/kept_answers.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "core/bytes.hpp"
+#include "core/file_trace.hpp"
+
+namespace gobo {
+
+static void fields(auto& archive, OneOf<OutputFile> auto& value) {
+    auto& [path, content] = value;
+    archive(path, content);
+}
+static void fields(auto& archive, OneOf<Outcome> auto& value) {
+    auto& [output, diagnostics, summary, files, compiled] = value;
+    archive(output, diagnostics, summary, files, compiled);
+}
+
+namespace {
+
+/// Raised where Answer changes.
+constexpr int kFormat = 1;
+/// Bytes. What is longer takes more room than it saves time.
+constexpr std::size_t kLongestAnswer = std::size_t{64} << 20;
+
+struct Answer {
+    std::vector<FileQuestion> questions;  ///< of the files, with their answers
+    bool has_outcome = false;
+    Outcome outcome;     ///< where there is one
+    Diagnostics errors;  ///< where there is none
+};
+
+void fields(auto& archive, OneOf<Answer> auto& value) {
+    auto& [questions, has_outcome, outcome, errors] = value;
+    archive(questions, has_outcome, outcome, errors);
+}
+
+Digest key_of(const std::string& program, const std::vector<std::string>& arguments) {
+    std::error_code error;
+    const std::string folder = std::filesystem::current_path(error).string();
+    return digest_of(to_bytes(kFormat, program_identity(), program, folder, arguments));
+}
+
+/// Whether another run may find something else with the same arguments and files.
+bool may_change(const Diagnostics& found) {
+    return std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
+        return (diagnostic.fault != Fault::input && diagnostic.fault != Fault::usage) ||
+               is_of_stopped_glslang(diagnostic);
+    });
+}
+
+std::optional<Answer> kept_answer(ResultCache& cache, const Digest& key, const FileSystem& disk) {
+    const std::optional<std::string> bytes = cache.find(key);
+    if (!bytes) return std::nullopt;
+    std::optional<Answer> answer = from_bytes<Answer>(*bytes);
+    if (answer && !are_answered_alike(answer->questions, disk)) answer.reset();
+    return answer;
+}
+
+void keep(ResultCache& cache, const Digest& key, const TracedFiles& files, const Result<Outcome>& outcome) {
+    if (!files.is_repeatable() || may_change(outcome ? outcome->diagnostics : outcome.error())) return;
+    Answer answer{files.questions(), outcome.has_value(), {}, {}};
+    if (outcome)
+        answer.outcome = *outcome;
+    else
+        answer.errors = outcome.error();
+    if (answer.outcome.compiled > 0) answer.outcome.compiled = 0;
+    const std::string bytes = to_bytes(answer);
+    if (bytes.size() <= kLongestAnswer) cache.keep(key, bytes);
+}
+
+}  // namespace
+
+std::string cache_folder(const CommonOptions& options) {
+    const char* const named = std::getenv("GOBO_CACHE_DIR");
+    return options.cache.empty() && named != nullptr ? named : options.cache;
+}
+
+Result<Outcome> run_with_cache(const Command& command, const World& world, const std::string& program,
+                               const std::vector<std::string>& arguments, Diagnostics& warnings) {
+    const std::string folder = cache_folder(world.options);
+    if (folder.empty() || command.manages_cache) return command.run(world);
+    DiskCache cache(folder, std::uint64_t(world.options.cache_megabytes) << 20);
+    const Digest key = key_of(program, arguments);
+    if (command.is_repeatable)
+        if (std::optional<Answer> answer = kept_answer(cache, key, world.disk)) {
+            if (answer->has_outcome) return std::move(answer->outcome);
+            return tl::unexpected(std::move(answer->errors));
+        }
+    TracedFiles traced(world.disk);
+    FileSystem& disk = command.is_repeatable ? static_cast<FileSystem&>(traced) : world.disk;
+    Result<Outcome> outcome = command.run({disk, world.shipped, world.options, world.measure, &cache});
+    if (command.is_repeatable) keep(cache, key, traced, outcome);
+    append(warnings, cache.tidy());
+    return outcome;
+}
+
+}  // namespace gobo
