@@ -1,6 +1,7 @@
 #include "compose/scan_piece.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include <fmt/format.h>
@@ -97,6 +98,7 @@ class Scanner {
                            "write #endif in the same file, behind what the condition is for");
         }
         if (!is_guarded_) result_.guard.clear();
+        drop_semicolons();
         const std::vector<std::string_view> tokens = tokens_of(clean_.code);
         GOBO_TRY_DO(check_growth(tokens));
         result_.bindings = bindings_of(tokens);
@@ -130,8 +132,10 @@ class Scanner {
                                                 {path_, number, column},
                                                 std::string(line_of(file_, number))}));
             if (is_taken) return blank(start, end);
-            if (word == "error" || word == "pragma") close_quotation(start, end);
+            if (word == "else" || word == "endif") drop_words(start, end, word, number);
+            if (word == "error" || word == "pragma") close_quotation(start, end, ' ');
         }
+        close_quotation(start, end, '\'');
         if (is_outside && seen_code_) is_guarded_ = false;
         seen_code_ = true;
         return check_nesting(bare, number);
@@ -237,12 +241,76 @@ class Scanner {
     }
 
     /// To glslang a quotation mark without its end is an error even where nothing compiles it: the end may
-    /// have stood in a comment.
-    void close_quotation(std::size_t start, std::size_t end) {
+    /// have stood in a comment. `instead` takes its place: where something compiles it, that must be as
+    /// wrong.
+    void close_quotation(std::size_t start, std::size_t end, char instead) {
         const std::string_view code = std::string_view(clean_.code).substr(start, end - start);
         if (std::ranges::count(code, '"') % 2 == 0) return;
         const std::size_t last = start + code.rfind('"');
-        clean_.text[last] = clean_.code[last] = ' ';
+        clean_.text[last] = clean_.code[last] = instead;
+    }
+
+    /// Blanks what stands behind #else and #endif: some drivers take it, to others it is an error.
+    void drop_words(std::size_t start, std::size_t end, std::string_view word, int number) {
+        const std::size_t begin = clean_.code.find(word, start) + word.size();
+        if (trim(std::string_view(clean_.code).substr(begin, end - begin)).empty()) return;
+        result_.warnings.push_back(
+            warning({path_, number, 0}, line_of(file_, number),
+                    fmt::format("words behind #{} are left out: to some drivers they are an error", word),
+                    "make them a comment"));
+        for (std::size_t at = begin; at < end; ++at)
+            if (clean_.code[at] != ' ') clean_.text[at] = clean_.code[at] = ' ';
+    }
+
+    /// Blanks each `;` that stands alone at the top, behind another or behind a function's body: every driver
+    /// takes it, but GLSL has it from 4.60 on only.
+    void drop_semicolons() {
+        const std::string code = without_directives(clean_.code);
+        const std::vector<std::string_view> tokens = tokens_of(code);
+        const auto place_of = [&](std::size_t token) {
+            return static_cast<std::size_t>(tokens[token].data() - code.data());
+        };
+        int depth = 0;  // of braces and brackets
+        bool is_function = false;
+        std::size_t head = 0;  // where the declaration begins
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+            const std::string_view token = tokens[i];
+            if (token == "{" && depth == 0)
+                is_function = is_function_head(Tokens(tokens).subspan(head, i - head));
+            if (token == "{" || token == "(") ++depth;
+            if (token == "}" || token == ")") --depth;
+            if (depth != 0) continue;
+            const bool is_alone =
+                token == ";" && i > 0 && (tokens[i - 1] == ";" || (tokens[i - 1] == "}" && is_function));
+            // What stands behind a directive may be the end of one branch alone.
+            const std::size_t at = place_of(i);
+            if (is_alone && clean_.code.find('#', place_of(i - 1)) > at)
+                clean_.text[at] = clean_.code[at] = ' ';
+            if (token == ";" || (token == "}" && is_function)) head = i + 1;
+        }
+    }
+
+    static std::string without_directives(std::string code) {
+        for (std::size_t start = 0; start < code.size();) {
+            const std::size_t end = std::min(code.find('\n', start), code.size());
+            if (trim(std::string_view(code).substr(start, end - start)).starts_with('#'))
+                std::fill(code.begin() + static_cast<std::ptrdiff_t>(start),
+                          code.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+            start = end + 1;
+        }
+        return code;
+    }
+
+    /// `void main()`: two names before the bracket, and no block's word. A macro may stand for a block's
+    /// head.
+    static bool is_function_head(Tokens head) {
+        const auto bracket = std::ranges::find(head, "(");
+        if (head.empty() || head.back() != ")" || bracket - head.begin() < 2) return false;
+        if (!is_identifier(bracket[-1]) || !(is_identifier(bracket[-2]) || bracket[-2] == "]")) return false;
+        return std::none_of(head.begin(), bracket, [](std::string_view token) {
+            constexpr std::string_view words = " uniform buffer in out layout struct ";
+            return words.find(fmt::format(" {} ", token)) != std::string_view::npos;
+        });
     }
 
     std::string_view file_;
@@ -270,6 +338,11 @@ Result<Include> read_include(const Directive& directive) {
 
 bool add_extension(Extensions& extensions, const Directive& directive, bool is_certain) {
     const std::vector<std::string_view> tokens = tokens_of(directive.rest);
+    // They ask for what the composer has done.
+    constexpr std::array<std::string_view, 3> includes = {"GL_GOOGLE_include_directive",
+                                                          "GL_GOOGLE_cpp_style_line_directive",
+                                                          "GL_ARB_shading_language_include"};
+    if (tokens.size() == 3 && std::ranges::count(includes, tokens[0]) > 0) return true;
     if (tokens.size() != 3 || !are(tokens, {"name", ":", "name"})) return false;
     const bool is_weaker = tokens[2] == "require" && !is_certain;
     return add_extension(extensions, std::string(tokens[0]),

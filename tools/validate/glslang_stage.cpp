@@ -1,7 +1,9 @@
 #include "validate/glslang_stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,20 +19,25 @@
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
+#include "validate/language_rules.hpp"
 #include "validate/missing_ends.hpp"
 #include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
+#include "validate/tree_rules.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr auto kSpirvRules = static_cast<EShMessages>(EShMsgSpvRules);
+EShMessages rules(bool for_spirv, bool are_relaxed) {
+    return static_cast<EShMessages>((for_spirv ? EShMsgSpvRules : EShMsgDefault) |
+                                    (are_relaxed ? EShMsgRelaxedErrors : EShMsgDefault));
+}
 
 /// The texture functions of before GLSL 1.30, which carried their sampler's type in their name; those of
 /// shadows gave four components.
 std::string renamed_functions() {
     std::string text;
-    for (const char* shape : {"1D", "2D", "3D", "Cube"})
+    for (const char* shape : {"1D", "2D", "3D", "Cube", "2DRect"})
         for (const char* kind : {"", "Proj", "Lod", "ProjLod"})
             text += fmt::format("#define texture{0}{1} texture{1}\n", shape, kind);
     for (const char* shape : {"1D", "2D"}) {
@@ -126,19 +133,24 @@ bool makes_spirv(const GlslVersion& version) {
 
 /// Whether the version has the texture functions that carry their sampler's type in their name.
 bool has_old_functions(const GlslVersion& version) {
-    return version.number < 130;
+    return version.es ? version.number < 300 : version.number < 150 || version.profile == "compatibility";
 }
 
-/// The prologue with its version raised to the lowest one that glslang makes SPIR-V of, and the old functions
-/// behind that.
-std::string raised_for_spirv(std::string_view prologue, const std::string& functions) {
+/// The lowest version that has what this one has and of which glslang makes SPIR-V.
+std::string raised_version(const GlslVersion& version) {
+    // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
+    if (version.es && version.number != 100) return "310 es";
+    return fmt::format("{} core", std::max(version.number, 330));
+}
+
+/// The prologue with its version raised, and the old functions behind that.
+std::string raised_for_spirv(std::string_view prologue, const std::string& functions,
+                             const std::string& raised = "") {
     const GlslVersion version = version_of(prologue);
     const auto end = prologue.find('\n');
     const std::string_view rest =
         prologue.starts_with("#version") && end != std::string_view::npos ? prologue.substr(end) : "\n";
-    // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
-    const bool is_es = version.es && version.number != 100;
-    return fmt::format("#version {}{}{}", is_es ? "310 es" : "330 core",
+    return fmt::format("#version {}{}{}", raised.empty() ? raised_version(version) : raised,
                        has_old_functions(version) ? "\n" + functions : "", rest);
 }
 
@@ -174,13 +186,63 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
     }
 }
 
+/// Extensions that drivers have and glslang does not know; what they bring is in the versions that glslang
+/// checks by, or is told where it is used.
+constexpr std::array<std::string_view, 13> kUnknownToGlslang = {
+    "GL_ARB_arrays_of_arrays",     "GL_ARB_compatibility",    "GL_ARB_conservative_depth",
+    "GL_AMD_conservative_depth",   "GL_ARB_cull_distance",    "GL_ARB_draw_buffers",
+    "GL_ARB_ES3_1_compatibility",  "GL_ARB_shader_precision", "GL_ARB_fragment_layer_viewport",
+    "GL_ARB_texture_query_levels", "GL_EXT_texture_array",    "GL_AMD_vertex_shader_layer",
+    "GL_EXT_clip_cull_distance"};
+
+/// The prologue for glslang: it refuses to require what it does not know.
+std::string without_requirements(std::string prologue) {
+    for (const std::string_view extension : kUnknownToGlslang) {
+        const std::string required = fmt::format("#extension {} : require\n", extension);
+        if (const auto at = prologue.find(required); at != std::string::npos)
+            prologue.replace(at, required.size(), fmt::format("#extension {} : enable\n", extension));
+    }
+    return prologue;
+}
+
+/// Makes errors of what glslang only warns of, although the specification refuses it and drivers do.
+void make_strict(Diagnostic& diagnostic, std::string_view prologue, bool is_relaxed) {
+    const auto says = [&](std::string_view text) { return diagnostic.message.starts_with(text); };
+    if (diagnostic.severity != Severity::warning) return;
+    if (says("'return' : type conversion on return values was not explicitly allowed until") &&
+        prologue.find("GL_ARB_shading_language_420pack") == std::string_view::npos) {
+        diagnostic.severity = Severity::error;
+        diagnostic.message = "'return' of another type than the function's: GLSL converts it from 4.20 on";
+        diagnostic.help = "write the value in the function's type, as 1.0 for a float, or state #version 420";
+    }
+    // Of what glslang's relaxed rules let pass, drivers take but one.
+    constexpr std::array<std::string_view, 6> relaxed = {"The following extension must be enabled",
+                                                         "undefined macro in expression",
+                                                         "unexpected tokens following",
+                                                         "requires declaration of default precision",
+                                                         "(un)defined",
+                                                         "non-constant global initializer"};
+    for (const std::string_view text : relaxed)
+        if (is_relaxed && diagnostic.message.find(text) != std::string::npos)
+            diagnostic.severity = Severity::error;
+    if (says("'switch' : last case/default label not followed by statements")) {
+        diagnostic.severity = Severity::error;
+        diagnostic.help = "write break; behind it";
+    }
+}
+
 /// Adds what glslang leaves out: which extension, which numbers.
 void explain(Diagnostic& diagnostic) {
+    if (diagnostic.severity == Severity::warning &&
+        diagnostic.message.starts_with("'#extension' : extension not supported"))
+        diagnostic.help =
+            "glslang, by which shaders are checked, does not know it: what it brings is refused";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported for this version"))
         diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
         diagnostic.help = "OpenGL ES has it by GL_EXT_conservative_depth only, which glslang does not know";
-    if (diagnostic.message.starts_with("'subroutine' : not allowed")) {
+    if (diagnostic.message.starts_with("'subroutine' : not allowed") ||
+        diagnostic.message.starts_with("'subroutine' : feature not yet implemented")) {
         diagnostic.message = "'subroutine' : SPIR-V, by which shaders are checked, has no subroutines";
         diagnostic.help =
             "make each subroutine uniform a feature: [features.NAME] with define = \"UNIFORM\" and values = "
@@ -199,16 +261,17 @@ void explain(Diagnostic& diagnostic) {
 
 /// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
 /// with the line quoted; the rest (those of linking) stand at `otherwise`.
+/// `all`: those too that as a rule follow from others.
 Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
-                               const Place& otherwise) {
+                               const Place& otherwise, bool all = false) {
     constexpr std::string_view given_up = "'' : compilation terminated";
     // Where glslang gives up, an #extension seems to lack its line's end.
     const bool gave_up = log.find(given_up) != std::string_view::npos;
     const auto says_nothing = [&](std::string_view line) {
         const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
-        return holds(given_up) || holds("'subroutine' : feature not yet implemented") ||
-               holds(" compilation errors.") || holds("No code generated.") ||
-               (gave_up && holds("'#extension' : extra tokens"));
+        return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
+               (!all && holds("'subroutine' : feature not yet implemented")) ||
+               (!all && gave_up && holds("'#extension' : extra tokens"));
     };
     Diagnostics diagnostics;
     for (const std::string& full_line : split(log, '\n')) {
@@ -316,9 +379,9 @@ Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     std::erase_if(diagnostics, [](const Diagnostic& found) { return found.severity != Severity::error; });
     for (Diagnostic& diagnostic : diagnostics) {
         diagnostic.help = fmt::format(
-            "glslang makes no SPIR-V of GLSL {}, so gobo reads it as 330 (ES: 310), which lacks this; write "
-            "it with what 330 has",
-            version.number);
+            "glslang makes no SPIR-V of GLSL {}{}{}, so gobo reads it as {}, which lacks this; write it with "
+            "what that has",
+            version.number, version.profile.empty() ? "" : " ", version.profile, raised_version(version));
     }
     return diagnostics;
 }
@@ -369,16 +432,18 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     shader.setAutoMapLocations(true);
     shader.setAutoMapBindings(map_bindings);
     bindings_mapped_ = map_bindings;
-    const bool is_fine =
-        shader.parse(GetDefaultResources(), 110, false, for_spirv ? kSpirvRules : EShMsgDefault);
+    const bool is_fine = shader.parse(GetDefaultResources(), 110, false, rules(for_spirv, is_relaxed_));
     const Place place{pieces_.back()->path, 0, 0};
-    const Diagnostics found = with_macros(
+    Diagnostics found = with_macros(
         with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
+    for (Diagnostic& diagnostic : found) make_strict(diagnostic, prologue, is_relaxed_);
     if (is_fine && shader.getIntermediate()->getNumEntryPoints() == 0)
         return fail(place, "", fmt::format("the {} stage has no main()", name_of(kind_)),
                     "write void main() in the template")
             .value();
     if (is_fine || has_errors(found)) return found;
+    found = diagnostics_of_log(shader.getInfoLog(), pieces_, place, true);
+    if (has_errors(found)) return found;
     return fail(Fault::internal, "glslang refuses a stage without saying why").value();
 }
 
@@ -404,13 +469,33 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
     if (has_errors(own)) return own;
     const Diagnostics raised = parse_as(raised_for_spirv(prologue, renamed_functions()), true, true);
     if (!has_errors(raised)) return own;
-    const bool is_right = has_old_functions(version) &&
-                          !has_errors(parse_as(raised_for_spirv(prologue, old_functions(kind_)), true, true));
+    const bool is_right =
+        has_old_functions(version) &&
+        (!has_errors(parse_as(raised_for_spirv(prologue, old_functions(kind_)), true, true)) ||
+         // The last version whose core still has gl_FragColor, attribute and varying.
+         (version.number > 410 &&
+          !has_errors(parse_as(raised_for_spirv(prologue, renamed_functions(), "410 core"), true, true))));
     return is_right ? own : explained(raised, version);
 }
 
 Diagnostics GlslangStage::parse() {
-    const std::string& prologue = pieces_.front()->text;
+    const std::string prologue = without_requirements(pieces_.front()->text);
+    is_relaxed_ = false;
+    Diagnostics found = parse_by_glslang(prologue);
+    // That a macro gives `defined` is an error to glslang alone; it can be told to go on.
+    is_relaxed_ = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
+        return diagnostic.message.starts_with(
+            "'defined' : cannot use in preprocessor expression when expanded");
+    });
+    if (is_relaxed_) found = parse_by_glslang(prologue);
+    if (has_errors(found)) return found;
+    for (Diagnostics& more :
+         std::array{check_tree(*shader_->shader.getIntermediate(), pieces_), check_language(kind_, pieces_)})
+        std::ranges::move(more, std::back_inserter(found));
+    return found;
+}
+
+Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
     const Diagnostics found = parse_as_version(prologue);
     std::set<std::string> names = taken_names(found, pieces_);
     for (std::size_t known = 0; names.size() > known;) {
@@ -425,7 +510,7 @@ Diagnostics GlslangStage::parse() {
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
     for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
-    const bool is_fine = program.link(kSpirvRules);
+    const bool is_fine = program.link(rules(true, false));
     std::vector<const Piece*> earlier;
     for (std::size_t i = 0; i + 1 < stages.size(); ++i)
         earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
@@ -440,7 +525,7 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
 Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool places_vertices) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
-    if (!program.link(kSpirvRules)) {  // no main(), recursion
+    if (!program.link(rules(true, false))) {  // no main(), recursion
         Diagnostics found =
             with_places(diagnostics_of_log(program.getInfoLog(), {}, {pieces_.back()->path, 0, 0}), pieces_);
         if (has_errors(found)) return tl::unexpected(std::move(found));

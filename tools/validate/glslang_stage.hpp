@@ -19,7 +19,8 @@ class GlslangStage {
         : kind_(kind), pieces_(std::move(pieces)) {}
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
-    /// own rules, then raised. What glslang says of it.
+    /// own rules, then raised. What glslang says of it, and where it is content what check_language() and
+    /// check_tree() do.
     Diagnostics parse();
 
     /// The SPIR-V of the parsed stage, unstated locations and bindings assigned, and its interface, where
@@ -45,6 +46,7 @@ class GlslangStage {
     };
 
     Diagnostics parse_as(const std::string& prologue, bool for_spirv, bool map_bindings);
+    Diagnostics parse_by_glslang(const std::string& prologue);
     Diagnostics parse_as_version(const std::string& prologue);
 
     StageKind kind_;
@@ -52,6 +54,7 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
+    bool is_relaxed_ = false;
 };
 
 }  // namespace gobo

@@ -1,0 +1,31 @@
+// Which version of GLSL, or which extension, brought a name that glslang knows earlier.
+#pragma once
+
+#include <string_view>
+
+#include "compose/dialect.hpp"
+
+namespace gobo {
+
+/// A name that no version has: an extension alone brings it.
+inline constexpr int kNever = 100'000;
+/// No OpenGL has it: it is Vulkan's.
+inline constexpr int kVulkan = 200'000;
+
+/// The first versions that have a name, and the extensions by which earlier ones do.
+struct NameSince {
+    std::string_view name;  ///< ending in `*`: what begins so
+    int desktop;
+    int es;
+    std::string_view extensions;  ///< with blanks between; one that begins with `_` ends so
+};
+
+/// The entry of an identifier, or of the name of a layout qualifier; null for what every version has.
+[[nodiscard]] const NameSince* name_since(std::string_view identifier);
+[[nodiscard]] const NameSince* layout_since(std::string_view qualifier);
+
+/// Whose an extension is.
+enum class ExtensionOf { any, desktop, es, vulkan, tools };
+[[nodiscard]] ExtensionOf owner_of_extension(std::string_view name);
+
+}  // namespace gobo

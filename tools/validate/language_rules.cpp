@@ -1,0 +1,307 @@
+#include "validate/language_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compose/clean_text.hpp"
+#include "compose/conditions.hpp"
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
+#include "validate/language_names.hpp"
+
+namespace gobo {
+namespace {
+
+/// A token that is compiled, before macros are replaced.
+struct Token {
+    std::string_view text;
+    const Piece* piece;
+    int line;
+};
+
+bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// "4.20", or "ES 3.10".
+std::string version_text(int number, bool es) {
+    return fmt::format("{}{}.{:02}", es ? "ES " : "", number / 100, number % 100);
+}
+
+class LanguageCheck {
+  public:
+    LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces)
+        : kind_(kind),
+          pieces_(pieces),
+          prologue_(pieces.front()->text),
+          version_(version_of(prologue_)),
+          conditions_(prologue_) {}
+
+    Diagnostics run() {
+        check_extensions();
+        for (const Piece* const piece : pieces_)
+            if (piece != pieces_.front()) walk(*piece);
+        for (std::size_t i = 0; i < tokens_.size(); ++i) check_token(i);
+        check_declarations();
+        return std::move(found_);
+    }
+
+  private:
+    void refuse(const Piece& piece, int line, std::string message, std::string help) {
+        if (!told_.insert(message).second) return;  // one cause, one message
+        Diagnostic& diagnostic = found_.emplace_back();
+        diagnostic.message = std::move(message);
+        diagnostic.help = std::move(help);
+        put_at(diagnostic, piece, line);
+    }
+    void refuse(const Token& token, std::string message, std::string help) {
+        refuse(*token.piece, token.line, std::move(message), std::move(help));
+    }
+
+    [[nodiscard]] bool is_before(int desktop) const { return !version_.es && version_.number < desktop; }
+    /// Whether the prologue states an extension; of `_geometry_shader`, any that ends so.
+    [[nodiscard]] bool has_extension(std::string_view name) const {
+        const std::string wanted = fmt::format("{}{} :", name.starts_with('_') ? "" : "#extension ", name);
+        return prologue_.find(wanted) != std::string::npos;
+    }
+
+    /// Each `#extension NAME : require` of the prologue.
+    void check_extensions() {
+        int line = 0;
+        for (const std::string& text : split(prologue_, '\n')) {
+            ++line;
+            const std::vector<std::string_view> tokens = tokens_of(text);
+            if (tokens.size() != 5 || tokens[1] != "extension" || tokens[4] != "require") continue;
+            const ExtensionOf owner = owner_of_extension(tokens[2]);
+            const bool is_other = owner == (version_.es ? ExtensionOf::desktop : ExtensionOf::es);
+            if (owner == ExtensionOf::vulkan || owner == ExtensionOf::tools || is_other)
+                refuse(
+                    *pieces_.front(), line,
+                    fmt::format("no OpenGL{} has {}: it is {}", version_.es ? " ES" : "", tokens[2],
+                                is_other                       ? version_.es ? "OpenGL's" : "OpenGL ES's"
+                                : owner == ExtensionOf::vulkan ? "Vulkan's"
+                                                               : "for tools"),
+                    "leave it out, or state it where its macro is defined: #ifdef " + std::string(tokens[2]));
+        }
+    }
+
+    /// Takes in the active lines of a piece.
+    void walk(const Piece& piece) {
+        std::string_view text = piece.text;
+        if (text.find("//") != std::string_view::npos || text.find("/*") != std::string_view::npos)
+            if (auto clean = clean_text(text, piece.path))
+                text = without_comments_.emplace_back(std::move(clean->code));
+        for (int number = 1; !text.empty(); ++number) {
+            const std::string_view line = text.substr(0, text.find('\n'));
+            text.remove_prefix(std::min(line.size() + 1, text.size()));
+            const std::string_view code = trim_left(line);
+            if (code.empty()) continue;
+            if (code.front() == '#') {
+                walk_directive(code.substr(1), piece, number);
+            } else if (conditions_.is_active()) {
+                for (const std::string_view token : tokens_of(code))
+                    tokens_.push_back({token, &piece, number});
+            }
+        }
+    }
+
+    static std::string_view trim_left(std::string_view text) {
+        return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+    }
+
+    void walk_directive(std::string_view text, const Piece& piece, int number) {
+        text = trim_left(text);
+        const std::string_view word = {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
+        const std::string_view rest = trim_left(text.substr(word.size()));
+        if (conditions_.is_active()) check_directive(word, rest, piece, number);
+        if (word == "define" || word == "undef" || word.starts_with("if") || word.starts_with("el") ||
+            word == "endif")
+            static_cast<void>(conditions_.apply({std::string(word), std::string(rest), {}, {}}));
+    }
+
+    void check_directive(std::string_view word, std::string_view rest, const Piece& piece, int number) {
+        if (word == "define" || word == "undef") {
+            const std::string_view name = macro_name(rest);
+            if (is_any(name, {"__LINE__", "__FILE__", "__VERSION__", "defined"}))
+                refuse(piece, number, fmt::format("'{}' is GLSL's own", name), "choose another name");
+            if (std::ranges::count(tokens_of(rest), "#") > 0)
+                refuse(piece, number,
+                       fmt::format("the macro '{}' makes a string by '#', which GLSL has not", name),
+                       "take the '#' out: GLSL has no strings, only ## to join names");
+        }
+        const std::vector<std::string_view> tokens = tokens_of(rest);
+        constexpr std::array<std::string_view, 5> invariant_all = {"STDGL", "invariant", "(", "all", ")"};
+        if (word == "pragma" && kind_ == StageKind::fragment && std::ranges::equal(tokens, invariant_all))
+            refuse(piece, number, "a fragment stage cannot state #pragma STDGL invariant(all)",
+                   "state it in the vertex stage alone");
+    }
+
+    [[nodiscard]] std::string_view at(std::size_t index) const {
+        return index < tokens_.size() ? tokens_[index].text : std::string_view();
+    }
+    [[nodiscard]] bool is_name(std::size_t index) const {
+        return !at(index).empty() && is_identifier(at(index));
+    }
+    [[nodiscard]] bool is_macro(std::size_t index) const { return conditions_.is_defined(at(index)) != 0; }
+
+    void check_token(std::size_t index) {
+        const Token& token = tokens_[index];
+        if (!is_identifier(token.text)) return;
+        if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
+        // A member may be called so.
+        if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")
+            check_since(token, *since, fmt::format("'{}'", token.text));
+        if (is_any(token.text, {"highp", "mediump", "lowp"})) check_precision(index);
+        const bool is_removed = is_any(
+            token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords", "gl_MaxClipPlanes", "gl_MaxLights"});
+        if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
+            refuse(token,
+                   fmt::format("'{}' went with GLSL 1.40, but for the compatibility profile", token.text),
+                   "take it out");
+    }
+
+    void check_since(const Token& token, const NameSince& since, const std::string& what) {
+        const int first = version_.es ? since.es : since.desktop;
+        if (version_.number >= first) return;
+        if (first == kVulkan)
+            return refuse(token, fmt::format("OpenGL's GLSL has no {}: it is Vulkan's", what),
+                          "write it as OpenGL has it, or take it out");
+        std::string wanted;
+        for (const std::string& extension : split(since.extensions, ' ')) {
+            if (extension.empty()) continue;
+            if (has_extension(extension)) return;
+            const bool is_of_es = extension.starts_with('_') || !extension.starts_with("GL_ARB_");
+            const bool fits = extension.starts_with('_') || is_of_es == version_.es;
+            if (fits && wanted.empty())
+                wanted = fmt::format("#extension {}{} : require",
+                                     !extension.starts_with('_') ? ""
+                                     : version_.es               ? "GL_EXT"
+                                                                 : "GL_ARB",
+                                     extension);
+        }
+        std::string help =
+            first < kNever ? fmt::format("state #version {}{}", first, version_.es ? " es" : "") : "";
+        if (!wanted.empty()) help += (help.empty() ? "state " : ", or ") + wanted;
+        if (help.empty()) help = "take it out";
+        refuse(token,
+               first < kNever ? fmt::format("{} came with GLSL {}", what, version_text(first, version_.es))
+                              : fmt::format("GLSL {}has no {}", version_.es ? "ES " : "", what),
+               std::move(help));
+    }
+
+    /// The qualifiers of a layout(...), which begin at the token.
+    void check_layout(std::size_t begin) {
+        std::size_t end = begin;
+        for (int depth = 1; end < tokens_.size(); ++end) {
+            if (at(end) == "(") ++depth;
+            if (at(end) == ")" && --depth == 0) break;
+        }
+        bool counts_atomically = false;  // there `offset` is as old as the counter
+        for (std::size_t i = end; i < tokens_.size() && !is_any(at(i), {";", "{"}); ++i)
+            counts_atomically = counts_atomically || at(i) == "atomic_uint";
+        for (std::size_t i = begin; i < end; ++i) {
+            const bool is_qualifier = i == begin || at(i - 1) == ",";
+            const NameSince* since = is_qualifier ? layout_since(at(i)) : nullptr;
+            if (since != nullptr && !(at(i) == "offset" && counts_atomically))
+                check_since(tokens_[i], *since, fmt::format("layout({})", at(i)));
+        }
+    }
+
+    void check_precision(std::size_t index) {
+        const std::string_view next = at(index + 1);
+        if (is_any(next, {"bool", "bvec2", "bvec3", "bvec4"}))
+            refuse(tokens_[index], fmt::format("'{}' before {}, which has no precision", at(index), next),
+                   fmt::format("take '{}' out", at(index)));
+        const bool is_storage = is_any(
+            next, {"const", "in", "out", "inout", "uniform", "varying", "attribute", "centroid", "flat"});
+        if (is_storage && is_before(420) && !has_extension("GL_ARB_shading_language_420pack"))
+            refuse(tokens_[index],
+                   fmt::format("'{}' stands before '{}', which came with GLSL 4.20", at(index), next),
+                   fmt::format("write {} {}", next, at(index)));
+    }
+
+    /// What is declared at the top and within functions.
+    void check_declarations() {
+        int depth = 0;  // of braces
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            const std::string_view token = at(i);
+            if (token == "{") ++depth;
+            if (token == "}") --depth;
+            if (depth == 1 && token == "{") check_block(begin, i);
+            if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
+            if (depth == 0 && token == ";") check_counter(begin, i);
+            if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
+        }
+    }
+
+    /// `float f(float x);` within a function.
+    void check_prototype(std::size_t index) {
+        if (at(index + 2) != "(" || !is_name(index) || !is_name(index + 1)) return;
+        if (is_any(at(index), {"return", "else", "do", "case"}) ||
+            is_any(at(index + 1), {"if", "for", "while", "switch", "layout", "return"}) || is_macro(index) ||
+            is_macro(index + 1))
+            return;
+        refuse(tokens_[index + 1], fmt::format("the function '{}' is declared within another", at(index + 1)),
+               "declare it before, outside of any function");
+    }
+
+    /// A block whose `{` is at `brace`; its declaration begins at `begin`.
+    void check_block(std::size_t begin, std::size_t brace) {
+        const auto is = [&](std::string_view word) {
+            return std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
+                               tokens_.begin() + static_cast<std::ptrdiff_t>(brace),
+                               [&](const Token& token) { return token.text == word; });
+        };
+        const bool is_buffer = is("buffer");
+        if (brace == 0 || at(brace - 1) == ")" || !(is_buffer || is("uniform"))) return;
+        std::size_t end = brace + 1;
+        for (; end < tokens_.size() && at(end) != "}"; ++end) {
+            const bool is_unsized = at(end) == "[" && at(end + 1) == "]";
+            if (!is_unsized || !is_buffer) continue;
+            std::size_t last = end;
+            while (last < tokens_.size() && !is_any(at(last), {";", "}"})) ++last;
+            if (at(last + 1) != "}" && at(last) == ";")
+                refuse(tokens_[end], "only the last member of a buffer block may be an array without a size",
+                       "give it a size, or move it to the end");
+        }
+        if (!version_.es && version_.number == 140 && is_name(end + 1) && !is_macro(end + 1))
+            refuse(tokens_[end + 1],
+                   fmt::format("the block's name for its instance, '{}', came with GLSL 1.50", at(end + 1)),
+                   "state #version 150, or take it out and name its members alone");
+    }
+
+    /// `uniform atomic_uint NAME;` from one token to another.
+    void check_counter(std::size_t begin, std::size_t end) {
+        bool is_uniform = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (at(i) == "binding" || is_macro(i)) return;
+            is_uniform = is_uniform || at(i) == "uniform";
+            if (at(i) == "atomic_uint" && is_uniform && is_name(i + 1))
+                refuse(tokens_[i], fmt::format("the atomic counter '{}' states no binding", at(i + 1)),
+                       "write layout(binding = 0) before uniform");
+        }
+    }
+
+    StageKind kind_;
+    const std::vector<const Piece*>& pieces_;
+    const std::string& prologue_;
+    GlslVersion version_;
+    Conditions conditions_;
+    std::deque<std::string> without_comments_;  ///< texts that tokens point into
+    std::vector<Token> tokens_;
+    std::set<std::string> told_;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces) {
+    return LanguageCheck(kind, pieces).run();
+}
+
+}  // namespace gobo

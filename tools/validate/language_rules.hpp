@@ -1,0 +1,16 @@
+// What glslang takes although the stage's version of GLSL, or OpenGL, has it not: drivers refuse it.
+#pragma once
+
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
+
+namespace gobo {
+
+/// Errors of what the stage's active lines say: names and layout qualifiers of later versions or of Vulkan,
+/// extensions that OpenGL has not, macros that make strings, functions declared within others. The first
+/// piece is the prologue, which states version and extensions.
+[[nodiscard]] Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces);
+
+}  // namespace gobo
