@@ -7,7 +7,7 @@
 #include <directional_shadows>
 #include <shading/directional_ray>
 #include "directional/lights.glsl"
-#include "lighting/response.glsl"
+#include <lighting/response>
 
 /// Adds every directional light to the surface's response.
 void addDirectionalLights() {

@@ -7,7 +7,7 @@
 
 #piece directional_or_point
 #include <directional_or_point/ray>
-#include "lighting/response.glsl"
+#include <lighting/response>
 
 /// Adds every such light to the surface's response.
 void addDirectionalOrPointLights() {

@@ -6,7 +6,7 @@
 #piece point
 #include <point_shadows>
 #include <shading/point_ray>
-#include "lighting/response.glsl"
+#include <lighting/response>
 #include "point/lights.glsl"
 
 /// Adds every point light to the surface's response.

@@ -7,7 +7,7 @@
 #piece spot
 #include <shading/spot_ray>
 #include <spot_shadows>
-#include "lighting/response.glsl"
+#include <lighting/response>
 #include "spot/lights.glsl"
 
 /// Adds every spot light to the surface's response.

@@ -132,5 +132,78 @@ TEST(ReadFamily, PutsAnExplicitDefaultFirstAndKeepsTheOrderOfTheList) {
     EXPECT_EQ(key_text(family, {2}), "sum=good");
 }
 
+// What a family leaves out stands still in the rules that it keeps, each as it must come out.
+TEST(ReadFamily, KeepsRulesOfWhatIsLeftOut) {
+    constexpr const char* kBase = R"toml(name     = "base"
+vertex   = "base.vert"
+fragment = "base.frag"
+[features.fog]
+values = ["none", "thin", "thick"]
+[features.shine]
+values = ["none", "blinn"]
+[features.lamp]
+count    = [0, 4]
+constant = "LAMPS"
+[features.star]
+count    = [0, 4]
+constant = "STARS"
+[[rules]]
+when    = "shine == none"   # never
+default = ["fog"]
+[[rules]]
+when    = "shine == blinn && star == 0"   # star == 0
+default = ["fog", "shine"]
+[[rules]]
+when    = "fog == thick"   # nothing is left to stand at its default
+default = ["shine"]
+[[rules]]
+forbid = "lamp + star > 3"   # star > 1
+reason = "too many"
+[[rules]]
+forbid = "star > lamp || fog == thick"   # star > 2 || fog == thick
+reason = "too thick"
+[domain]
+"Shine.power" = [0, 1]
+"Lamps[].color" = [0, 1]
+[[relations]]
+off = "shine"
+at  = { "Shine.power" = 0 }
+[[relations]]
+any_order = "Stars"
+when      = "shine == blinn && lamp == 2"
+[[relations]]
+any_order = "Lamps"
+)toml";
+    const Family family = read_family(R"toml(name    = "over"
+extends = "base"
+without = ["shine=blinn", "lamp=2", "Lamps", "Shine"]
+[features.fog]
+values  = ["thickest"]
+default = "thick"
+)toml",
+                                      "over.toml",
+                                      [&](const std::string&) -> Result<FamilyText> {
+                                          return FamilyText{kBase, "base.toml"};
+                                      })
+                              .value();
+    ASSERT_EQ(family.features.size(), 2U);
+    EXPECT_THAT(family.features[0].values, ElementsAre("thick", "none", "thin", "thickest"));
+    EXPECT_TRUE(family.domains.empty());
+    ASSERT_EQ(family.rules.size(), 3U);
+    const auto which = [&](const Expression& condition) {
+        std::string text;
+        for (int fog = 0; fog < 4; ++fog)
+            for (int star = 0; star < 5; ++star) text += holds(condition, {fog, star}) ? 'x' : '.';
+        return text;
+    };
+    EXPECT_EQ(which(family.rules[0].when), "x....x....x....x....");
+    EXPECT_THAT(family.rules[0].defaults, ElementsAre(0));
+    EXPECT_EQ(which(family.rules[1].when), "..xxx..xxx..xxx..xxx");
+    EXPECT_EQ(which(family.rules[2].when), "xxxxx...xx...xx...xx");
+    ASSERT_EQ(family.relations.size(), 1U);
+    EXPECT_THAT(family.relations[0].names, ElementsAre("Stars"));
+    EXPECT_EQ(which(*family.relations[0].when), "xxxxxxxxxxxxxxxxxxxx");
+}
+
 }  // namespace
 }  // namespace gobo

@@ -87,8 +87,8 @@ TEST(OracleSurface, PassesTheColorThroughUnlit) {
     EXPECT_EQ(radiance({.lighting = Lighting::unlit}, scene, point), glm::dvec3(0.5, 0.25, 1));
     const Model tinted{.lighting = Lighting::unlit, .vertex_color = VertexColor::modulate};
     EXPECT_EQ(radiance(tinted, scene, point), glm::dvec3(0.25, 0.25, 0.25));
-    EXPECT_EQ(alpha_of(tinted, point), 0.75);
-    EXPECT_EQ(alpha_of({}, point), 1);
+    EXPECT_EQ(alpha_of(tinted, {}, point), 0.75);
+    EXPECT_EQ(alpha_of({}, {}, point), 1);
 }
 
 TEST(OracleSurface, TintsScatteredLightButNoHighlightAndNoEmission) {

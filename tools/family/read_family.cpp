@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
+#include "family/left_out.hpp"
 #include "family/read_features.hpp"
 #include "family/toml_reader.hpp"
 
@@ -295,16 +296,26 @@ Result<FamilyText> base_of(const TomlReader& reader, const FindFamily& find_base
 Result<Family> read_family(std::string_view text, const std::string& path, const FindFamily& find_base) {
     TomlReader reader(text, path);
     GOBO_TRY(const FamilyText base, base_of(reader, find_base));
-    if (!base.path.empty()) reader.extend(base.text, base.path, {"values", "excluded", "rules", "relations"});
+    const TomlTable own(reader, reader.root(), "the family");
+    const std::vector<std::string> without = own.strings("without");
+    if (!without.empty() && base.path.empty() && !reader.failed())
+        own.error("without", "leaves something out of no family", "name the family with extends = \"NAME\"");
+    std::vector<std::string> unknown;
+    if (!base.path.empty())
+        reader.extend(base.text, base.path, {"values", "excluded", "rules", "relations"},
+                      [&](toml::table& table) { unknown = leave_out(table, without); });
     Family family;
     family.path = path;
     const TomlTable root(reader, reader.root(), "the family");
     std::vector<std::string> known = {
-        "name",       "extends",      "programs",      "version",     "prologue", "includes",
-        "substitute", "unroll_loops", "compatibility", "features",    "rules",    "varyings",
-        "domain",     "render",       "relations",     "default_set", "renamed"};
+        "name",     "extends",    "without",      "programs",      "version",     "prologue",
+        "includes", "substitute", "unroll_loops", "compatibility", "features",    "rules",
+        "varyings", "domain",     "render",       "relations",     "default_set", "renamed"};
     for (const StageNames& stage : kStages) known.emplace_back(stage.name);
     root.only(known);
+    for (const std::string& name : unknown)
+        root.error("without", fmt::format("leaves out '{}', which '{}' does not have", name, base.path),
+                   "name features, varyings, uniform blocks or inputs of the extended family");
     family.name = root.required_string("name");
     if (!reader.failed() && !is_identifier(family.name))
         reader.error(root.place_of("name"), fmt::format("'{}' cannot name a family", family.name),
@@ -318,12 +329,22 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.unrolls_loops = root.boolean("unroll_loops").value_or(false);
     family.compatibility = root.boolean("compatibility").value_or(false);
     family.features = read_features(root);
-    family.rules = read_rules(root, family.features);
+    Inherited inherited;
+    if (!without.empty() && !reader.failed()) {
+        TomlReader base_reader(base.text, base.path);
+        inherited = inherited_without(TomlTable(base_reader, base_reader.root(), "the family"), without,
+                                      family.features);
+        if (base_reader.failed()) reader.take(base_reader.errors());
+    }
+    family.rules = std::move(inherited.rules);
+    for (Rule& rule : read_rules(root, family.features)) family.rules.push_back(std::move(rule));
     family.varyings = read_varyings(root, family.features);
     refuse_varyings_across_stages(root, family);
     family.domains = read_domains(root);
     family.render = read_render_values(root, "render");
-    family.relations = read_relations(root, family.features);
+    family.relations = std::move(inherited.relations);
+    for (Relation& relation : read_relations(root, family.features))
+        family.relations.push_back(std::move(relation));
     family.default_selection = read_default_set(root, family);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return family;

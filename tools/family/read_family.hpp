@@ -22,7 +22,7 @@ using FindFamily = std::function<Result<FamilyText>(const std::string& name)>;
 /// folder of the templates. Anything unknown, missing or of the wrong type is an error with its place.
 ///
 /// `extends = "lit"` lays the file over another family: its features' values and its rules are added behind
-/// those of the other, whatever else it states takes the other's place.
+/// those of the other, whatever else it states takes the other's place, and `without` names what it has not.
 [[nodiscard]] Result<Family> read_family(std::string_view text, const std::string& path,
                                          const FindFamily& find_base = {});
 

@@ -54,7 +54,8 @@ toml::table TomlReader::parse(std::string_view text, const std::string& path) {
 }
 
 void TomlReader::extend(std::string_view base_text, std::string base_path,
-                        const std::vector<std::string>& appended) {
+                        const std::vector<std::string>& appended,
+                        const std::function<void(toml::table& base)>& prepare) {
     toml::table base = parse(base_text, base_path);
     if (const toml::node* extends = root_.get("extends"); extends != nullptr && base.contains("extends")) {
         const bool is_itself = base_path == path_;
@@ -64,6 +65,7 @@ void TomlReader::extend(std::string_view base_text, std::string base_path,
                      is_itself ? "name another, or leave 'extends' out"
                                : "extend the family that it extends, and state here what it adds");
     }
+    prepare(base);
     merge_into(base, root_, appended);
     root_ = std::move(base);
 }

@@ -2,6 +2,7 @@
 // each error names its place. Shared by whatever gobo reads from TOML.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,7 +25,9 @@ class TomlReader {
     /// Lays this document over another one: tables merge, the arrays in `appended` grow by this document's
     /// elements, any other value of this document takes the place of the other's. Errors keep naming the
     /// document they are in.
-    void extend(std::string_view base_text, std::string base_path, const std::vector<std::string>& appended);
+    /// `prepare` may change the other document before.
+    void extend(std::string_view base_text, std::string base_path, const std::vector<std::string>& appended,
+                const std::function<void(toml::table& base)>& prepare);
 
     [[nodiscard]] const toml::table& root() const { return root_; }
     [[nodiscard]] bool failed() const { return !errors_.empty(); }

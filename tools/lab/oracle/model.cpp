@@ -58,9 +58,24 @@ const std::map<std::string, Setter>& setters() {
         {"light_sum", choice(&Model::light_sum, {"plain", "compensated", "pairwise"})},
         {"guards", choice(&Model::guards, {"full", "ordinary"})},
         {"spot_edge", choice(&Model::spot_edge, {"one_minus_cosine", "angle", "cosine"})},
+        {"base_color_map", choice(&Model::base_color_map, {"none", "texture"})},
+        {"metallic_roughness_map", choice(&Model::metallic_roughness_map, {"none", "texture"})},
+        {"normal_map", choice(&Model::normal_map, {"none", "tangent"})},
+        {"occlusion_map", choice(&Model::occlusion_map, {"none", "texture"})},
+        {"emissive_map", choice(&Model::emissive_map, {"none", "texture"})},
+        {"texture_placement", choice(&Model::texture_placement, {"plain", "placed"})},
+        {"clearcoat", choice(&Model::clearcoat, {"none", "layer"})},
+        {"sheen", choice(&Model::sheen, {"none", "charlie"})},
+        {"anisotropy", choice(&Model::anisotropy, {"none", "brushed"})},
         {"output_range", choice(&Model::output_range, {"unbounded", "half_float", "display"})},
         {"depth", set_depth},
-        {"lighting", choice(&Model::lighting, {"lit", "unlit"})},
+        {"lighting", choice(&Model::lighting, {"lit", "unlit", "metallic_roughness", "base_color"})},
+        {"distribution", choice(&Model::distribution, {"cross_product", "plain"})},
+        {"visibility", choice(&Model::masking_shadowing, {"correlated", "interpolated", "half_angle"})},
+        {"fresnel", choice(&Model::fresnel, {"exact", "schlick", "gaussian", "constant"})},
+        {"diffuse_lobe", choice(&Model::diffuse_lobe, {"oren_nayar", "burley", "lambert"})},
+        {"environment_brdf", choice(&Model::environment_brdf, {"table", "karis", "constant"})},
+        {"multiple_scattering", choice(&Model::multiple_scattering, {"returned", "none"})},
         {"light_ambient", choice(&Model::light_ambient, {"none", "each"})},
         {"ambient", choice(&Model::ambient, {"global", "hemisphere", "spherical_harmonics", "image"})},
         {"hemisphere", choice(&Model::hemisphere, {"sine", "cosine"})},
@@ -75,7 +90,7 @@ const std::map<std::string, Setter>& setters() {
 }  // namespace
 
 tl::expected<Model, std::string> model_of(const Family& family, const Key& key) {
-    if (family.name != "lit")
+    if (family.name != "lit" && family.name != "pbr")
         return tl::unexpected(fmt::format("the oracle does not know the family '{}'", family.name));
     Model model;
     for (std::size_t i = 0; i < key.size(); ++i) {

@@ -1,4 +1,4 @@
-// Which of the lighting models a key of the family `lit` stands for.
+// Which of the lighting models a key of the families `lit` and `pbr` stands for.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ enum class Reflection { none, image };
 enum class ShadowFilter { bilinear, sampler, nearest };
 enum class OutputRange { unbounded, half_float, display };
 enum class Depth { untouched, any, greater, less, unchanged };
-enum class Lighting { lit, unlit };
+enum class Lighting { lit, unlit, metallic_roughness, base_color };
 enum class LightAmbient { none, each };
 enum class Ambient { global, hemisphere, spherical_harmonics, image };
 enum class Hemisphere { sine, cosine };
@@ -36,6 +36,20 @@ enum class Power { exact, near_exact, squaring, gaussian_fitted, gaussian, lyon,
 enum class LightSum { plain, compensated, pairwise };
 enum class Guards { full, ordinary };
 enum class SpotEdge { one_minus_cosine, angle, cosine };
+
+// Of physically based surfaces.
+enum class Distribution { cross_product, plain };
+enum class MaskingShadowing { correlated, interpolated, half_angle };
+enum class Fresnel { exact, schlick, gaussian, constant };
+enum class DiffuseLobe { oren_nayar, burley, lambert };
+enum class EnvironmentBrdf { table, karis, constant };
+enum class MultipleScattering { returned, none };
+enum class Picture { none, texture };
+enum class NormalMap { none, tangent };
+enum class Placement { plain, placed };
+enum class Clearcoat { none, layer };
+enum class Sheen { none, charlie };
+enum class Anisotropy { none, brushed };
 
 /// One model: everything about a key that the radiance and the depth depend on.
 struct Model {
@@ -72,6 +86,27 @@ struct Model {
     VertexColor vertex_color = VertexColor::none;
     OutputRange output_range = OutputRange::unbounded;
 
+    Distribution distribution = Distribution::cross_product;
+    MaskingShadowing masking_shadowing = MaskingShadowing::correlated;
+    Fresnel fresnel = Fresnel::schlick;
+    DiffuseLobe diffuse_lobe = DiffuseLobe::lambert;
+    EnvironmentBrdf environment_brdf = EnvironmentBrdf::karis;
+    MultipleScattering multiple_scattering = MultipleScattering::none;
+    Picture base_color_map = Picture::none;
+    Picture metallic_roughness_map = Picture::none;
+    NormalMap normal_map = NormalMap::none;
+    Picture occlusion_map = Picture::none;
+    Picture emissive_map = Picture::none;
+    Placement texture_placement = Placement::plain;
+    Clearcoat clearcoat = Clearcoat::none;
+    Sheen sheen = Sheen::none;
+    Anisotropy anisotropy = Anisotropy::none;
+
+    /// Whether it is of the family `pbr`.
+    [[nodiscard]] bool is_physical() const {
+        return lighting == Lighting::metallic_roughness || lighting == Lighting::base_color;
+    }
+
     /// Whether normals are given per fragment, interpolated.
     [[nodiscard]] bool is_per_fragment() const {
         return shading == Shading::fragment || shading == Shading::hybrid;
@@ -83,8 +118,8 @@ struct Model {
     [[nodiscard]] int shadows() const { return directional_shadows + point_shadows + spot_shadows; }
 };
 
-/// The model of a key of `lit`; otherwise the reason why the oracle has none: another family, or a feature or
-/// value that stands at anything but its default and that the oracle's equations do not cover.
+/// The model of a key of `lit` or `pbr`; otherwise the reason why the oracle has none: another family, or a
+/// feature or value that stands at anything but its default and that the oracle's equations do not cover.
 [[nodiscard]] tl::expected<Model, std::string> model_of(const Family& family, const Key& key);
 
 }  // namespace gobo::oracle

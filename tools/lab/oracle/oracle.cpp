@@ -100,6 +100,38 @@ double schlick(double cosine, double shininess) {
     return cosine / (shininess - shininess * cosine + cosine);
 }
 
+/// Of a metallic-roughness surface.
+Radiance physical_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
+                           Decisions& decisions) {
+    Radiance radiance;
+    PhysicalPoint physical;
+    physical.base_color = scene.material.base_color;
+    if (model.vertex_color == VertexColor::modulate) physical.base_color *= point.color;
+    if (model.lighting == Lighting::base_color) {
+        radiance.value = radiance.largest = glm::dvec3(physical.base_color);
+        return radiance;
+    }
+    const bool is_flipped = model.sides != Sides::one && point.is_back;
+    physical.normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
+    physical.to_viewer = to_viewer(model, point.position);
+    physical.lights = incident_lights(model, scene, point.position, decisions);
+    cast_shadows(model, scene, point.position, physical.lights, decisions);
+    for (const IncidentLight& light : physical.lights)
+        physical.has_half.push_back(decisions.above(glm::length(light.to_light + physical.to_viewer), 1e-6));
+    physical.ambient = ambient_light(model, scene, physical.normal);
+    if (model.reflection == Reflection::image) {
+        ImageLight whole = scene.reflection;
+        whole.weight = 1;
+        physical.reflected = reflection_from_image(whole, physical.normal, physical.to_viewer);
+    }
+    Roundings exact;
+    const PhysicalRadiance found = radiance_of(model, scene, physical, exact);
+    radiance.value = found.value;
+    radiance.largest = found.largest;
+    radiance.physical = std::move(physical);
+    return radiance;
+}
+
 }  // namespace
 
 glm::dvec3 to_viewer(const Model& model, const glm::dvec3& position) {
@@ -117,6 +149,7 @@ const Material& material_of(const Model& model, const Scene& scene, const Surfac
 
 Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
                       Decisions& decisions) {
+    if (model.is_physical()) return physical_radiance(model, scene, point, decisions);
     Radiance radiance;
     radiance.material = tinted(model, material_of(model, scene, point), point.color);
     const Material& material = radiance.material;
@@ -153,13 +186,15 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
     return radiance;
 }
 
-double alpha_of(const Model& model, const SurfacePoint& point) {
-    return model.vertex_color == VertexColor::modulate ? point.color.a : 1;
+double alpha_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
+    const double own = model.is_physical() ? scene.material.base_color.a : 1;
+    return own * (model.vertex_color == VertexColor::modulate ? point.color.a : 1);
 }
 
 bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& point, Decisions& decisions) {
     return model.cutout == Cutout::threshold &&
-           decisions.above(scene.cutout_threshold, point.opacity * alpha_of(model, point));
+           decisions.above(scene.cutout_threshold,
+                           point.opacity * (model.vertex_color == VertexColor::modulate ? point.color.a : 1));
 }
 
 double fog_distance(FogDistance kind, const glm::dvec3& position) {

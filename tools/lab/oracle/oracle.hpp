@@ -10,6 +10,7 @@
 
 #include "lab/oracle/environment.hpp"
 #include "lab/oracle/lights.hpp"
+#include "lab/oracle/microfacets.hpp"
 #include "lab/oracle/model.hpp"
 
 namespace gobo::oracle {
@@ -74,10 +75,11 @@ struct Radiance {
     /// The sum of all terms with every angle's factor taken as 1, and at least their absolute values: what an
     /// error is measured by. Zero only where no light reaches the point at all.
     glm::dvec3 largest{0};
-    std::vector<LightTerm> terms;  ///< one for each light
-    Material material;             ///< that of the side that is seen, tinted by the vertices' colour
-    AmbientLight ambient;          ///< without the lights' own
-    LookedUp reflected;            ///< without the highlight's reflectivity
+    std::vector<LightTerm> terms;           ///< one for each light
+    Material material;                      ///< that of the side that is seen, tinted by the vertices' colour
+    AmbientLight ambient;                   ///< without the lights' own
+    LookedUp reflected;                     ///< without the highlight's reflectivity
+    std::optional<PhysicalPoint> physical;  ///< of `pbr`, which has no terms
 };
 
 /// The material of the point: the one there is, or row i of the table, with two materials row 2 i in front
@@ -121,7 +123,7 @@ struct Seen {
                               Decisions& decisions);
 
 /// How opaque the point is.
-[[nodiscard]] double alpha_of(const Model& model, const SurfacePoint& point);
+[[nodiscard]] double alpha_of(const Model& model, const Scene& scene, const SurfacePoint& point);
 
 /// The depth that the fragment writes, of its own window depth in [0, 1]; nothing where it writes none. The
 /// offset counts only towards the side that the key promises, and the result stays within [0, 1].

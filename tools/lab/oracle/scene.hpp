@@ -7,6 +7,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -15,11 +16,14 @@ namespace gobo::oracle {
 /// A point of a surface.
 struct SurfacePoint {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0};  ///< of any length; zero where there is none
-    glm::dvec4 color{1};   ///< of the vertices, and their alpha
-    double opacity = 1;    ///< the alpha of the opacity map there
-    int material = 0;      ///< index into the table of materials, or of its pairs
-    bool is_back = false;  ///< which side is seen
+    glm::dvec3 normal{0};               ///< of any length; zero where there is none
+    glm::dvec4 color{1};                ///< of the vertices, and their alpha
+    double opacity = 1;                 ///< the alpha of the opacity map there
+    int material = 0;                   ///< index into the table of materials, or of its pairs
+    bool is_back = false;               ///< which side is seen
+    glm::dvec2 texture_coordinate{0};   ///< of the first set
+    glm::dvec2 texture_coordinate1{0};  ///< of the second
+    glm::dvec4 tangent{0};              ///< and in w the sign of the bitangent
 
     /// Per light, where its cosine to the front's normal is found at the vertices and interpolated.
     std::vector<double> cosines = {};
@@ -37,7 +41,45 @@ struct Material {
     glm::dvec3 specular{0};
     double shininess = 0;
     double strength = 1;  ///< scales the highlight
+
+    // Of a metallic-roughness surface, all 0 to 1, as glTF has them.
+    glm::dvec4 base_color{1};
+    double metallic = 1;
+    double roughness = 1;
+    glm::dvec3 dielectric{0.04};  ///< reflectance of what is not metal, at normal incidence
+    double dielectric_edge = 1;   ///< and at grazing incidence
+    glm::dvec3 sheen_color{0};
+    double sheen_roughness = 0;
+    glm::dvec2 anisotropy_direction{1, 0};  ///< unit, by tangent and bitangent
+    double anisotropy = 0;
+    double clearcoat = 0;
+    double clearcoat_roughness = 0;
+    double normal_scale = 1;
+    double occlusion_strength = 1;
 };
+
+/// A picture whose colour changes evenly: at (s, t) it is `even` + s `along_s` + t `along_t`.
+struct EvenPicture {
+    glm::dvec4 even{1};
+    glm::dvec4 along_s{0};
+    glm::dvec4 along_t{0};
+
+    [[nodiscard]] glm::dvec4 at(const glm::dvec2& place) const {
+        return even + place.x * along_s + place.y * along_t;
+    }
+};
+
+/// Where a picture lies on the surface: `linear` (a, b, c, d) and `offset` make (a u + b v + x, c u + d v +
+/// y) of the texture coordinates (u, v) of that set.
+struct TexturePlacement {
+    glm::dvec4 linear{1, 0, 0, 1};
+    glm::dvec2 offset{0};
+    int set = 0;
+};
+
+/// The pictures of a metallic-roughness surface.
+enum class MapKind { base_color, metallic_roughness, normal, occlusion, emissive };
+inline constexpr std::size_t kMapKinds = 5;
 
 /// A light so far away that it shines from the same side everywhere.
 struct DirectionalLight {
@@ -115,6 +157,7 @@ struct ImageLight {
     double weight = 0;     ///< the map's, 0 to 1
     glm::dmat3 to_map{1};  ///< rotation from eye space to the map's axes
     CubeMap map;
+    double roughest_level = 0;  ///< of a map that is blurred level by level; all levels are alike here
 };
 
 /// Distances along the view. Each kind of fog reads what it needs.
@@ -148,6 +191,9 @@ struct Scene {
     double cutout_threshold = 0;  ///< alpha below it is cut
     ImageLight image_light{};
     ImageLight reflection{};
+    glm::dvec2 environment_brdf{1, 0};  ///< what a table of it holds
+    std::array<EvenPicture, kMapKinds> pictures{};
+    std::array<TexturePlacement, kMapKinds> placements{};
 };
 
 }  // namespace gobo::oracle

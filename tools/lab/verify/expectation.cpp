@@ -134,7 +134,7 @@ std::vector<Expected> expect_cosines(const oracle::Model& model, const oracle::S
 /// What the vertex stage passes on as it is.
 void add_passed_on(const Sample& sample, std::vector<Expected>& outputs) {
     outputs.push_back(expected("vertexColor", sample.surface.color));
-    outputs.push_back(expected("textureCoordinate", sample.texture_coordinate));
+    outputs.push_back(expected("textureCoordinate", sample.surface.texture_coordinate));
     outputs.push_back({"flatMaterialIndex", 1, {static_cast<double>(sample.surface.material)}, {}, {}, true});
     outputs.push_back(
         {"handedness", 1, {glm::determinant(glm::dmat3(sample.model_view)) < 0 ? -1.0 : 1.0}, {}, {}, true});
@@ -203,9 +203,12 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
         oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);
     // What is cut off at a range is no further off than it was before.
     const glm::dvec3 held = oracle::within_range(model.output_range, seen.value);
-    return expected("fragmentColor", glm::dvec4(held, oracle::alpha_of(model, point)),
-                    glm::dvec4(seen.largest, 0),
-                    glm::dvec4(fog_error(model, sample.scene, seen, value, error, 0), 0));
+    // Alpha is passed on, or the product of the material's and the vertices'.
+    const double alpha_error = model.is_physical() ? 1 : 0;
+    return expected(
+        "fragmentColor", glm::dvec4(held, oracle::alpha_of(model, sample.scene, point)),
+        glm::dvec4(seen.largest, alpha_error),
+        glm::dvec4(fog_error(model, sample.scene, seen, value, error, 0), alpha_error * kUnitRoundoff));
 }
 
 std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,

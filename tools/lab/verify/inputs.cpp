@@ -177,7 +177,7 @@ oracle::DepthMaps depth_maps_of(const evaluate::TextureContent& content) {
 
 double opacity_of(const evaluate::Image& image, const Sample& sample) {
     evaluate::ImageRequest request;
-    request.coordinates = {sample.texture_coordinate.x, sample.texture_coordinate.y, 0, 0};
+    request.coordinates = {sample.surface.texture_coordinate.x, sample.surface.texture_coordinate.y, 0, 0};
     return image(request)[3];
 }
 
@@ -203,6 +203,14 @@ constexpr SamplerField kSamplerFields[] = {
      [](const Sample& s) -> evaluate::TextureContent { return content_of(s.scene.reflection.map); },
      [](Sample& s, const auto& image, const auto& port) {
          s.scene.reflection.map = cube_map_of(evaluate::content_of(image, port, 0));
+     }},
+    {"environmentBrdfTable",
+     [](const Sample& s) -> evaluate::TextureContent {
+         return evaluate::EvenColor{{s.scene.environment_brdf.x, s.scene.environment_brdf.y, 0, 1}, {}};
+     },
+     [](Sample& s, const auto& image, const auto& port) {
+         const auto even = std::get<evaluate::EvenColor>(evaluate::content_of(image, port, 0));
+         s.scene.environment_brdf = {even.color[0], even.color[1]};
      }},
     {"shadowMaps",
      [](const Sample& s) -> evaluate::TextureContent {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "lab/oracle/oracle.hpp"
+#include "lab/raster/random.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -204,6 +205,39 @@ LightErrors light_errors(const oracle::Model& model, const oracle::Scene& scene,
     return result;
 }
 
+/// A metallic-roughness surface: what random roundings of all that it is computed from make of it, at most,
+/// times kRoundedFactor, and the sums' own roundings.
+glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene,
+                          const oracle::SurfacePoint& surface, const oracle::Radiance& radiance,
+                          const PointErrors& errors) {
+    const oracle::PhysicalPoint& exact = *radiance.physical;
+    const double normal = errors.normal + given_direction(model);
+    const double to_viewer = viewer_error(model, surface.position, errors.position);
+    const glm::dvec3 ambient = ambient_error(exact.ambient, normal);
+    const glm::dvec3 mirrored =
+        exact.reflected.slope * (to_viewer + 4 * normal + 14 * kU) + exact.reflected.value * (5 * kU);
+    glm::dvec3 change{0};
+    for (int i = 1; i <= kRoundedEvaluations; ++i) {
+        Random random(static_cast<std::uint64_t>(i));
+        const auto off = [&](const glm::dvec3& most) { return most * random.components(-1, 1); };
+        oracle::PhysicalPoint point = exact;
+        point.normal += off(glm::dvec3(normal));
+        point.to_viewer += off(glm::dvec3(to_viewer));
+        for (oracle::IncidentLight& light : point.lights) {
+            const IncidentErrors incident = incident_errors(model, light, errors.position);
+            light.to_light += off(glm::dvec3(incident.direction));
+            light.radiance += off(incident.radiance);
+        }
+        point.ambient.value += off(ambient);
+        point.reflected.value += off(mirrored);
+        oracle::Roundings roundings(kU, static_cast<std::uint64_t>(i));
+        change = glm::max(
+            change, glm::abs(oracle::radiance_of(model, scene, point, roundings).value - radiance.value));
+    }
+    const double sums = sum_roundings(model.light_sum, exact.lights.size()) + 16;
+    return kRoundedFactor * change + radiance.largest * (sums * kU);
+}
+
 }  // namespace
 
 /// Directional lights are inputs, unit to two roundings. Of local ones the ray is a difference (one rounding,
@@ -235,6 +269,8 @@ double halfway_error(double to_light, double to_viewer, double half_length) {
 glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene,
                           const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
                           const PointErrors& errors) {
+    if (radiance.physical) return physical_error(model, scene, point, radiance, errors);
+    if (model.is_physical()) return radiance.value * (2 * kU);  // the base colour, tinted
     const double normal = errors.normal + given_direction(model);
     const double to_viewer = viewer_error(model, point.position, errors.position);
     const oracle::Material& material = radiance.material;

@@ -130,6 +130,9 @@ class SampleMaker {
             fill_material(sample.scene.material);
         const double shininess = oracle::material_of(model_, sample.scene, sample.surface).shininess;
         lobe_width_ = 1 / std::sqrt(std::max(shininess, 1.0));
+        if (!model_.is_physical()) return;
+        fill_metallic_roughness(random_, sample);
+        lobe_width_ = oracle::alpha_of_roughness(sample.scene.material.roughness);
     }
 
     void fill_material(oracle::Material& material) {
@@ -295,6 +298,9 @@ Sample rounded_to_float(Sample sample) {
     round_to_float(sample.surface.opacity);
     round_to_float(sample.surface.cosines);
     round_to_float(sample.scene.maps.depths);
+    round_to_float(sample.scene.environment_brdf);
+    for (oracle::EvenPicture& picture : sample.scene.pictures)
+        for (glm::dvec4* part : {&picture.even, &picture.along_s, &picture.along_t}) round_to_float(*part);
     return sample;
 }
 

@@ -24,6 +24,7 @@ struct Sample {
     // What a vertex stage reads besides.
     glm::dvec3 object_position{0};
     glm::dvec3 object_normal{0};
+    glm::dvec4 object_tangent{1, 0, 0, 1};
     glm::dmat4 model_view{1};
     glm::dmat4 projection{1};
     glm::dmat3 normal_matrix{1};
@@ -35,7 +36,6 @@ struct Sample {
     glm::dvec3 back_radiance{0};   ///< of the other side, of shading per vertex
     bool is_front_facing = true;   ///< as the triangle runs on the screen
     double handedness = 1;         ///< -1 where the model is mirrored
-    glm::dvec2 texture_coordinate{0};
 };
 
 /// Ordinary inputs: coordinates to 1e3, local lights from 1e-2 to 1e3 away (in a vertex stage, where the eye

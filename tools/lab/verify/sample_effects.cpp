@@ -150,17 +150,27 @@ void fill_surface(const oracle::Model& model, StageKind stage, Random& random, S
     if (model.vertex_color == oracle::VertexColor::modulate)
         sample.surface.color = {random.components(-beyond, 1), random.between(-beyond, 1)};
     if (model.cutout == oracle::Cutout::threshold) {
-        sample.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
+        sample.surface.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
         sample.surface.opacity = random.unit();
         sample.scene.cutout_threshold = random.one_in(8) ? 0 : random.between(0, 0.8);
     }
     if (model.material == oracle::MaterialChoice::array) sample.surface.material = random.whole(-2, 16);
 }
 
+void fill_metallic_roughness(Random& random, Sample& sample) {
+    oracle::Material& material = sample.scene.material;
+    const auto factor = [&] { return random.one_in(4) ? random.whole(0, 1) : random.unit(); };
+    material.base_color = {random.components(0, 1), random.unit()};
+    material.metallic = factor();
+    material.roughness = random.one_in(4) ? random.across(0.01, 0.2) : factor();
+    material.dielectric = random.one_in(2) ? glm::dvec3(0.04) : random.components(0, 1);
+    material.dielectric_edge = random.one_in(2) ? 1 : factor();
+}
+
 void vary_surface(std::size_t vertex, Sample& sample) {
     Random random(vertex);
     sample.surface.color = {random.components(0, 1), random.unit()};
-    sample.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
+    sample.surface.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
     sample.surface.material = random.whole(-2, 16);
 }
 
@@ -191,9 +201,15 @@ void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, 
 void fill_effects(const oracle::Model& model, Random& random, Sample& sample) {
     add_shadows(model, random, sample);
     fill_environment(model, random, sample.scene);
-    if (!model.looks_up_images()) return;
+    const bool uses_table = model.environment_brdf == oracle::EnvironmentBrdf::table;
+    if (!model.looks_up_images() && !uses_table) return;
     fill(random, sample.scene.image_light);
     fill(random, sample.scene.reflection);
+    if (!model.is_physical()) return;
+    sample.scene.reflection.roughest_level = random.whole(0, 8);
+    const double mirrored = random.between(0.3, 1);
+    const double at_edge = mirrored * random.unit();
+    sample.scene.environment_brdf = {mirrored - at_edge, at_edge};
 }
 
 }  // namespace gobo::verify

@@ -14,6 +14,9 @@ void choose_side(const oracle::Model& model, StageKind stage, Random& random, Sa
 /// Fills what the surface itself brings but its materials: colour, texture, the index of its material.
 void fill_surface(const oracle::Model& model, StageKind stage, Random& random, Sample& sample);
 
+/// Fills the material of a physically based surface: metallic 0, 1 or between, roughness from 0 to 1.
+void fill_metallic_roughness(Random& random, Sample& sample);
+
 /// Gives a vertex of a draw colours, texture coordinates and a material of its own.
 void vary_surface(std::size_t vertex, Sample& sample);
 

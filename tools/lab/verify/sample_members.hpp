@@ -28,7 +28,23 @@ template <>
 inline constexpr auto kMembers<oracle::Material> = std::tuple(
     std::pair("emission", &oracle::Material::emission), std::pair("ambient", &oracle::Material::ambient),
     std::pair("diffuse", &oracle::Material::diffuse), std::pair("specular", &oracle::Material::specular),
-    std::pair("shininess", &oracle::Material::shininess), std::pair("strength", &oracle::Material::strength));
+    std::pair("shininess", &oracle::Material::shininess), std::pair("strength", &oracle::Material::strength),
+    std::pair("baseColor", &oracle::Material::base_color), std::pair("metallic", &oracle::Material::metallic),
+    std::pair("roughness", &oracle::Material::roughness),
+    std::pair("dielectric", &oracle::Material::dielectric),
+    std::pair("dielectricEdge", &oracle::Material::dielectric_edge),
+    std::pair("sheenColor", &oracle::Material::sheen_color),
+    std::pair("sheenRoughness", &oracle::Material::sheen_roughness),
+    std::pair("anisotropyDirection", &oracle::Material::anisotropy_direction),
+    std::pair("anisotropy", &oracle::Material::anisotropy),
+    std::pair("clearcoat", &oracle::Material::clearcoat),
+    std::pair("clearcoatRoughness", &oracle::Material::clearcoat_roughness),
+    std::pair("normalScale", &oracle::Material::normal_scale),
+    std::pair("occlusionStrength", &oracle::Material::occlusion_strength));
+template <>
+inline constexpr auto kMembers<oracle::TexturePlacement> = std::tuple(
+    std::pair("linear", &oracle::TexturePlacement::linear),
+    std::pair("offset", &oracle::TexturePlacement::offset), std::pair("set", &oracle::TexturePlacement::set));
 template <>
 inline constexpr auto kMembers<oracle::DirectionalLight> =
     std::tuple(std::pair("direction", &oracle::DirectionalLight::direction),
@@ -66,7 +82,8 @@ inline constexpr auto kMembers<oracle::HarmonicsLight> =
 template <>
 inline constexpr auto kMembers<oracle::ImageLight> = std::tuple(
     std::pair("color", &oracle::ImageLight::color), std::pair("weight", &oracle::ImageLight::weight),
-    std::pair("toMap", &oracle::ImageLight::to_map));
+    std::pair("toMap", &oracle::ImageLight::to_map),
+    std::pair("roughestLevel", &oracle::ImageLight::roughest_level));
 template <>
 inline constexpr auto kMembers<oracle::FogParameters> = std::tuple(
     std::pair("color", &oracle::FogParameters::color), std::pair("density", &oracle::FogParameters::density),
@@ -87,12 +104,18 @@ inline constexpr auto kMembers<oracle::Scene> = std::tuple(
     std::pair("ToonThresholds.thresholds", &oracle::Scene::toon_thresholds),
     std::pair("ToonThresholds.tones", &oracle::Scene::toon_tones),
     std::pair("Cutout.threshold", &oracle::Scene::cutout_threshold), std::pair("Fog", &oracle::Scene::fog),
-    std::pair("DepthOffset.offset", &oracle::Scene::depth_offset));
+    std::pair("DepthOffset.offset", &oracle::Scene::depth_offset),
+    std::pair("TexturePlacements.maps", &oracle::Scene::placements));
 template <>
 inline constexpr auto kMembers<oracle::SurfacePoint> = std::tuple(
     std::pair("eyePosition", &oracle::SurfacePoint::position),
     std::pair("eyeNormal", &oracle::SurfacePoint::normal), std::pair("color", &oracle::SurfacePoint::color),
     std::pair("vertexColor", &oracle::SurfacePoint::color),
+    std::pair("texcoord", &oracle::SurfacePoint::texture_coordinate),
+    std::pair("textureCoordinate", &oracle::SurfacePoint::texture_coordinate),
+    std::pair("texcoord1", &oracle::SurfacePoint::texture_coordinate1),
+    std::pair("textureCoordinate1", &oracle::SurfacePoint::texture_coordinate1),
+    std::pair("eyeTangent", &oracle::SurfacePoint::tangent),
     std::pair("materialIndex", &oracle::SurfacePoint::material),
     std::pair("flatMaterialIndex", &oracle::SurfacePoint::material),
     std::pair("lightRays", &oracle::SurfacePoint::rays),
@@ -100,9 +123,7 @@ inline constexpr auto kMembers<oracle::SurfacePoint> = std::tuple(
 template <>
 inline constexpr auto kMembers<Sample> = std::tuple(
     std::pair("position", &Sample::object_position), std::pair("normal", &Sample::object_normal),
-    std::pair("texcoord", &Sample::texture_coordinate),
-    std::pair("textureCoordinate", &Sample::texture_coordinate),
-    std::pair("Transform.modelView", &Sample::model_view),
+    std::pair("tangent", &Sample::object_tangent), std::pair("Transform.modelView", &Sample::model_view),
     std::pair("Transform.projection", &Sample::projection),
     std::pair("Transform.normalMatrix", &Sample::normal_matrix),
     std::pair("litRadiance", &Sample::lit_radiance), std::pair("flatRadiance", &Sample::lit_radiance),

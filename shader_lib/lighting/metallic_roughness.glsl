@@ -1,0 +1,32 @@
+// A metallic-roughness surface: emission + ambient light + the response to exactly the lights that the key counts. Linear,
+// unclamped, not negative.
+//
+// Source: glTF 2.0, 3.9 and appendix B.
+
+#include <directional>
+#include <point>
+#include <reflection/split_sum>
+#include <spot>
+#include "pbr/surface.glsl"
+
+/// The radiance that leaves the surface towards the viewer, before fog.
+vec3 litSurface() {
+    beginSurface();
+    vec3 radiance = emittedRadiance() + environmentRadiance();
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
+    beginResponse();
+#endif
+#if DIRECTIONAL_LIGHTS > 0
+    addDirectionalLights();
+#endif
+#if POINT_LIGHTS > 0
+    addPointLights();
+#endif
+#if SPOT_LIGHTS > 0
+    addSpotLights();
+#endif
+#if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
+    radiance += responseRadiance();
+#endif
+    return radiance;
+}

@@ -1,0 +1,247 @@
+#include "lab/oracle/microfacets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gobo::oracle {
+namespace {
+
+/// Constants of the models as a float holds them, written as short as tells it.
+constexpr double kPi = 3.1415927;
+constexpr double kFujiiNorm = 0.2877934;      // 1/2 - 2 / (3 pi)
+constexpr double kFujiiAverage = 0.07248821;  // 2/3 - 28 / (15 pi)
+
+constexpr double kLeastAlpha = 0.002;
+constexpr double kLeastCosineToViewer = 1e-4;
+
+/// Fresnel's equations, both polarisations, of a dielectric with that F0, from air (Born and Wolf, Principles
+/// of Optics, 1.5.2). At F0 near 1 no index of refraction is left: 0.999 of its square root is the most.
+double dielectric_reflectance(double f0, double cosine) {
+    const double root = std::min(std::sqrt(f0), 0.999);
+    const double eta = (1 + root) / (1 - root);
+    const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
+    const double inside = std::sqrt(std::max(1 - sine * sine / (eta * eta), 1e-12 / (eta * eta)));
+    const double s = (cosine - eta * inside) / (cosine + eta * inside);
+    const double p = (eta * cosine - inside) / (eta * cosine + inside);
+    return (s * s + p * p) / 2;
+}
+
+double schlick_weight(double vh) {
+    return std::pow(std::max(1 - vh, 0.0), 5);
+}
+
+/// The albedo of Oren and Nayar's model in Fujii's form at a cosine (their fit, equation 13 there).
+double fujii_albedo(double cosine, double roughness) {
+    const double m = std::clamp(1 - cosine, 0.0, 1.0);
+    const double g =
+        0.05710853 * m + 0.49188188 * m * m - 0.33218145 * std::pow(m, 3) + 0.071443 * std::pow(m, 4);
+    return (1 + roughness * g) / (1 + kFujiiNorm * roughness);
+}
+
+glm::dvec3 oren_nayar(const glm::dvec3& color, double roughness, double nl, double nv, double lv) {
+    const double norm = 1 / (1 + kFujiiNorm * roughness);
+    const double s = lv - nl * nv;
+    const double shape = 1 + roughness * (s > 0 ? s / std::max(nl, nv) : s);
+    const double average = norm * (1 + kFujiiAverage * roughness);
+    const double lost = std::max(1 - average, 1e-7);
+    const double lost_both =
+        std::max(1 - fujii_albedo(nv, roughness), 0.0) * std::max(1 - fujii_albedo(nl, roughness), 0.0);
+    const glm::dvec3 again = color * color * (average * lost_both / lost) / (1.0 - color * lost);
+    return (color * norm * std::max(shape, 0.0) + again) / kPi;
+}
+
+/// Lights and environment find the same surface.
+struct Surface {
+    Reflectance reflectance;
+    glm::dvec3 diffuse{0};
+    double roughness = 0;
+    double alpha = 0;
+    double nv = 0;
+    glm::dvec2 brdf{0};
+};
+
+Surface surface_of(const Model& model, const Scene& scene, const PhysicalPoint& point, Roundings& r) {
+    const Material& material = scene.material;
+    Surface surface;
+    const glm::dvec3 base(point.base_color);
+    surface.reflectance = {base, material.dielectric, material.dielectric_edge, material.metallic};
+    surface.diffuse = (1 - material.metallic) * base;
+    surface.roughness = material.roughness;
+    surface.alpha = r(alpha_of_roughness(surface.roughness));
+    surface.nv = std::max(r(glm::dot(point.normal, point.to_viewer), 2), kLeastCosineToViewer);
+    surface.brdf =
+        environment_brdf(model.environment_brdf, scene.environment_brdf, surface.nv, surface.roughness);
+    return surface;
+}
+
+/// What several reflections give back (Turquin 2019; Fdez-Aguera 2019).
+glm::dvec3 highlight_scale(const Model& model, const Surface& surface) {
+    if (model.multiple_scattering == MultipleScattering::none) return glm::dvec3(1);
+    const double once = std::clamp(surface.brdf.x + surface.brdf.y, 0.1, 1.0);
+    return 1.0 + surface.reflectance.f0() * (1 / once - 1);
+}
+
+glm::dvec3 environment_again(const Model& model, const Surface& surface, const glm::dvec3& once) {
+    if (model.multiple_scattering == MultipleScattering::none) return glm::dvec3(0);
+    const double lost = std::max(1 - surface.brdf.x - surface.brdf.y, 0.0);
+    const glm::dvec3 f0 = surface.reflectance.f0();
+    const glm::dvec3 mean = f0 + (surface.reflectance.f90() - f0) / 21.0;
+    return once * mean * lost / glm::max(1.0 - mean * lost, glm::dvec3(1e-3));
+}
+
+void add_environment(const Model& model, const Scene& scene, const PhysicalPoint& point,
+                     const Surface& surface, PhysicalRadiance& radiance) {
+    glm::dvec3 scattered = surface.diffuse;
+    const bool has_map = model.reflection == Reflection::image && point.normal != glm::dvec3(0) &&
+                         point.to_viewer != glm::dvec3(0);
+    if (has_map) {
+        const double weight = scene.reflection.weight;
+        const glm::dvec3 once = surface.brdf.x * surface.reflectance.f0() +
+                                glm::dvec3(surface.brdf.y * surface.reflectance.f90());
+        const glm::dvec3 again = weight * environment_again(model, surface, once);
+        radiance.value += weight * once * point.reflected.value;
+        radiance.largest += weight * once * glm::abs(point.reflected.value);
+        scattered = again + glm::max(1.0 - weight * once - again, glm::dvec3(0)) * surface.diffuse;
+        radiance.largest += (again + surface.diffuse) * point.ambient.largest;
+    }
+    radiance.value += scattered * point.ambient.value;
+    radiance.largest += scattered * point.ambient.largest;
+}
+
+}  // namespace
+
+double Roundings::next() {
+    if (step_ == 0) return 0;
+    state_ += 0x9E3779B97F4A7C15U;  // SplitMix64
+    std::uint64_t mixed = state_;
+    mixed = (mixed ^ (mixed >> 30U)) * 0xBF58476D1CE4E5B9U;
+    mixed = (mixed ^ (mixed >> 27U)) * 0x94D049BB133111EBU;
+    return static_cast<double>((mixed ^ (mixed >> 31U)) >> 11U) * 0x1p-52 - 1;
+}
+
+glm::dvec3 Roundings::operator()(const glm::dvec3& value, double size) {
+    const double x = (*this)(value.x, size);
+    const double y = (*this)(value.y, size);
+    return {x, y, (*this)(value.z, size)};
+}
+
+double alpha_of_roughness(double roughness) {
+    return std::max(roughness * roughness, kLeastAlpha);
+}
+
+double normal_distribution(Distribution kind, double alpha, const glm::dvec3& normal,
+                           const glm::dvec3& to_light, const glm::dvec3& to_viewer, Roundings& r) {
+    const glm::dvec3 sum = to_light + to_viewer;
+    const double length = glm::length(sum);
+    double sine_squared = 0;
+    if (kind == Distribution::cross_product) {
+        const glm::dvec3 across = r(glm::cross(normal, sum), 2) / length;
+        sine_squared = std::min(r(glm::dot(across, across)), 1.0);
+    } else {
+        const double cosine = r(glm::dot(normal, sum) / length, 2 / length);
+        sine_squared = std::max(r(1 - cosine * cosine, 2), 0.0);
+    }
+    const double square = alpha * alpha;
+    const double spread = r((1 - square) * sine_squared + square);
+    return square / (kPi * spread * spread);
+}
+
+double visibility_term(MaskingShadowing kind, double alpha, double nl, double nv, double half_square,
+                       Roundings& r) {
+    if (kind == MaskingShadowing::half_angle) return 1 / r(half_square);
+    if (kind == MaskingShadowing::interpolated)
+        return 1 / (2 * r((1 - alpha) * 2 * nl * nv + alpha * (nl + nv)));
+    const double square = alpha * alpha;
+    const double masking = nl * std::sqrt(square + (1 - square) * nv * nv);
+    const double shadowing = nv * std::sqrt(square + (1 - square) * nl * nl);
+    return 1 / (2 * r(masking + shadowing));
+}
+
+glm::dvec3 Reflectance::f0() const {
+    return (1 - metallic) * dielectric + metallic * base;
+}
+
+double Reflectance::f90() const {
+    return (1 - metallic) * dielectric_edge + metallic;
+}
+
+glm::dvec3 fresnel_reflectance(Fresnel kind, const Reflectance& surface, double vh) {
+    const glm::dvec3 f0 = surface.f0();
+    switch (kind) {
+        case Fresnel::exact: {
+            const double cosine = std::min(vh, 1.0);
+            glm::dvec3 dielectric{0};
+            for (int channel = 0; channel < 3; ++channel)
+                if (surface.dielectric_edge > 0)
+                    dielectric[channel] =
+                        surface.dielectric_edge *
+                        dielectric_reflectance(
+                            std::min(surface.dielectric[channel] / surface.dielectric_edge, 1.0), cosine);
+            const glm::dvec3 metal = surface.base + (1.0 - surface.base) * schlick_weight(cosine);
+            return (1 - surface.metallic) * dielectric + surface.metallic * metal;
+        }
+        case Fresnel::schlick:
+            return f0 + (surface.f90() - f0) * schlick_weight(vh);
+        case Fresnel::gaussian:
+            return f0 + (surface.f90() - f0) * std::exp2((-5.55473 * vh - 6.98316) * vh);
+        case Fresnel::constant:
+            break;
+    }
+    return f0;
+}
+
+glm::dvec3 diffuse_lobe(DiffuseLobe kind, const glm::dvec3& color, double roughness, double nl, double nv,
+                        double lv, double vh) {
+    if (kind == DiffuseLobe::oren_nayar) return oren_nayar(color, roughness, nl, nv, lv);
+    if (kind == DiffuseLobe::lambert) return color / kPi;
+    const double at_grazing = 0.5 + 2 * roughness * vh * vh;
+    const auto towards = [&](double cosine) { return 1 + (at_grazing - 1) * schlick_weight(cosine); };
+    return color * (towards(nl) * towards(nv) / kPi);
+}
+
+glm::dvec2 environment_brdf(EnvironmentBrdf kind, const glm::dvec2& table, double nv, double roughness) {
+    if (kind == EnvironmentBrdf::table) return table;
+    if (kind == EnvironmentBrdf::constant) return {1, 0};
+    const double x = 1 - roughness;
+    const double y = 0.0425 - 0.0275 * roughness;
+    const double a = std::min(x * x, std::exp2(-9.28 * nv)) * x + y;
+    return glm::clamp(glm::dvec2(-1.04 * a + 1.04 - 0.572 * roughness, 1.04 * a - 0.04 + 0.022 * roughness),
+                      0.0, 1.0);
+}
+
+PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const PhysicalPoint& point,
+                             Roundings& r) {
+    const Surface surface = surface_of(model, scene, point, r);
+    PhysicalRadiance radiance{scene.material.emission, scene.material.emission};
+    add_environment(model, scene, point, surface, radiance);
+    const glm::dvec3 scale = highlight_scale(model, surface);
+    for (std::size_t i = 0; i < point.lights.size(); ++i) {
+        const IncidentLight& light = point.lights[i];
+        const double nl = r(glm::dot(point.normal, light.to_light), 2);
+        const glm::dvec3 sum = r(light.to_light + point.to_viewer, 1);
+        const double vh = glm::length(sum) / 2;
+        const glm::dvec3 mirrored = fresnel_reflectance(model.fresnel, surface.reflectance, vh);
+        const double lv = r(glm::dot(light.to_light, point.to_viewer), 2);
+        // A cosine of 0.01 stands for all smaller ones in what errors are measured by.
+        const auto reflected = [&](double cosine) {
+            glm::dvec3 factor =
+                (1.0 - mirrored) * diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness,
+                                                cosine, surface.nv, lv, vh);
+            if (!point.has_half[i]) return factor;
+            const double lobe = normal_distribution(model.distribution, surface.alpha, point.normal,
+                                                    light.to_light, point.to_viewer, r) *
+                                visibility_term(model.masking_shadowing, surface.alpha, cosine, surface.nv,
+                                                glm::dot(sum, sum), r);
+            return factor + scale * mirrored * lobe;
+        };
+        if (nl > 0) radiance.value += reflected(nl) * nl * light.radiance;
+        const double least = std::max(nl, 0.01);
+        if (nl > -0.01) radiance.largest += glm::abs(reflected(least)) * least * light.unshaped;
+    }
+    return radiance;
+}
+
+}  // namespace gobo::oracle
