@@ -7,10 +7,12 @@
 
 #include "../shipped_pieces.hpp"
 #include "compose/compose.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/cost/baseline.hpp"
 #include "lab/cost/compile_on_chips.hpp"
+#include "lab/cost/nvidia_assembly.hpp"
 #include "spirv/module.hpp"
 #include "validate/validate.hpp"
 
@@ -91,10 +93,33 @@ const std::vector<Sources> kPipelines = {
      "view * position; }\n",
      "#version 450\nout vec4 color;\nlayout(location = 1) uniform vec4 tint;\nvoid main() { color = tint; "
      "}\n",
-     "gobo: error: Vulkan has no uniforms outside blocks, and here are some such: view, tint\n"
-     "  help: put them into a block, such as layout(std140, binding = 0) uniform Settings { vec4 tint; }; "
-     "samplers of a "
-     "struct become variables of their own\n"},
+     "uniform_buffer 1\nuniform_buffer 1\n"},
+    {"UniformsOfEveryType", kVertex,
+     "#version 450\nout vec4 color;\nstruct Light { vec3 position; float weights[2]; mat3 turn; };\n"
+     "uniform Light lights[4];\nuniform int count;\nuniform bool lit;\nuniform bvec3 masks;\n"
+     "uniform bool flags[3];\nuniform mat2x3 bend;\nuniform float levels[5];\n"
+     "layout(binding = 2) uniform sampler2D albedo;\n"
+     "void main() {\n  Light last = lights[count];\n"
+     "  color = vec4(last.turn * last.position, lights[1].weights[count] + levels[count]);\n"
+     "  if (lit && masks.y && flags[count]) color += texture(albedo, bend[1].xy);\n}\n",
+     "texture 1\nuniform_buffer 1\n"},
+    {"BesideABlock", kVertex,
+     "#version 450\nout vec4 color;\nlayout(std140, binding = 1) uniform Tint { vec4 tint; float parts[3]; "
+     "};\nuniform float parts_outside[3];\nvoid main() { color = tint * parts[1] * parts_outside[2]; }\n",
+     "uniform_buffer 1\nuniform_buffer 1\n"},
+    {"SamplersWithinAStruct", kVertex,
+     "#version 450\nout vec4 color;\nstruct Material { sampler2D albedo; vec4 tint; };\n"
+     "layout(location = 0) uniform Material material;\n"
+     "void main() { color = material.tint * texture(material.albedo, vec2(0.5)); }\n",
+     "gobo: error: Vulkan has no samplers within structs, and here is one such: material\n"
+     "  help: samplers of a struct become variables of their own\n"},
+    {"BooleansReadAsAWhole", kVertex,
+     "#version 450\nout vec4 color;\nstruct Switch { bool on; float by; };\n"
+     "layout(location = 0) uniform Switch switches[2];\nlayout(location = 8) uniform int at;\n"
+     "void main() { Switch one = switches[at]; color = one.on ? vec4(one.by) : vec4(0); }\n",
+     "gobo: error: a uniform outside blocks holds booleans and is read as a whole, which this driver cannot "
+     "be "
+     "asked about\n  help: make its booleans ints\n"},
 };
 
 class Pipelines : public testing::TestWithParam<Sources> {};
@@ -115,6 +140,46 @@ TEST_P(Pipelines, AreWhatVulkanTakes) {
 
 INSTANTIATE_TEST_SUITE_P(Cost, Pipelines, testing::ValuesIn(kPipelines),
                          [](const auto& sources) { return sources.param.name; });
+
+struct LoopRow {
+    std::string name;
+    std::string statements;  ///< of main()
+    bool varies;
+};
+
+class Loops : public testing::TestWithParam<LoopRow> {};
+
+TEST_P(Loops, VaryWhereTheirTurnsAreNotWritten) {
+    const Pipeline pipeline =
+        pipeline_of({"", kVertex,
+                     "#version 450\nout vec4 color;\nlayout(std140) uniform S { int count; vec4 tint; };\n"
+                     "float doubled(float x) { for (int i = 0; i < count; ++i) x += x; return x; }\n"
+                     "void main() {\n  color = tint;\n  " +
+                         GetParam().statements + "\n}\n",
+                     ""})
+            .value();
+    EXPECT_EQ(pipeline.fragment_loop_varies, GetParam().varies);
+    EXPECT_FALSE(pipeline.vertex_loop_varies);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cost, Loops,
+    testing::Values(
+        LoopRow{"None", "color += color;", false},
+        LoopRow{"ToAConstant", "for (int i = 0; i < 5; ++i) color += color;", false},
+        LoopRow{"WithinAnother",
+                "for (int i = 0; i < 5; ++i) for (int k = 8; k > 0; k >>= 1) color += color;", false},
+        LoopRow{"WithAChoice", "for (int i = 0; i < 5; ++i) if (color.x > 1.0) color += color;", false},
+        LoopRow{"ToAUniform", "for (int i = 0; i < count; ++i) color += color;", true},
+        LoopRow{"FromAUniform", "for (int i = count; i > 0; i >>= 1) color += color;", true},
+        LoopRow{"ByAUniform", "for (int i = 0; i < 8; i += count) color += color;", true},
+        LoopRow{"ThatMayBreak", "for (int i = 0; i < 5; ++i) { if (color.x > 1.0) break; color += color; }",
+                true},
+        LoopRow{"ThatMayReturn", "for (int i = 0; i < 5; ++i) { if (color.x > 1.0) return; color += color; }",
+                true},
+        LoopRow{"WithABoundAndMore", "for (int i = 0; i < 31 && color.x < 9.0; ++i) color += color;", true},
+        LoopRow{"InAFunction", "color.x = doubled(color.y);", true}),
+    [](const auto& row) { return row.param.name; });
 
 /// "gamma 4" of each input or output of a module that has a location.
 std::map<std::string, std::uint32_t> locations_of(const Words& words, spv::StorageClass storage) {
@@ -149,11 +214,20 @@ Pipeline pipeline_named(const std::string& name) {
 }
 
 std::string text_of(const CompiledPipeline& pipeline) {
-    return pipeline ? fmt::format("{} cycles", cost_of(pipeline->front()).cycles) : pipeline.error();
+    return pipeline ? fmt::format(
+                          "{} cycles",
+                          cost_of(pipeline->front(), chips_named({"navi21"}).value().front(), false).cycles)
+                    : pipeline.error();
 }
 
 std::vector<Chip> chips_of(const std::vector<std::string>& names) {
     return chips_named(names).value();
+}
+
+std::vector<Result<ChipAnswers>> compile(const std::vector<Chip>& chips,
+                                         const std::vector<Pipeline>& pipelines, CompileOptions options) {
+    options.program = GOBO_LAB;
+    return compile_on_chips(DiskFileSystem(), chips, pipelines, options);
 }
 
 TEST(FakeDriver, CostsNobodyElseTheirFigures) {
@@ -161,8 +235,8 @@ TEST(FakeDriver, CostsNobodyElseTheirFigures) {
                                              pipeline_named("also_fine"), pipeline_named("hang_here"),
                                              pipeline_named("exit_here"), pipeline_named("refuse_here"),
                                              pipeline_named("fine_again")};
-    const auto answers = compile_on_chips(chips_of({"navi21", "vega10"}), pipelines,
-                                          {.driver = GOBO_FAKE_DRIVER, .jobs = 3, .time_limit = 4});
+    const auto answers = compile(chips_of({"navi21", "vega10"}), pipelines,
+                                 {.driver = GOBO_FAKE_DRIVER, .jobs = 3, .time_limit = 4});
     ASSERT_EQ(answers.size(), 2U);
     for (const auto& answer : answers) {
         ASSERT_TRUE(answer);
@@ -185,8 +259,8 @@ struct BadDriver {
 class BadDrivers : public testing::TestWithParam<BadDriver> {};
 
 TEST_P(BadDrivers, AreErrorsThatSayWhatToInstall) {
-    const auto answers = compile_on_chips(chips_of({GetParam().chip}), {pipeline_named("fine")},
-                                          {.driver = GetParam().driver});
+    const auto answers =
+        compile(chips_of({GetParam().chip}), {pipeline_named("fine")}, {.driver = GetParam().driver});
     ASSERT_FALSE(answers.front());
     EXPECT_THAT(answers.front().error().front().message, HasSubstr(GetParam().message));
     EXPECT_THAT(answers.front().error().front().help, HasSubstr("mesa-vulkan-drivers"));
@@ -202,6 +276,63 @@ INSTANTIATE_TEST_SUITE_P(
                               "navi21: cannot load the Vulkan driver: libno_such"},
                     BadDriver{"IsNoDriver", "navi21", "libm.so.6", "libm.so.6 is no Vulkan driver"}),
     [](const auto& bad) { return bad.param.name; });
+
+using Files = std::map<std::string, std::string, std::less<>>;
+
+struct Place {
+    std::string name;
+    std::string where;
+    Maker maker;
+    DriverPlace place;
+};
+
+class Places : public testing::TestWithParam<Place> {};
+
+TEST_P(Places, AreFound) {
+    const MemoryFileSystem disk(Files{{"debian13/usr/lib/x86_64-linux-gnu/libvulkan_radeon.so", ""},
+                                      {"debian13/usr/lib/x86_64-linux-gnu/libvulkan_nouveau.so", ""},
+                                      {"debian13/usr/lib/x86_64-linux-gnu/libnouveau_noop_drm_shim.so", ""},
+                                      {"debian13/usr/lib/x86_64-linux-gnu/ld-linux-x86-64.so.2", ""},
+                                      {"backports/usr/lib/x86_64-linux-gnu/libvulkan_radeon.so", ""}});
+    const auto place = find_driver(disk, GetParam().where, GetParam().maker);
+    ASSERT_TRUE(place);
+    EXPECT_EQ(*place, GetParam().place);
+}
+
+const std::string kUnpacked = "debian13/usr/lib/x86_64-linux-gnu";
+
+INSTANTIATE_TEST_SUITE_P(
+    Cost, Places,
+    testing::Values(Place{"Installed", "", Maker::amd, {"libvulkan_radeon.so"}},
+                    Place{"InstalledWithoutAGpu",
+                          "",
+                          Maker::nvidia,
+                          {"libvulkan_nouveau.so", "", "", "libnouveau_noop_drm_shim.so"}},
+                    Place{"ALibrary", "./lib/libvulkan_radeon.so", Maker::amd, {"./lib/libvulkan_radeon.so"}},
+                    Place{
+                        "PackagesWithALibc",
+                        "debian13",
+                        Maker::amd,
+                        {kUnpacked + "/libvulkan_radeon.so", kUnpacked, kUnpacked + "/ld-linux-x86-64.so.2"}},
+                    Place{"PackagesOfBoth",
+                          "debian13",
+                          Maker::nvidia,
+                          {kUnpacked + "/libvulkan_nouveau.so", kUnpacked,
+                           kUnpacked + "/ld-linux-x86-64.so.2", kUnpacked + "/libnouveau_noop_drm_shim.so"}},
+                    Place{"PackagesWithoutALibc",
+                          "backports",
+                          Maker::amd,
+                          {"backports/usr/lib/x86_64-linux-gnu/libvulkan_radeon.so",
+                           "backports/usr/lib/x86_64-linux-gnu"}}),
+    [](const auto& place) { return place.param.name; });
+
+TEST(Places, OfNoDriverAreErrors) {
+    const MemoryFileSystem disk(Files{{"backports/usr/lib/x86_64-linux-gnu/libvulkan_radeon.so", ""}});
+    EXPECT_EQ(to_text(find_driver(disk, "backports", Maker::nvidia).error().front()),
+              "gobo: error: backports holds no libvulkan_nouveau.so, such as "
+              "backports/usr/lib/x86_64-linux-gnu/libvulkan_nouveau.so\n"
+              "  help: fetch Mesa's drivers into a folder with tools/fetch_mesa.sh\n");
+}
 
 TEST(Chips, AreNamedInAnyCaseAndOnce) {
     const auto chips = chips_of({"NAVI21", "navi21", "Vega10"});
@@ -239,6 +370,53 @@ TEST(Assembly, HasALoopWhereItBranchesBack) {
     EXPECT_TRUE(branches_back(
         "BB0:\n\ts_nop 0\nBB1:\n\ts_cbranch_scc1 BB3\nBB2:\n\ts_branch BB1 ; bf82ffe9\nBB3:\n"));
     EXPECT_TRUE(branches_back("BB0:\nBB1:\n\ts_cbranch_scc1 BB1\n"));
+}
+
+/// As NVK prints: two blocks of which the second is a loop.
+const char* const kNvidia =
+    "==== NAK assembly\n"
+    "block.u 0 L1 [] -> {\n"
+    "      r0      = ipa.pass a[0x7c] rZ                // delay=6 wr:0\n"
+    "      r0      = mufu.rcp r0                        // delay=1 wt=000001 wr:0\n"
+    "      r1..3   = ldc.b64 c[0x1][+0x100]             // delay=6 wr:1\n"
+    "      ur3     = ldc.b32 c[0x1][+0x104]             // delay=12 wr:0\n"
+    "      ur1     = iadd3 ur3 0x1 rZ                   // delay=2\n"
+    "} -> [1]\n"
+    "block 1 L2 [0, 1] -> {\n"
+    "      r1      = ffma.ftz r1 r0 r2                  // delay=4\n"
+    "      r2      = fmnmx.ftz r1 rZ pF                 // delay=4\n"
+    "      r3      = mov 0x10                           // delay=1\n"
+    "      r3      = tex.b32 r1 r2                      // delay=1\n"
+    "@!p0            bra L2                             // delay=1\n"
+    "} -> [1, 2]\n"
+    "block.u 2 L3 [1] -> {\n"
+    "                exit                               // delay=1\n"
+    "} -> []\n\n";
+
+TEST(NvidiaAssembly, IsCountedByKind) {
+    const NvidiaCode code = read_nvidia_assembly(kNvidia, "Ampere");
+    //                        arithmetic, transcendental, interpolation, move, scalar, memory, texture,
+    //                        branch, output, wait
+    EXPECT_EQ(code.kinds, (ByKind{2, 1, 1, 1, 1, 2, 1, 2, 0, 0}));
+    EXPECT_EQ(code.latency, 39U);
+    EXPECT_EQ(code.uniform_registers, 4U);
+    EXPECT_TRUE(code.has_loop);
+    // Eleven are issued; two of the slow units take 32 / 4 cycles each.
+    EXPECT_EQ(code.cycles, 16U);
+    EXPECT_EQ(read_nvidia_assembly(kNvidia, "Pascal").cycles, 11U) << "whose slow units take 32 / 8";
+}
+
+TEST(NvidiaAssembly, HasNoLoopWhereBlocksFollowEachOther) {
+    EXPECT_FALSE(
+        read_nvidia_assembly("block 0 L1 [] -> {\n} -> [1, 2]\nblock 1 L2 [0] -> {\n} -> [2]\n", "Ampere")
+            .has_loop);
+}
+
+TEST(NvidiaAssembly, KeepsAsManyWarpsAsItsRegistersAllow) {
+    EXPECT_EQ(nvidia_occupancy(16, "Ampere"), 12U);
+    EXPECT_EQ(nvidia_occupancy(46, "Ampere"), 10U);
+    EXPECT_EQ(nvidia_occupancy(255, "Ampere"), 2U);
+    EXPECT_EQ(nvidia_occupancy(40, "Turing"), 8U);
 }
 
 /// One key on one chip, one stage.
@@ -318,6 +496,18 @@ TEST(Baseline, IsReadAsItIsWritten) {
               "costs.csv:2: error: 'many' is no number of cycles\n  help: write it anew with --update\n");
 }
 
+TEST(Cycles, StandSideBySide) {
+    std::vector<ChipCost> all = with_another_key(costs(100, 24, 500, false));
+    all.push_back({chips_of({"gfx1201"}).front(), "radv Mesa 2", costs(80, 24, 50, true).front().keys});
+    EXPECT_EQ(cycles_text(all),
+              "navi21 (RDNA2), radv Mesa 1\n"
+              "gfx1201 (RDNA4), radv Mesa 2\n"
+              "navi21  gfx1201  stage     key\n"
+              "   500      *50  fragment  fog=linear\n"
+              "   500           fragment  fog=exponential\n"
+              "* with a loop, of which the compiler guesses how often it runs\n");
+}
+
 TEST(Differences, AreToldByFigureAndKind) {
     std::vector<ChipCost> all = costs(100, 24, 500, false);
     all.front().keys.push_back(renamed(costs(90, 24, 400, false), "fog=none").front().keys.front());
@@ -354,19 +544,21 @@ class Mesa : public testing::Test {
     static std::vector<std::vector<std::vector<StageCost>>> costs_of(const std::vector<Pipeline>& pipelines,
                                                                      int jobs) {
         std::vector<std::vector<std::vector<StageCost>>> all;
-        for (const auto& answer :
-             compile_on_chips(chips_of({"navi21", "polaris10"}), pipelines, {.jobs = jobs})) {
+        const auto chips = chips_of({"navi21", "polaris10"});
+        const auto answers = compile(chips, pipelines, {.jobs = jobs});
+        for (std::size_t i = 0; i < chips.size(); ++i) {
             auto& chip = all.emplace_back();
-            for (const CompiledPipeline& pipeline : answer.value().pipelines) {
+            for (const CompiledPipeline& pipeline : answers[i].value().pipelines) {
                 auto& stages = chip.emplace_back();
-                for (const CompiledStage& stage : pipeline.value()) stages.push_back(cost_of(stage));
+                for (const CompiledStage& stage : pipeline.value())
+                    stages.push_back(cost_of(stage, chips[i], false));
             }
         }
         return all;
     }
 
     void SetUp() override {
-        const auto answers = compile_on_chips(chips_of({"navi21"}), {}, {});
+        const auto answers = compile(chips_of({"navi21"}), {}, {});
         if (!answers.front()) GTEST_SKIP() << "SKIPPED: " << to_text(answers.front().error().front());
     }
 };
@@ -402,8 +594,25 @@ TEST_F(Mesa, AnswersTheSameEachTime) {
     EXPECT_EQ(costs_of(pipelines, 1), costs_of(pipelines, 2));
 }
 
+/// Uniforms outside blocks cost what the same uniforms cost in a block that the source declares.
+TEST_F(Mesa, TakesPlainUniformsAsABlock) {
+    const std::string use =
+        "\nout vec4 color;\nvoid main() {\n  color = tint * levels[2] + turn[1].xyzz;\n"
+        "  for (int i = 0; i < count; ++i) color *= color;\n}\n";
+    const std::string members = "vec4 tint; float levels[3]; mat3 turn; int count;";
+    std::string loose;
+    for (const std::string& member : split(members, ';')) loose += "uniform " + member + "; ";
+    const auto stages = costs_of(
+        {pipeline_of({"", kVertex, "#version 450\n" + loose + use, ""}).value(),
+         pipeline_of(
+             {"", kVertex, "#version 450\nlayout(std140) uniform Settings { " + members + " };" + use, ""})
+             .value()},
+        1);
+    for (const auto& chip : stages) EXPECT_EQ(chip[0], chip[1]);
+}
+
 TEST_F(Mesa, SaysThatItDoesNotKnowAChip) {
-    const auto answers = compile_on_chips({Chip{"navi99", "", ""}}, {}, {});
+    const auto answers = compile({Chip{"navi99", "", ""}}, {}, {});
     EXPECT_THAT(answers.front().error().front().message,
                 HasSubstr("navi99: the driver was ended by signal 6"));
 }

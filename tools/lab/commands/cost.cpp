@@ -20,10 +20,11 @@ struct CostCommandOptions : SelectionOptions {
     std::vector<std::string> names;  ///< FAMILY, or files
     std::vector<std::string> stages;
     std::vector<std::string> gpus;
-    std::string driver = cost::CompileOptions{}.driver;
+    std::string driver;  ///< find_driver()'s `where`
     bool json = false;
     bool csv = false;
     bool isa = false;
+    bool cycles = false;
     std::string against;   ///< a key
     std::string baseline;  ///< a CSV file
     double tolerance = 2;  ///< percent
@@ -37,7 +38,8 @@ cost::CompileOptions compile_options(const CostCommandOptions& options, const Wo
 }
 
 Result<Outcome> list_chips(const CostCommandOptions& options, const World& world) {
-    const auto answers = cost::compile_on_chips(cost::chips(), {}, compile_options(options, world));
+    const auto answers =
+        cost::compile_on_chips(world.disk, cost::chips(), {}, compile_options(options, world));
     std::string text = fmt::format("{:<10} {:<13} {:<18} {}\n", "GPU", "architecture", "such as", "known to");
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const cost::Chip& chip = cost::chips()[i];
@@ -47,7 +49,11 @@ Result<Outcome> list_chips(const CostCommandOptions& options, const World& world
     const bool has_driver =
         std::any_of(answers.begin(), answers.end(), [](const auto& answer) { return answer; });
     if (!has_driver) return tl::unexpected(answers.front().error());
-    return Outcome{text, {}, fmt::format("for chips that are not known here: {}", cost::kInstallNewer)};
+    return Outcome{
+        text,
+        {},
+        "more chips: fetch a newer Mesa's drivers into a folder with tools/fetch_mesa.sh and name it with "
+        "--driver"};
 }
 
 /// A permutation's two stages: indices into Composition::stages.
@@ -122,17 +128,23 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
                                      const std::vector<cost::Chip>& chips, Diagnostics& diagnostics) {
     std::vector<cost::ChipCost> costs;
     if (pairs.pipelines.empty()) return costs;
-    const auto answers = cost::compile_on_chips(chips, pairs.pipelines, compile_options(options, world));
+    const auto answers =
+        cost::compile_on_chips(world.disk, chips, pairs.pipelines, compile_options(options, world));
     for (std::size_t i = 0; i < chips.size(); ++i) {
         if (!answers[i]) {
             append(diagnostics, answers[i].error());
             continue;
         }
         std::vector<std::vector<cost::StageCost>> stages(pairs.pipelines.size());
-        for (std::size_t pair = 0; pair < stages.size(); ++pair)
+        for (std::size_t pair = 0; pair < stages.size(); ++pair) {
+            const cost::Pipeline& pipeline = pairs.pipelines[pair];
             if (const auto& compiled = answers[i]->pipelines[pair])
-                std::transform(compiled->begin(), compiled->end(), std::back_inserter(stages[pair]),
-                               cost::cost_of);
+                for (const cost::CompiledStage& stage : *compiled)
+                    stages[pair].push_back(cost::cost_of(stage, chips[i],
+                                                         stage.stage == "vertex"
+                                                             ? pipeline.vertex_loop_varies
+                                                             : pipeline.fragment_loop_varies));
+        }
         cost::ChipCost& cost = costs.emplace_back(cost::ChipCost{chips[i], answers[i]->driver, {}});
         std::vector<bool> is_reported(stages.size());
         for (const Permutation& permutation : subject.composition.permutations) {
@@ -277,6 +289,8 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
         text = cost::to_json(costs, options.isa).dump(2) + "\n";
     else if (options.csv)
         text = csv_text(cost::to_table(costs));
+    else if (options.cycles)
+        text = cost::cycles_text(costs);
     else
         text = options.isa ? cost::assembly_text(costs) : cost::to_text(costs);
     return Outcome{std::move(text), std::move(diagnostics)};
@@ -316,6 +330,26 @@ std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamil
     return costs_of(world, options, subject, pairs, chips, diagnostics);
 }
 
+Option driver_option(std::string& driver) {
+    return {"--driver", "FOLDER|FILE",
+            "A folder into which Mesa's packages were unpacked, as tools/fetch_mesa.sh does, or a Vulkan "
+            "driver by its "
+            "name or path; by default those installed",
+            &driver};
+}
+
+Command compile_pipelines_command() {
+    const auto library = std::make_shared<std::string>();
+    Command command = {{cost::kServeCommand, "Compile with a Vulkan driver what standard input asks for"},
+                       {{"LIBRARY", "FILE", "The driver", library.get(), kRequired}}};
+    command.run = [library](const World&) -> Result<Outcome> {
+        cost::serve_pipelines(*library);
+        return Outcome{};
+    };
+    command.hidden = true;
+    return command;
+}
+
 Command cost_command() {
     const auto options = std::make_shared<CostCommandOptions>();
     return {
@@ -339,10 +373,12 @@ Command cost_command() {
           "Print this study.csv with cycles and fronts of the chips, for gobo build --max-error --gpu",
           &options->study},
          {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
+         {"--cycles", "", "Print cycles only: a row for each key and stage, a column for each chip",
+          &options->cycles},
          {"--json", "", "Print JSON", &options->json},
          {"--csv", "", "Print CSV, with instructions by kind", &options->csv, {.excludes = "--json"}},
          keep_option(options->folder, "the SPIR-V of pairs that a driver crashes on"),
-         {"--driver", "FILE", "The Vulkan driver: a shared library by its name or path", &options->driver}},
+         driver_option(options->driver)},
         {selection_options(*options)},
         "  gobo cost lit --cover 2 --gpu polaris10,vega10,navi21\n"
         "  gobo cost lit --key 'point=1 specular=blinn' --gpu navi21 --isa\n"
@@ -352,8 +388,10 @@ Command cost_command() {
         "  gobo cost --gpu list",
         [options](const World& world) { return run(*options, world); },
         "Figures are a compiler's static estimates: no time was measured, and no GPU is needed. Cycles are "
-        "those "
-        "of 64 vertices or fragments. Where 'loop' stands, the compiler guesses how often it runs."};
+        "those of "
+        "64 vertices or fragments; of NVIDIA's chips they are gobo's own estimate from the driver's "
+        "assembly. Where "
+        "'loop' stands, the compiler guesses how often it runs."};
 }
 
 }  // namespace gobo

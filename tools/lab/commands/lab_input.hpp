@@ -69,8 +69,8 @@ using CubeImages = std::map<std::string, Image>;
                                                                 const StudiedEffects& studied,
                                                                 const Key& effects);
 
-/// What the keys of a study.csv at `path` cost on chips, by a Vulkan driver, a shared library. What cannot be
-/// told is added to `diagnostics`.
+/// What the keys of a study.csv at `path` cost on chips, by the drivers that `driver` names (see
+/// cost::find_driver()). What cannot be told is added to `diagnostics`.
 [[nodiscard]] std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,
                                                          const CsvTable& study, const std::string& path,
                                                          const std::vector<cost::Chip>& chips,
@@ -94,12 +94,17 @@ using CubeImages = std::map<std::string, Image>;
 /// -o of commands that keep what failed, and without it write nothing.
 [[nodiscard]] Option keep_option(std::string& folder, const std::string& what);
 
+/// --driver of commands that ask the drivers of GPUs.
+[[nodiscard]] Option driver_option(std::string& driver);
+
 [[nodiscard]] Command eval_command();
 [[nodiscard]] Command test_command();
 [[nodiscard]] Command sanitize_command();
 [[nodiscard]] Command probe_command();
 [[nodiscard]] Command render_command();
 [[nodiscard]] Command cost_command();
+/// Hidden: what a process of gobo cost runs for one chip (see cost::DriverProcess).
+[[nodiscard]] Command compile_pipelines_command();
 [[nodiscard]] Command study_command();
 
 }  // namespace gobo

@@ -30,6 +30,7 @@ struct StudyCommandOptions {
     bool weigh = false;
     bool callgrind = false;
     std::vector<std::string> gpus;
+    std::string driver;
     std::string front;  ///< effects of a finished study to show
     std::string svg;
     std::string study_file;
@@ -45,6 +46,7 @@ std::string command_line(const StudyCommandOptions& options) {
     if (options.study.quick) line += " --quick";
     if (options.no_time) line += " --no-time";
     if (!options.gpus.empty()) line += fmt::format(" --gpu {}", join(options.gpus, ","));
+    if (!options.driver.empty()) line += " --driver " + shell_word(options.driver);
     if (options.rounds != study::kLeastRounds) line += fmt::format(" --rounds {}", options.rounds);
     if (!options.plan.empty()) line += " --plan " + shell_word(options.plan);
     if (!options.weights_from.empty()) line += " --weights-from " + shell_word(options.weights_from);
@@ -231,7 +233,7 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     Diagnostics diagnostics;
     if (!chips.empty()) {
         const auto costs = costs_of_study(world, loaded, read_csv(files["study.csv"]), "study.csv", chips,
-                                          cost::CompileOptions{}.driver, diagnostics);
+                                          options.driver, diagnostics);
         for (const char* table : {"study.csv", "summary.csv"})
             files[table] = csv_text(cost::with_cycles(read_csv(files[table]), costs));
     }
@@ -264,6 +266,7 @@ Command study_command() {
          {"--gpu", "A,B,...",
           "Chips, as gobo cost has them: their cycles and fronts are columns of the tables too",
           &options->gpus},
+         driver_option(options->driver),
          {"--callgrind", "",
           "Count the instructions of a fragment too, for the last effects; needs valgrind, some 15 s each",
           &options->callgrind},

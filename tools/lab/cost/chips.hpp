@@ -1,6 +1,7 @@
 // The chips whose compilers can be asked, and how their drivers are told which one to be.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,11 +10,18 @@
 
 namespace gobo::cost {
 
-/// A GPU that Mesa's RADV compiles for without the hardware.
+enum class Maker : std::uint8_t {
+    amd,    ///< compiled for by Mesa's RADV
+    nvidia  ///< by Mesa's NVK
+};
+
+/// A GPU that one of Mesa's drivers compiles for without the hardware.
 struct Chip {
-    std::string_view name;          ///< as --gpu has it; in capitals the value of RADV_FORCE_FAMILY
+    std::string_view name;          ///< as --gpu has it; AMD's in capitals the value of RADV_FORCE_FAMILY
     std::string_view architecture;  ///< "RDNA2"
     std::string_view sold_as;       ///< a product that has it
+    Maker maker = Maker::amd;
+    std::string_view chipset = {};  ///< NVIDIA's, in hexadecimal: the value of NOUVEAU_CHIPSET
 };
 
 /// All of them, old ones first. A driver need not know each.
@@ -23,11 +31,8 @@ struct Chip {
 /// none has, with the nearest one.
 [[nodiscard]] Result<std::vector<Chip>> chips_named(const std::vector<std::string>& names);
 
-/// What to install where a chip is unknown or the driver is missing.
-inline constexpr const char* kInstallDriver =
-    "install Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers";
-inline constexpr const char* kInstallNewer =
-    "a newer mesa-vulkan-drivers may know it (on Debian 12: apt-get install -t bookworm-backports "
-    "mesa-vulkan-drivers); 'gobo cost --gpu list' says which chips this one knows";
+/// What to install where the maker's driver is missing, or does not know a chip.
+[[nodiscard]] std::string_view install_driver(Maker maker);
+[[nodiscard]] std::string_view install_newer(Maker maker);
 
 }  // namespace gobo::cost

@@ -2,19 +2,16 @@
 // own figures and nobody else's.
 #pragma once
 
-#include "lab/cost/chips.hpp"
-#include "lab/cost/driver.hpp"
+#include "lab/cost/driver_process.hpp"
 
 namespace gobo::cost {
 
 struct CompileOptions {
-    std::string driver = "libvulkan_radeon.so";
-    int jobs = 1;         ///< processes at a time
-    int time_limit = 60;  ///< seconds for a pipeline
+    std::string driver = {};   ///< find_driver()'s `where`
+    std::string program = {};  ///< the gobo-lab that opens drivers; empty: this program
+    int jobs = 1;              ///< processes at a time
+    int time_limit = 60;       ///< seconds for a pipeline
 };
-
-/// The stages of a pipeline, or in words why there are none: what the driver answered, or how it ended.
-using CompiledPipeline = tl::expected<std::vector<CompiledStage>, std::string>;
 
 /// What a driver made as one chip.
 struct ChipAnswers {
@@ -24,7 +21,8 @@ struct ChipAnswers {
 
 /// For each chip the pipelines in their order, or why its driver cannot be asked: it is missing
 /// (Fault::file), or does not know the chip. The calling process must not have other threads that run.
-[[nodiscard]] std::vector<Result<ChipAnswers>> compile_on_chips(const std::vector<Chip>& chips,
+[[nodiscard]] std::vector<Result<ChipAnswers>> compile_on_chips(const FileSystem& disk,
+                                                                const std::vector<Chip>& chips,
                                                                 const std::vector<Pipeline>& pipelines,
                                                                 const CompileOptions& options);
 

@@ -19,6 +19,11 @@ std::int64_t signed_difference(std::uint64_t before, std::uint64_t after) {
     return static_cast<std::int64_t>(after) - static_cast<std::int64_t>(before);
 }
 
+/// "navi21 (RDNA2), radv Mesa 22.3.6"
+std::string heading(const ChipCost& cost) {
+    return fmt::format("{} ({}), {}\n", cost.chip.name, cost.chip.architecture, cost.driver);
+}
+
 }  // namespace
 
 const std::vector<Figure>& figures() {
@@ -39,7 +44,7 @@ std::string to_text(const std::vector<ChipCost>& costs) {
     std::string text;
     for (const ChipCost& cost : costs) {
         if (!text.empty()) text += '\n';
-        text += fmt::format("{} ({}), {}\n", cost.chip.name, cost.chip.architecture, cost.driver);
+        text += heading(cost);
         for (const Figure& figure : figures()) text += fmt::format("{}  ", figure.title);
         text += "loop  stage     key\n";
         for (const KeyCost& key : cost.keys)
@@ -49,6 +54,40 @@ std::string to_text(const std::vector<ChipCost>& costs) {
                 text += fmt::format("{:<4}  {:<8}  {}\n", stage.has_loop ? "loop" : "", stage.stage, key.key);
             }
     }
+    return text;
+}
+
+std::string cycles_text(const std::vector<ChipCost>& costs) {
+    std::string text;
+    std::string header;
+    std::vector<std::size_t> widths;
+    for (const ChipCost& cost : costs) {
+        text += heading(cost);
+        widths.push_back(std::max<std::size_t>(cost.chip.name.size(), 5));
+        header += fmt::format("{:>{}}  ", cost.chip.name, widths.back());
+    }
+    text += header + "stage     key\n";
+    // A chip may lack keys that its driver did not compile.
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (const ChipCost& cost : costs)
+        for (const KeyCost& key : cost.keys)
+            for (const StageCost& stage : key.stages)
+                if (std::pair row(key.key, stage.stage);
+                    std::find(rows.begin(), rows.end(), row) == rows.end())
+                    rows.push_back(std::move(row));
+    bool has_loop = false;
+    for (const auto& [key, stage] : rows) {
+        for (std::size_t i = 0; i < costs.size(); ++i) {
+            std::string cell;
+            if (const KeyCost* cost = cost_of_key(costs[i], key))
+                for (const StageCost& one : cost->stages)
+                    if (one.stage == stage) cell = fmt::format("{}{}", one.has_loop ? "*" : "", one.cycles);
+            has_loop = has_loop || cell.starts_with('*');
+            text += fmt::format("{:>{}}  ", cell, widths[i]);
+        }
+        text += fmt::format("{:<8}  {}\n", stage, key);
+    }
+    if (has_loop) text += "* with a loop, of which the compiler guesses how often it runs\n";
     return text;
 }
 

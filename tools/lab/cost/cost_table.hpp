@@ -30,6 +30,8 @@ struct Figure {
 
 /// A table for each chip.
 [[nodiscard]] std::string to_text(const std::vector<ChipCost>& costs);
+/// A column of cycles for each chip, a row for each key and stage.
+[[nodiscard]] std::string cycles_text(const std::vector<ChipCost>& costs);
 /// A row for each chip, key and stage, with the driver's version.
 [[nodiscard]] CsvTable to_table(const std::vector<ChipCost>& costs);
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<ChipCost>& costs, bool with_assembly);

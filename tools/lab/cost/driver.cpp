@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <vulkan/vulkan_core.h>
 
-#include "lab/cost/chips.hpp"
-
 namespace gobo::cost {
 namespace {
 
@@ -119,13 +117,12 @@ struct Driver::Device {
 Result<Driver> Driver::open(const std::string& library) {
     void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (loaded == nullptr)
-        return fail(Fault::file, fmt::format("cannot load the Vulkan driver: {}", dlerror()), kInstallDriver);
+        return fail(Fault::file, fmt::format("cannot load the Vulkan driver: {}", dlerror()));
     const auto entry = [&](const char* name) { return dlsym(loaded, name); };
     const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry("vk_icdGetInstanceProcAddr"));
     if (get == nullptr)
         return fail(Fault::file,
-                    fmt::format("{} is no Vulkan driver: it has no vk_icdGetInstanceProcAddr", library),
-                    kInstallDriver);
+                    fmt::format("{} is no Vulkan driver: it has no vk_icdGetInstanceProcAddr", library));
     using Negotiate = VkResult (*)(std::uint32_t*);
     if (const auto negotiate =
             reinterpret_cast<Negotiate>(entry("vk_icdNegotiateLoaderICDInterfaceVersion"))) {
@@ -149,7 +146,7 @@ Result<Driver> Driver::open(const std::string& library) {
     VkPhysicalDevice gpu = nullptr;
     if (const VkResult result = vk.vkEnumeratePhysicalDevices(instance, &count, &gpu);
         (result != VK_SUCCESS && result != VK_INCOMPLETE) || count == 0)
-        return fail(Fault::file, fmt::format("{} has no device", library), kInstallDriver);
+        return fail(Fault::file, fmt::format("{} has no device", library));
     auto driver = made<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
     auto properties =
         made<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);

@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
+#include "lab/cost/plain_uniforms.hpp"
+#include "lab/cost/varying_loops.hpp"
 #include "spirv/module.hpp"
 
 namespace gobo::cost {
@@ -41,8 +42,7 @@ std::string name_of(const Module& module, const Variable& variable) {
     return "block " + module.name(element_of(module, variable.type).first);
 }
 
-/// Nothing for what Vulkan cannot bind.
-std::optional<Descriptor> descriptor_of(const Module& module, const Variable& variable) {
+Descriptor descriptor_of(const Module& module, const Variable& variable) {
     using enum Descriptor::Kind;
     const auto [element, count] = element_of(module, variable.type);
     const Type& type = module.type(element);
@@ -51,18 +51,9 @@ std::optional<Descriptor> descriptor_of(const Module& module, const Variable& va
         if (type.image.storage) return Descriptor{is_buffer ? image_buffer : image, count};
         return Descriptor{is_buffer ? texel_buffer : texture, count};
     }
-    if (variable.storage == spv::StorageClassUniformConstant) return std::nullopt;
     const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
                             module.decoration(element, spv::DecorationBufferBlock).has_value();
     return Descriptor{is_storage ? storage_buffer : uniform_buffer, count};
-}
-
-tl::unexpected<Diagnostics> fail_unbound(const std::vector<std::string>& names) {
-    return fail(Fault::input,
-                fmt::format("Vulkan has no uniforms outside blocks, and here {} such: {}",
-                            names.size() == 1 ? "is one" : "are some", join(names, ", ")),
-                "put them into a block, such as layout(std140, binding = 0) uniform Settings { vec4 tint; }; "
-                "samplers of a struct become variables of their own");
 }
 
 /// The variables that stages pass on.
@@ -196,27 +187,29 @@ std::vector<std::optional<Scalar>> outputs_of(const Module& module) {
     return outputs;
 }
 
+Result<Words> with_blocks_only(const Words& words, const std::string& stage) {
+    GOBO_TRY(const Module module, spirv::read_module(words));
+    return with_uniform_block(module, words, stage + " stage's uniforms outside blocks");
+}
+
 }  // namespace
 
-Result<Pipeline> pipeline_of(const Words& vertex_words, const Words& fragment_words) {
+Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl) {
+    GOBO_TRY(const Words vertex_words, with_blocks_only(vertex_of_opengl, "vertex"));
+    GOBO_TRY(const Words fragment_words, with_blocks_only(fragment_of_opengl, "fragment"));
     GOBO_TRY(const Module vertex, spirv::read_module(vertex_words));
     GOBO_TRY(const Module fragment, spirv::read_module(fragment_words));
     Pipeline pipeline;
     GOBO_TRY(pipeline.inputs, inputs_of(vertex));
     pipeline.outputs = outputs_of(fragment);
+    pipeline.vertex_loop_varies = has_varying_loop(vertex);
+    pipeline.fragment_loop_varies = has_varying_loop(fragment);
     std::map<std::string, Descriptor> by_name;
-    std::vector<std::string> unbound;
     for (const Module* module : {&vertex, &fragment})
         for (const Variable& variable : module->variables) {
-            if (!is_resource(variable)) continue;
-            const std::string name = name_of(*module, variable);
-            const auto descriptor = descriptor_of(*module, variable);
-            if (descriptor)
-                by_name.try_emplace(name, *descriptor);
-            else if (std::find(unbound.begin(), unbound.end(), name) == unbound.end())
-                unbound.push_back(name);
+            if (is_resource(variable))
+                by_name.try_emplace(name_of(*module, variable), descriptor_of(*module, variable));
         }
-    if (!unbound.empty()) return fail_unbound(unbound);
     std::map<std::string, std::uint32_t> binding_of;
     for (const auto& [name, descriptor] : by_name) {
         binding_of[name] = static_cast<std::uint32_t>(pipeline.descriptors.size());

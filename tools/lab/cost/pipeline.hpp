@@ -32,11 +32,15 @@ struct Pipeline {
     std::vector<Descriptor> descriptors;
     std::vector<VertexInput> inputs;
     std::vector<std::optional<Scalar>> outputs;  ///< of the fragment stage, by location; nothing: none there
+    /// Whether a stage has a loop whose turns the driver guesses (has_varying_loop()).
+    bool vertex_loop_varies = false;
+    bool fragment_loop_varies = false;
 };
 
 /// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one
-/// space of bindings for blocks and samplers, varyings matched by location instead of by name, gl_VertexID
-/// and the origin of gl_FragCoord. Errors: what Vulkan lacks, such as uniforms outside blocks.
-[[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex, const Words& fragment);
+/// space of bindings for blocks and samplers, uniforms outside blocks gathered in one for each stage,
+/// varyings matched by location instead of by name, gl_VertexID and the origin of gl_FragCoord. Errors: what
+/// Vulkan lacks, such as samplers within structs.
+[[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl);
 
 }  // namespace gobo::cost

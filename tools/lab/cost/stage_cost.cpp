@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "lab/cost/nvidia_assembly.hpp"
+
 namespace gobo::cost {
 namespace {
 
@@ -98,23 +100,38 @@ bool branches_back(std::string_view assembly) {
     return found;
 }
 
-StageCost cost_of(CompiledStage compiled) {
+StageCost cost_of(CompiledStage compiled, const Chip& chip, bool loop_varies) {
     const auto statistic = [&](const char* name) {
         const auto found = compiled.statistics.find(name);
         return found == compiled.statistics.end() ? 0 : found->second;
     };
     StageCost cost;
     cost.stage = compiled.stage;
-    cost.instructions = statistic("Instructions");
-    cost.vector_registers = statistic("VGPRs");
-    cost.scalar_registers = statistic("SGPRs");
-    cost.occupancy = statistic("Subgroups per SIMD");
-    cost.cycles = statistic("Inverse Throughput") * 64 / std::max(compiled.invocations, 1U);
-    cost.latency = statistic("Latency");
-    cost.code_bytes = statistic("Code size");
-    cost.spills = statistic("Spilled SGPRs") + statistic("Spilled VGPRs");
-    cost.has_loop = branches_back(compiled.assembly);
-    cost.kinds = count_kinds(compiled.assembly);
+    if (chip.maker == Maker::nvidia) {
+        const NvidiaCode code = read_nvidia_assembly(compiled.assembly, chip.architecture);
+        cost.instructions = statistic("Instruction count");
+        cost.vector_registers = statistic("Number of GPRs");
+        cost.scalar_registers = code.uniform_registers;
+        cost.occupancy = nvidia_occupancy(cost.vector_registers, chip.architecture);
+        cost.cycles = code.cycles * 64 / std::max(compiled.invocations, 1U);
+        cost.latency = code.latency;
+        cost.code_bytes = statistic("Code Size");
+        cost.spills = statistic("SLM Size") / 4;  // bytes of an invocation's own memory
+        cost.has_loop = code.has_loop;
+        cost.kinds = code.kinds;
+    } else {
+        cost.instructions = statistic("Instructions");
+        cost.vector_registers = statistic("VGPRs");
+        cost.scalar_registers = statistic("SGPRs");
+        cost.occupancy = statistic("Subgroups per SIMD");
+        cost.cycles = statistic("Inverse Throughput") * 64 / std::max(compiled.invocations, 1U);
+        cost.latency = statistic("Latency");
+        cost.code_bytes = statistic("Code size");
+        cost.spills = statistic("Spilled SGPRs") + statistic("Spilled VGPRs");
+        cost.has_loop = branches_back(compiled.assembly);
+        cost.kinds = count_kinds(compiled.assembly);
+    }
+    cost.has_loop = cost.has_loop || loop_varies;
     cost.assembly = std::move(compiled.assembly);
     return cost;
 }

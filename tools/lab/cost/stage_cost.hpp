@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "lab/cost/chips.hpp"
 #include "lab/cost/driver.hpp"
 
 namespace gobo::cost {
@@ -33,12 +34,14 @@ struct StageCost {
     std::uint64_t vector_registers = 0;
     std::uint64_t scalar_registers = 0;
     std::uint64_t occupancy = 0;  ///< waves that fit on a SIMD
-    std::uint64_t cycles =
-        0;  ///< for 64 vertices or fragments, with as many waves as fit (inverse throughput)
-    std::uint64_t latency = 0;  ///< cycles of one wave alone
+    /// For 64 vertices or fragments, with as many waves as fit: AMD's driver's inverse throughput; of
+    /// NVIDIA's chips gobo's own estimate, nvidia_assembly.hpp.
+    std::uint64_t cycles = 0;
+    std::uint64_t latency = 0;  ///< cycles of one wave alone; of NVIDIA's without waiting for memory
     std::uint64_t code_bytes = 0;
     std::uint64_t spills = 0;  ///< registers kept in memory
-    /// It has a loop, of which the compiler guesses how often it runs: cycles and latency hang on that guess.
+    /// Cycles and latency hang on a guess of the compiler's: a loop was left in the code, or one whose turns
+    /// the source leaves open was unrolled.
     bool has_loop = false;
     ByKind kinds = {};
     std::string assembly;
@@ -46,7 +49,8 @@ struct StageCost {
     friend bool operator==(const StageCost&, const StageCost&) = default;
 };
 
-[[nodiscard]] StageCost cost_of(CompiledStage compiled);
+/// `loop_varies`: as Pipeline has it of the stage.
+[[nodiscard]] StageCost cost_of(CompiledStage compiled, const Chip& chip, bool loop_varies);
 
 /// Instructions of AMD's assembly by kind.
 [[nodiscard]] ByKind count_kinds(std::string_view assembly);
