@@ -75,6 +75,14 @@ OptionGroup budget_options(BudgetOptions& options) {
           &options.study}}};
 }
 
+Result<void> refuse_without_budget(const BudgetOptions& options) {
+    if (options.is_set() || (options.gpus.empty() && options.study.empty())) return {};
+    return fail(Fault::usage,
+                fmt::format("{} says how a budget chooses qualities, and there is none",
+                            options.gpus.empty() ? "--study" : "--gpu"),
+                "state one: --max-error 0.01, or --max-cost 500");
+}
+
 Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFamily& family,
                                                     const BudgetOptions& options,
                                                     const std::vector<Key>& keys) {

@@ -56,6 +56,7 @@ United united_interface(const Composition& composition, const Validated& validat
 }
 
 Result<Outcome> run(const BuildOptions& options, const World& world) {
+    GOBO_TRY_DO(refuse_without_budget(options.budget));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const std::string stem, stem_of(options, family.family));
     if (options.comments) family.comments = Comments::keep;

@@ -97,6 +97,8 @@ struct BudgetOptions : Budget {
     std::vector<std::string> gpus = {};  ///< chips whose cycles are the cost
 };
 [[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
+/// An error where options say how a budget chooses and there is none.
+[[nodiscard]] Result<void> refuse_without_budget(const BudgetOptions& options);
 
 /// For each key the one that the budget chooses for its effects, in the same order, with what it was chosen
 /// by. Effects that the study has not measured are measured now, on the study's scenes, at the qualities that

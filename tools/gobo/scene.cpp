@@ -150,6 +150,7 @@ Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& 
 }
 
 Result<Outcome> run(const SceneOptions& options, const World& world) {
+    GOBO_TRY_DO(refuse_without_budget(options.budget));
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
     const Family& family = loaded.family;
     const std::string_view dialect = name_of(loaded.dialect);
