@@ -152,6 +152,9 @@ std::string trap_rows() {
             const sanitize::Finding& finding = shared.finding;
             rows += fmt::format("| {} | `{}:{}` | {} | {} |\n", cell(subject), file_name(path),
                                 finding.place.line, cell(finding.message), code(finding.operation));
+            for (const sanitize::Consequence& one : finding.consequences)
+                rows += fmt::format("| {} | `{}:{}` | and so {} | {} |\n", cell(subject), file_name(path),
+                                    one.place.line, cell(one.message), code(one.operation));
         }
     }
     return rows;

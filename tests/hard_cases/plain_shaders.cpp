@@ -107,6 +107,14 @@ Lines marked_lines(const std::string& source) {
     return lines;
 }
 
+Lines following_lines(const std::string& source) {
+    Lines lines;
+    for_each_mark(source, "// so: ", [&](int number, std::string_view text) {
+        lines.insert(fmt::format("{}: {}", number, text));
+    });
+    return lines;
+}
+
 std::vector<WrongMark> wrong_marks(const std::string& source) {
     std::vector<WrongMark> marks;
     for_each_mark(source, "// wrong at ",
@@ -157,6 +165,14 @@ Lines found_lines(const sanitize::SanitizeReport& report) {
     Lines lines;
     for (const sanitize::SharedFinding& shared : report.findings)
         lines.insert(fmt::format("{}: {}", shared.finding.place.line, shared.finding.message));
+    return lines;
+}
+
+Lines consequences(const sanitize::SanitizeReport& report) {
+    Lines lines;
+    for (const sanitize::SharedFinding& shared : report.findings)
+        for (const sanitize::Consequence& one : shared.finding.consequences)
+            lines.insert(fmt::format("{}: {}", one.place.line, one.message));
     return lines;
 }
 

@@ -19,6 +19,8 @@ using Lines = std::set<std::string>;
 
 /// The lines that the source marks as traps; several messages of one line stand apart by "; ".
 [[nodiscard]] Lines marked_lines(const std::string& source);
+/// Of the lines that end in "// so: message": what follows from those.
+[[nodiscard]] Lines following_lines(const std::string& source);
 
 /// A line that gives another result than it should.
 struct WrongMark {
@@ -45,6 +47,7 @@ struct WrongMark {
 [[nodiscard]] sanitize::SanitizeReport report_of(const std::string& path);
 /// The lines that a report names.
 [[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
+[[nodiscard]] Lines consequences(const sanitize::SanitizeReport& report);
 
 /// The comment on a plain shader's second line: "tiny cone: a cone of 1e-4 radians ...", the hard cases that
 /// it shows first.

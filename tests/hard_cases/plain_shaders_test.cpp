@@ -1,6 +1,6 @@
-// Shaders as textbooks have them are flagged at the lines that say so ("// trap: message"), and nowhere else;
-// where nothing undefined happens but the result is wrong, it is as wrong as its line says. Harmless ones are
-// not flagged at all.
+// Shaders as textbooks have them are flagged at the lines that say so ("// trap: message", "// so: message"
+// for what follows), and nowhere else; where nothing undefined happens but the result is wrong, it is as
+// wrong as its line says. Harmless ones are not flagged at all.
 #include "plain_shaders.hpp"
 
 #include <algorithm>
@@ -41,6 +41,7 @@ TEST_P(PlainShader, IsFlaggedAtItsMarks) {
     const sanitize::SanitizeReport report = report_of(GetParam());
     EXPECT_TRUE(report.diagnostics.empty());
     EXPECT_EQ(found_lines(report), marked);
+    EXPECT_EQ(consequences(report), following_lines(*source));
 }
 
 /// What is only inexact is right in double precision; what is wrong by its formula is not.

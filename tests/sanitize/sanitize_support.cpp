@@ -70,6 +70,14 @@ Lines found_lines(const sanitize::SanitizeReport& report) {
     return lines;
 }
 
+Lines consequences(const sanitize::SanitizeReport& report) {
+    Lines lines;
+    for (const sanitize::SharedFinding& shared : report.findings)
+        for (const sanitize::Consequence& one : shared.finding.consequences)
+            lines.insert(fmt::format("{}: {}", one.place.line, one.message));
+    return lines;
+}
+
 std::vector<std::string> shader_files(const std::string& folder) {
     std::vector<std::string> paths;
     for (const auto& entry :

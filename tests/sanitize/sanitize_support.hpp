@@ -19,6 +19,9 @@ using Lines = std::set<std::string>;
 /// Of the report's findings.
 [[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
 
+/// Of what follows from them.
+[[nodiscard]] Lines consequences(const sanitize::SanitizeReport& report);
+
 /// The files of a folder of tests/, sorted; failing to read it fails the test.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
 /// "linear_fog_frag".

@@ -25,6 +25,8 @@ const Row kRows[] = {
     {"mod", "result = mod(a, b);", "mod() by zero", "result = mod(a, 3.0);"},
     {"integer_division", "result = float(i / j);", "integer division by zero",
      "result = float(i / (j == 0 ? 1 : j));"},
+    {"integer_division_overflow", "result = float((i < 0 ? -2147483648 : i) / (j < 0 ? -1 : 1));",
+     "integer division overflows", "result = float((i < 0 ? -2147483647 : i) / (j < 0 ? -1 : 1));"},
     {"integer_remainder", "result = float(abs(i) % abs(j));", "integer remainder by zero",
      "result = float(abs(i) % (abs(j) + 1));"},
     {"remainder_of_negative", "result = float(i % 7);", "integer remainder of a negative number",
@@ -144,14 +146,22 @@ std::string row_name(const testing::TestParamInfo<Row>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Trap, testing::ValuesIn(kRows), row_name);
 
-/// What only NaNs from an earlier trap can reach is told as well, at its own line.
-TEST(TrapOfANaN, IsToldWhereItIsHidden) {
+/// What a NaN from an earlier trap reaches is no trap of its own: it is told beneath that.
+TEST(TrapOfANaN, IsFoldedBeneathItsCause) {
     for (const std::string hidden : {"min", "max"}) {
         const std::string text =
             shader_with("float ratio = a / b;\n    result = " + hidden + "(ratio, 1.0);");
         const sanitize::SanitizeReport report = sanitized_text("trap.frag", text, {});
-        EXPECT_EQ(found_lines(report), (Lines{"14: division by zero", "15: " + hidden + "() fed a NaN"}));
+        EXPECT_EQ(found_lines(report), Lines{"14: division by zero"});
+        EXPECT_EQ(consequences(report), Lines{"15: " + hidden + "() fed a NaN"});
     }
+}
+
+/// A NaN does not hide what is wrong at its line at other points.
+TEST(TrapOfANaN, LeavesTheTrapsOfItsLine) {
+    const std::string text = shader_with("vec3 n = normalize(v);\n    result = normalize(n + w).x;");
+    EXPECT_EQ(found_lines(sanitized_text("trap.frag", text, {})),
+              (Lines{"14: normalize() of a zero vector", "15: normalize() of a zero vector"}));
 }
 
 /// Two directions whose half vector lies along an axis: a component comes out a rounding beyond 1.

@@ -7,5 +7,5 @@ layout(location = 0) out vec4 color;
 
 void main() {
     float fogFactor = (far - abs(position.z)) / (far - near);  // trap: division by zero
-    color = vec4(clamp(fogFactor, 0.0, 1.0));  // trap: clamp() fed a NaN
+    color = vec4(clamp(fogFactor, 0.0, 1.0));  // so: clamp() fed a NaN
 }

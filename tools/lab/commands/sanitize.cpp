@@ -30,12 +30,15 @@ struct SanitizeCommandOptions : SelectionOptions {
 Diagnostics report(const World& world, const SanitizeCommandOptions& options, const Subject& subject,
                    const sanitize::SharedFinding& shared, std::size_t number) {
     const sanitize::Finding& finding = shared.finding;
-    Diagnostics diagnostics(1);
-    Diagnostic& error = diagnostics.front();
+    Diagnostics diagnostics;
+    diagnostics.reserve(finding.consequences.size() + 1);
+    Diagnostic& error = diagnostics.emplace_back();
     error.place = finding.place;
     error.quoted_line = quoted_line(subject.composition, finding.place);
     const std::string keys = subject.are_files ? "" : fmt::format(", {} keys", shared.permutations.size());
-    error.message = fmt::format("{} ({} points{})", to_text(finding), finding.points, keys);
+    const std::string shown_by =
+        finding.is_of_constants ? "of constants" : fmt::format("{} points", finding.points);
+    error.message = fmt::format("{} ({}{})", to_text(finding), shown_by, keys);
     std::vector<std::string> names = options.names;
     std::ranges::transform(names, names.begin(), shell_word);
     std::string what = join(names, " ");
@@ -43,6 +46,17 @@ Diagnostics report(const World& world, const SanitizeCommandOptions& options, co
         error.subject = key_text(subject.family.family,
                                  subject.composition.permutations[shared.permutations.front()].key);
         what += fmt::format(" '{}'", error.subject);
+    }
+    for (const sanitize::Consequence& one : finding.consequences) {
+        Diagnostic& note = diagnostics.emplace_back();
+        note.severity = Severity::note;
+        note.place = one.place;
+        note.message = fmt::format("so: {}: {}", one.message, one.operation);
+    }
+    if (finding.is_of_constants) {
+        error.help =
+            "compilers fold it, each to a value of its own: guard the operation, or change a constant";
+        return diagnostics;
     }
     if (options.folder.empty()) {
         error.help =
@@ -139,7 +153,8 @@ Command sanitize_command() {
           "What arithmetic to evaluate with, of those that GLSL allows: ieee; flushed (denormals are 0); "
           "nan_kept, "
           "nan_dropped (by min, max, clamp); fused (a * b + c); regrouped, reordered (sums); "
-          "errors_up, errors_down (of pow, exp, log, inversesqrt); all",
+          "errors_up, errors_down (of division, sqrt, normalize, pow, exp, log, sin and their like); "
+          "mediump (16-bit floats where the shader allows them); all",
           &options->machines, kOneOf},
          {"--inputs", "FILE",
           "A file whose [domain] says what inputs and uniforms hold, beside the family's or instead",

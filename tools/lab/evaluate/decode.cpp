@@ -210,9 +210,20 @@ void Decoder::decode_terminator(const BasicBlock& basic, const Instruction& inst
             return end_block(Block::End::kill, instruction.line);
         case spv::OpReturnValue: {
             const Value result = value(instruction, 1);
+            const std::uint32_t count = type(result).scalars;
             if (result.type != frame().result.type)
                 return report(instruction, "a function returns the wrong type");
-            copy(instruction, type(result).scalars, frame().result.slot, result);
+            Value returned = result;
+            const Instruction* const definition = module_.definition(instruction.id(1));
+            if (definition != nullptr && definition->opcode == spv::OpUndef) {
+                // glslang returns this where the function ends without a return.
+                returned.slot = permanent(count);
+                const Function& function = *frame().function;
+                const std::string name = module_.name(function.id);
+                program_.undefined.push_back(
+                    {returned.slot, count, function.line, name.substr(0, name.find('('))});
+            }
+            copy(instruction, count, frame().result.slot, returned);
             [[fallthrough]];
         }
         case spv::OpReturn:

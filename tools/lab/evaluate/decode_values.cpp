@@ -228,8 +228,11 @@ void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::u
     operation.extras = length_of(words);
     program_.words.insert(program_.words.end(), words.begin(), words.end());
 
-    OperationInfo info{instruction.line, {result, 0}, {}, false};
+    OperationInfo info;
+    info.place = instruction.line;
+    info.result.slot = result;
     info.is_precise = module_.decoration(instruction.result, spv::DecorationNoContraction).has_value();
+    info.is_relaxed = module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
     if (instruction.type != Id::none)
         info.result = slice({instruction.type, result, -1, -1, intern(module_.name(instruction.result))});
     for (const Value& operand : operands) info.operands.push_back(slice(operand));

@@ -78,7 +78,9 @@ struct Invocations {
 /// Which errors arithmetic makes beside those of rounding.
 enum class Errors {
     none,
-    largest_up,    ///< pow, exp, exp2, log, log2, inversesqrt too large by all that the specification allows
+    /// Divisions, roots, lengths, powers, exponentials, logarithms and functions of angles are too large by
+    /// all that the specification allows.
+    largest_up,
     largest_down,  ///< too small by as much
 };
 
@@ -103,6 +105,7 @@ struct Options {
     Errors errors = Errors::none;
     Sums sums = Sums::as_written;
     NaNs nans = NaNs::by_comparison;
+    bool is_half = false;  ///< fp32 only: what is mediump or lowp is a 16-bit float after each operation
     /// fp64 only: of each operation, the one invocation in which its results are rounded to floats, or -1.
     const std::vector<std::int64_t>* rounded_in = nullptr;
     bool count = false;  ///< fill Outputs::counts
@@ -128,6 +131,7 @@ struct Step {
     std::uint64_t lanes;           ///< bit i: lane i runs it (padding and helper lanes left out)
     std::size_t first_invocation;  ///< of lane 0
     const T* rows;                 ///< lane l of slot s, where it holds floats, is rows[s * kLanes + l]
+    std::uint64_t discarded = 0;   ///< lanes that have been discarded
 
     [[nodiscard]] const OperationInfo& info() const { return program.infos[operation]; }
     [[nodiscard]] const Place& place() const { return program.place_of(operation); }
@@ -153,6 +157,10 @@ class Observer {
     /// A dynamic index of this step lay outside [0, extent) and is clamped to it.
     virtual void clamped(const Step<T>& /*step*/, std::size_t /*lane*/, std::int64_t /*index*/,
                          std::uint32_t /*extent*/) {}
+    /// The lanes end the block; where it ends in a choice, by the slot of its condition.
+    virtual void ends(const Block& /*block*/, std::uint64_t /*lanes*/) {}
+    /// The lanes carry a value along an edge.
+    virtual void copied(const Operation& /*copy*/, std::uint64_t /*lanes*/) {}
 };
 
 /// Runs the stage for each invocation, in arithmetic of T: float (IEEE, round to nearest) or double, where

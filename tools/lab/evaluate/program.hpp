@@ -87,6 +87,7 @@ struct OperationInfo {
     Slice result;             ///< a store's is the variable
     std::vector<Slice> operands;
     bool is_precise = false;  ///< NoContraction: to be computed as written
+    bool is_relaxed = false;  ///< RelaxedPrecision: mediump or lowp
 };
 
 /// A way from one block to another, with the copies (phi) made by those who take it.
@@ -118,6 +119,14 @@ struct ConstantSlot {
     std::uint32_t slot = 0;
     Scalar scalar = Scalar::float32;
     std::uint32_t bits = 0;  ///< of the 32-bit value
+};
+
+/// Slots whose value nobody gives: what a function returns that ends without a return.
+struct UndefinedValue {
+    std::uint32_t slot = 0;
+    std::uint32_t count = 0;
+    std::uint32_t place = 0;  ///< of the function
+    std::string function;
 };
 
 /// A scalar, vector or matrix of the interface.
@@ -161,7 +170,8 @@ struct Program {
     std::uint32_t slots = 0;
     std::vector<ConstantSlot> constants;
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
-        variables;                                ///< slots set to zero first: start, count
+        variables;  ///< slots set to zero first: start, count
+    std::vector<UndefinedValue> undefined;
     std::vector<Port> inputs, outputs, uniforms;  ///< sorted by name
     std::vector<UniformBlock> uniform_blocks;
     std::vector<ImagePort> images;

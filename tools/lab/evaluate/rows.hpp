@@ -97,6 +97,13 @@ inline constexpr Execution kCostly = kRun<[](const Operation& operation, auto& r
     }
 }>;
 
+/// The distance from a result to the next fp32 number away from 0.
+inline double ulp(double value) {
+    const float size = std::fabs(static_cast<float>(value));
+    return static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) -
+           static_cast<double>(size);
+}
+
 // min and max as GLSL defines them: what a NaN operand gives follows from the comparison being false.
 inline constexpr auto kMin = [](auto x, auto y) { return y < x ? y : x; };
 inline constexpr auto kMax = [](auto x, auto y) { return x < y ? y : x; };

@@ -75,14 +75,9 @@ constexpr auto kSame = [](auto a) { return a; };
 
 // The largest errors allowed, by Vulkan 1.3, Precision of Individual Operations, which OpenGL's drivers
 // follow (GLSL 4.50, 4.7.1, leaves them open): exp2 3 + 2 |x| ulp, log2 3 ulp, within [0.5, 2] an absolute
-// 2^-21, inversesqrt 2 ulp, pow what exp2(y log2(x)) adds up to.
+// 2^-21, inversesqrt 2 ulp, division 2.5 ulp, sin and cos an absolute 2^-11 within [-pi, pi], atan
+// 4096 ulp; the others what they are inherited from adds up to: pow exp2(y log2(x)), sqrt 1 / inversesqrt(x).
 
-/// The distance from a result to the next fp32 number away from 0.
-double ulp(double value) {
-    const float size = std::fabs(static_cast<float>(value));
-    return static_cast<double>(std::nextafter(size, std::numeric_limits<float>::infinity())) -
-           static_cast<double>(size);
-}
 double error_of_exponential(double x, double /*y*/, double result) {
     return (3 + 2 * std::fabs(x)) * ulp(result);
 }
@@ -100,8 +95,41 @@ double error_of_power(double x, double y, double result) {
 double error_of_inverse_root(double /*x*/, double /*y*/, double result) {
     return 2 * ulp(result);
 }
+double error_of_division(double /*x*/, double divisor, double result) {
+    const double size = std::fabs(divisor);
+    return result != 0 && size >= 0x1p-126 && size <= 0x1p126 ? 2.5 * ulp(result) : 0;
+}
+/// As 1 / inversesqrt(x).
+double error_of_root(double /*x*/, double /*y*/, double result) {
+    return result > 0 ? 4.5 * ulp(result) : 0;
+}
+double error_of_sine(double x, double /*y*/, double /*result*/) {
+    return std::fabs(x) <= std::numbers::pi ? 0x1p-11 : 0;
+}
+/// As sin(x) / cos(x).
+double error_of_tangent(double x, double /*y*/, double result) {
+    const double secant = std::sqrt(1 + result * result);
+    return error_of_sine(x, 0, 0) * (1 + std::fabs(result)) * secant;
+}
+double error_of_arc_tangent(double /*y*/, double /*x*/, double result) {
+    return 4096 * ulp(result);
+}
+/// As atan() of x and sqrt(1 - x * x), whose rounding counts most beside the ends.
+double error_of_arc_sine(double x, double /*y*/, double result) {
+    const double cosine = std::sqrt(std::max(1 - x * x, 0x1p-24));
+    return 4096 * ulp(result) + 0x1p-24 / cosine;
+}
+/// As sums of exp(x) and exp(-x).
+double error_of_hyperbolic(double x, double /*y*/, double result) {
+    return (3 + 2 * std::fabs(x)) * ulp(result);
+}
 constexpr Liberties kExponential{.largest_error = error_of_exponential};
 constexpr Liberties kLogarithm{.largest_error = error_of_logarithm};
+constexpr Liberties kDivision{.largest_error = error_of_division};
+constexpr Liberties kSine{.largest_error = error_of_sine};
+constexpr Liberties kArcSine{.largest_error = error_of_arc_sine};
+constexpr Liberties kArcTangent{.largest_error = error_of_arc_tangent};
+constexpr Liberties kHyperbolic{.largest_error = error_of_hyperbolic};
 constexpr Liberties kInverseRoot{.largest_error = error_of_inverse_root};
 constexpr Liberties kMinOfNaN{.nan_kept = kFloats<kNaNMin>, .nan_dropped = kFloats<kNumberMin>};
 constexpr Liberties kMaxOfNaN{.nan_kept = kFloats<kNaNMax>, .nan_dropped = kFloats<kNumberMax>};
@@ -120,7 +148,7 @@ constexpr Row kRows[] = {
     {GOBO_CORE(FAdd), Kind::add, "f:ff", kFloats<[](auto a, auto b) { return a + b; }>},
     {GOBO_CORE(FSub), Kind::add, "f:ff", kFloats<[](auto a, auto b) { return a - b; }>},
     {GOBO_CORE(FMul), Kind::mul, "f:ff", kFloats<[](auto a, auto b) { return a * b; }>},
-    {GOBO_CORE(FDiv), Kind::div, "f:ff", kFloats<[](auto a, auto b) { return a / b; }>},
+    {GOBO_CORE(FDiv), Kind::div, "f:ff", kFloats<[](auto a, auto b) { return a / b; }>, kDivision},
     {GOBO_CORE(FRem), Kind::div, "f:ff", kFloats<[](auto a, auto b) { return std::fmod(a, b); }>},
     {GOBO_CORE(FMod), Kind::div, "f:ff", kFloats<[](auto a, auto b) { return a - b * std::floor(a / b); }>},
     {GOBO_CORE(VectorTimesScalar), Kind::mul, "f:fF", kRun<kScale>},
@@ -156,7 +184,11 @@ constexpr Row kRows[] = {
     {GOBO_EXTENDED(Ldexp), Kind::round, "f:fi", kMap<kLoadExponent, Floats, Floats, Ints>},
     {GOBO_EXTENDED(ModfStruct), Kind::round, "s:f", kRun<kModf>},
     {GOBO_EXTENDED(FrexpStruct), Kind::round, "s:f", kRun<kFrexp>},
-    {GOBO_EXTENDED(Sqrt), Kind::sqrt, "f:f", kFloats<[](auto x) { return std::sqrt(x); }>},
+    {GOBO_EXTENDED(Sqrt),
+     Kind::sqrt,
+     "f:f",
+     kFloats<[](auto x) { return std::sqrt(x); }>,
+     {.largest_error = error_of_root}},
     {GOBO_EXTENDED(InverseSqrt), Kind::inverse_sqrt, "f:f", kFloats<[](auto x) { return 1 / std::sqrt(x); }>,
      kInverseRoot},
     {GOBO_EXTENDED(Pow), Kind::pow, "f:ff", kCostly<kPower>, {.largest_error = error_of_power}},
@@ -166,15 +198,20 @@ constexpr Row kRows[] = {
     {GOBO_EXTENDED(Log2), Kind::log, "f:f", kCostly<[](auto x) { return std::log2(x); }>, kLogarithm},
     {GOBO_EXTENDED(Radians), Kind::mul, "f:f", kFloats<[](auto x) { return x * kRadian<decltype(x)>; }>},
     {GOBO_EXTENDED(Degrees), Kind::mul, "f:f", kFloats<[](auto x) { return x * kDegree<decltype(x)>; }>},
-    {GOBO_EXTENDED(Sin), Kind::trig, "f:f", kCostly<[](auto x) { return std::sin(x); }>},
-    {GOBO_EXTENDED(Cos), Kind::trig, "f:f", kCostly<[](auto x) { return std::cos(x); }>},
-    {GOBO_EXTENDED(Tan), Kind::trig, "f:f", kCostly<[](auto x) { return std::tan(x); }>},
-    {GOBO_EXTENDED(Asin), Kind::trig, "f:f", kCostly<[](auto x) { return std::asin(x); }>},
-    {GOBO_EXTENDED(Acos), Kind::trig, "f:f", kCostly<[](auto x) { return std::acos(x); }>},
-    {GOBO_EXTENDED(Atan), Kind::trig, "f:f", kCostly<[](auto x) { return std::atan(x); }>},
-    {GOBO_EXTENDED(Atan2), Kind::trig, "f:ff", kCostly<[](auto y, auto x) { return std::atan2(y, x); }>},
-    {GOBO_EXTENDED(Sinh), Kind::trig, "f:f", kCostly<[](auto x) { return std::sinh(x); }>},
-    {GOBO_EXTENDED(Cosh), Kind::trig, "f:f", kCostly<[](auto x) { return std::cosh(x); }>},
+    {GOBO_EXTENDED(Sin), Kind::trig, "f:f", kCostly<[](auto x) { return std::sin(x); }>, kSine},
+    {GOBO_EXTENDED(Cos), Kind::trig, "f:f", kCostly<[](auto x) { return std::cos(x); }>, kSine},
+    {GOBO_EXTENDED(Tan),
+     Kind::trig,
+     "f:f",
+     kCostly<[](auto x) { return std::tan(x); }>,
+     {.largest_error = error_of_tangent}},
+    {GOBO_EXTENDED(Asin), Kind::trig, "f:f", kCostly<[](auto x) { return std::asin(x); }>, kArcSine},
+    {GOBO_EXTENDED(Acos), Kind::trig, "f:f", kCostly<[](auto x) { return std::acos(x); }>, kArcSine},
+    {GOBO_EXTENDED(Atan), Kind::trig, "f:f", kCostly<[](auto x) { return std::atan(x); }>, kArcTangent},
+    {GOBO_EXTENDED(Atan2), Kind::trig, "f:ff", kCostly<[](auto y, auto x) { return std::atan2(y, x); }>,
+     kArcTangent},
+    {GOBO_EXTENDED(Sinh), Kind::trig, "f:f", kCostly<[](auto x) { return std::sinh(x); }>, kHyperbolic},
+    {GOBO_EXTENDED(Cosh), Kind::trig, "f:f", kCostly<[](auto x) { return std::cosh(x); }>, kHyperbolic},
     {GOBO_EXTENDED(Tanh), Kind::trig, "f:f", kCostly<[](auto x) { return std::tanh(x); }>},
     {GOBO_EXTENDED(Asinh), Kind::trig, "f:f", kCostly<[](auto x) { return std::asinh(x); }>},
     {GOBO_EXTENDED(Acosh), Kind::trig, "f:f", kCostly<[](auto x) { return std::acosh(x); }>},

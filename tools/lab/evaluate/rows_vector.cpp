@@ -34,13 +34,24 @@ constexpr Execution kSumming =
 
 /// The row of a function that adds up products: its first parameter says how.
 template <auto F>
-constexpr Row summing(std::uint32_t code, std::string_view name, Kind kind, std::string_view signature) {
-    return {code,
-            name,
-            kind,
-            signature,
-            kSumming<F, AsWritten>,
-            {.fused = kSumming<F, Fused>, .backwards = kSumming<F, Backwards>}};
+constexpr Row summing(std::uint32_t code, std::string_view name, Kind kind, std::string_view signature,
+                      double (*largest_error)(double, double, double) = nullptr) {
+    return {
+        code,
+        name,
+        kind,
+        signature,
+        kSumming<F, AsWritten>,
+        {.fused = kSumming<F, Fused>, .backwards = kSumming<F, Backwards>, .largest_error = largest_error}};
+}
+
+// By Vulkan 1.3, Precision of Individual Operations: length() and distance() as sqrt(dot(x, x)), normalize()
+// as x / length(x).
+double error_of_length(double /*x*/, double /*y*/, double result) {
+    return result > 0 ? 4.5 * ulp(result) : 0;
+}
+double error_of_direction(double /*x*/, double /*y*/, double result) {
+    return result == 0 ? 0 : 7 * ulp(result);
 }
 
 /// One number of each lane.
@@ -270,10 +281,10 @@ constexpr Row kRows[] = {
     {GOBO_CORE(Transpose), Kind::matrix, "", kRun<kTranspose>},
     {GOBO_EXTENDED(Determinant), Kind::matrix, "", kRun<kDeterminant>},
     {GOBO_EXTENDED(MatrixInverse), Kind::matrix, "", kRun<kInverse>},
-    summing<kLength>(GOBO_EXTENDED(Length), Kind::geometric, "F:f"),
-    summing<kDistance>(GOBO_EXTENDED(Distance), Kind::geometric, "F:ff"),
+    summing<kLength>(GOBO_EXTENDED(Length), Kind::geometric, "F:f", error_of_length),
+    summing<kDistance>(GOBO_EXTENDED(Distance), Kind::geometric, "F:ff", error_of_length),
     summing<kCross>(GOBO_EXTENDED(Cross), Kind::geometric, "f:ff3"),
-    summing<kNormalize>(GOBO_EXTENDED(Normalize), Kind::geometric, "f:f"),
+    summing<kNormalize>(GOBO_EXTENDED(Normalize), Kind::geometric, "f:f", error_of_direction),
     summing<kFaceForward>(GOBO_EXTENDED(FaceForward), Kind::geometric, "f:fff"),
     summing<kReflect>(GOBO_EXTENDED(Reflect), Kind::geometric, "f:ff"),
     summing<kRefract>(GOBO_EXTENDED(Refract), Kind::geometric, "f:ffF"),

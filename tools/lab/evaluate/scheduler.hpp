@@ -211,20 +211,33 @@ inline const Execution& execution_of(const Row& row, const Options& options) {
     return *chosen;
 }
 
-/// Moves the operation's result by the largest error allowed, up or down.
+/// The nearest 16-bit float; beyond 65,504 an infinity.
+inline float rounded_to_half(float number) {
+    const float size = std::fabs(number);
+    if (!(size > 0) || std::isinf(size)) return number;
+    if (size >= 65520.0F) return std::copysign(std::numeric_limits<float>::infinity(), number);
+    // Numbers are spaced by 2^-10 of the power of two below them, the smallest by 2^-24.
+    const int exponent = std::max(static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U) - 127, -14);
+    const float spacing = std::bit_cast<float>(static_cast<std::uint32_t>(exponent - 10 + 127) << 23U);
+    return std::nearbyint(number / spacing) * spacing;
+}
+
+/// Moves the operation's result, of so many components, by the largest error allowed, up or down.
 template <class T>
-void add_largest_error(const Row& row, const Operation& operation, Registers<T>& registers, bool is_upward) {
+void add_largest_error(const Row& row, const Operation& operation, std::uint32_t components,
+                       Registers<T>& registers, bool is_upward) {
     T* result = registers.floats(operation.result);
     const T* x = registers.floats(operation.operands[0]);
     const T* y = registers.floats(operation.operands[1]);  // of functions of one operand nobody's slot 0
-    for (std::size_t i = 0; i < operation.count * kLanes; ++i) {
+    for (std::size_t i = 0; i < components * kLanes; ++i) {
         if (!registers.is_active(i % kLanes) || !std::isfinite(result[i])) continue;
         const double error = row.liberties.largest_error(static_cast<double>(x[i]), static_cast<double>(y[i]),
                                                          static_cast<double>(result[i]));
         const double moved = static_cast<double>(result[i]) + (is_upward ? error : -error);
         // An exponential or a root is never negative, and an error makes no infinity.
-        if ((moved >= 0 || row.kind == Kind::log) &&
-            moved <= static_cast<double>(std::numeric_limits<float>::max()))
+        const bool may_be_negative = row.kind == Kind::log || row.kind == Kind::trig || result[i] < 0;
+        if ((moved >= 0 || may_be_negative) &&
+            std::fabs(moved) <= static_cast<double>(std::numeric_limits<float>::max()))
             result[i] = static_cast<T>(moved);
     }
 }
@@ -262,12 +275,13 @@ class Scheduler {
             if (!lane_visits_.empty()) count_visit(current_);
             if (observer_ != nullptr || options_.rounded_in != nullptr)
                 run_observed(block);
-            else if (regrouping_)
+            else if (regrouping_ || options_.errors != Errors::none || options_.is_half)
                 for (std::uint32_t at = block.first; at < block.first + block.count; ++at) execute_at(at);
             else
                 for (const Operation& operation :
                      std::span(program_.quick).subspan(block.quick_first, block.quick_count))
                     execute(operation);
+            if (observer_ != nullptr) observer_->ends(block, registers_.active() & registers_.callers_lanes);
             leave(block);
         }
         return std::nullopt;
@@ -284,22 +298,32 @@ class Scheduler {
   private:
     void execute_at(std::uint32_t at) {
         if (regrouping_ && regrouping_->takes_over(at)) return;
-        execute(program_.operations[at]);
+        const Operation& operation = program_.operations[at];
+        execute(operation);
         if (regrouping_) regrouping_->after(at);
+        if (options_.errors != Errors::none)
+            if (const Row& row = row_of(operation); row.liberties.largest_error != nullptr)
+                add_largest_error(row, operation, program_.infos[at].result.count, registers_,
+                                  options_.errors == Errors::largest_up);
+        if (options_.is_half && program_.infos[at].is_relaxed) make_half(program_.infos[at].result);
     }
 
-    void execute(const Operation& operation) {
-        rows_[operation.row](operation, registers_);
-        if (options_.errors == Errors::none) return;
-        if (const Row& row = row_of(operation); row.liberties.largest_error != nullptr)
-            add_largest_error(row, operation, registers_, options_.errors == Errors::largest_up);
+    void execute(const Operation& operation) { rows_[operation.row](operation, registers_); }
+
+    void make_half(const Slice& result) {
+        if (result.scalar != Scalar::float32) return;
+        T* const row = registers_.floats(result.slot);
+        for (std::size_t i = 0; i < result.count * kLanes; ++i)
+            if (registers_.is_active(i % kLanes))
+                row[i] = static_cast<T>(rounded_to_half(static_cast<float>(row[i])));
     }
 
     void run_observed(const Block& block) {
         const LaneMask lanes = registers_.active() & registers_.callers_lanes;
         for (std::uint32_t at = block.first; at < block.first + block.count; ++at) {
             const Operation& operation = program_.operations[at];
-            const Step<T> step{program_, at, lanes, registers_.first_invocation, registers_.floats(0)};
+            const Step<T> step{program_,  at, lanes, registers_.first_invocation, registers_.floats(0),
+                               discarded_};
             const bool is_shown = observer_ != nullptr && lanes != 0 && !step.row().is_bookkeeping;
             if (is_shown) {
                 observer_->before(step);
@@ -307,7 +331,10 @@ class Scheduler {
             }
             execute_at(at);
             if (options_.rounded_in != nullptr) round_result(at);
-            if (is_shown) observer_->after(step);
+            if (is_shown)
+                observer_->after(step);
+            else if (observer_ != nullptr && step.row().code == kCopy)
+                observer_->copied(operation, registers_.active());
         }
     }
 
@@ -352,6 +379,7 @@ class Scheduler {
         for (std::uint32_t at = edge.first_copy; at < edge.first_copy + edge.copies; ++at) {
             rows_[program_.copies[at].row](program_.copies[at], registers_);
             if (regrouping_) regrouping_->copy(program_.copies[at]);
+            if (observer_ != nullptr) observer_->copied(program_.copies[at], registers_.active());
         }
     }
 

@@ -11,6 +11,7 @@
 
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/taint.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -21,138 +22,9 @@ using evaluate::Operation;
 using evaluate::Slice;
 using Step = evaluate::Step<float>;
 
-constexpr Lanes kAll = ~Lanes{0};
-
 std::uint32_t code_of(const Operation& operation) {
     return evaluate::instruction_table()[operation.row].code;
 }
-
-/// The slot that a lane's dynamic address leads to.
-std::uint32_t address(const Step& step, std::uint32_t base, std::uint32_t offset_slot, std::size_t lane) {
-    evaluate::Slice offset;
-    offset.slot = offset_slot;
-    return base + static_cast<std::uint32_t>(int_row(step, offset, 0)[lane]);
-}
-
-/// Which values hold something that was never written, lane by lane. Follows unwritten values through loads,
-/// stores and the parts of composites. Copying one is fine, as a vector that is filled component by component
-/// is copied half empty; computing with one is not.
-class Definedness {
-  public:
-    explicit Definedness(const evaluate::Program& program)
-        : program_(program), undefined_(program.slots), followers_(program.operations.size()) {
-        for (const evaluate::Block& block : program.blocks) {
-            std::uint32_t copies = 0;
-            for (std::uint32_t at = block.first + block.count; at-- > block.first;) {
-                followers_[at] = copies;
-                copies = code_of(program.operations[at]) == evaluate::kCopy ? copies + 1 : 0;
-            }
-        }
-    }
-
-    /// Nothing is written yet.
-    void begin() {
-        std::fill(undefined_.begin(), undefined_.end(), 0);
-        for (const auto& [slot, count] : program_.variables)
-            std::fill_n(undefined_.begin() + slot, count, kAll);
-    }
-
-    /// The lanes in which some component of the slots is unwritten.
-    [[nodiscard]] Lanes undefined_in(std::uint32_t slot, std::uint32_t count) const {
-        Lanes lanes = 0;
-        for (std::uint32_t at = slot; at < slot + count; ++at) lanes |= undefined_[at];
-        return lanes;
-    }
-
-    /// To be called after each step. The lanes in which it computed with a value that was never written.
-    [[nodiscard]] Lanes after(const Step& step) {
-        const Lanes hits = move(step, program_.operations[step.operation]);
-        for (std::uint32_t next = 1; next <= followers_[step.operation]; ++next) {
-            const Operation& keep = program_.operations[step.operation + next];
-            copy(keep.result, keep.operands[0], keep.count, step.lanes);
-        }
-        return hits;
-    }
-
-  private:
-    Lanes move(const Step& step, const Operation& operation) {
-        const std::uint32_t* words = program_.words.data() + operation.extra;
-        const auto& operands = operation.operands;
-        scratch_.clear();
-        switch (code_of(operation)) {
-            case spv::OpStore:
-                copy(operation.result, operands[0], operation.count, step.lanes);
-                return 0;
-            case spv::OpLoad:
-            case spv::OpCopyObject:
-            case spv::OpCompositeExtract:
-                copy(operation.result, operands[0], operation.count, kAll);
-                return 0;
-            case evaluate::kGather:
-                gather(step, operation);
-                return 0;
-            case evaluate::kScatter:
-                for (std::size_t lane = 0; lane < kLanes; ++lane)
-                    if ((step.lanes >> lane & 1U) != 0)
-                        copy(address(step, operation.result, operands[1], lane), operands[0], operation.count,
-                             Lanes{1} << lane);
-                return 0;
-            case spv::OpCompositeConstruct:
-                for (const std::uint32_t* part = words; part < words + operation.extras; part += 2)
-                    scratch_.insert(scratch_.end(), undefined_.begin() + part[0],
-                                    undefined_.begin() + part[0] + part[1]);
-                break;
-            case spv::OpVectorShuffle:
-                for (std::uint32_t i = 0; i < operation.count; ++i) scratch_.push_back(undefined_[words[i]]);
-                break;
-            case spv::OpCompositeInsert:
-                copy(operation.result, operands[1], operation.count, kAll);
-                copy(operation.result + words[0], operands[0], words[1], kAll);
-                return 0;
-            case spv::OpSelect:  // only where both are unwritten, whichever is chosen
-                for (std::uint32_t i = 0; i < operation.count; ++i)
-                    scratch_.push_back(undefined_[operands[1] + i] & undefined_[operands[2] + i]);
-                break;
-            case spv::OpAccessChain:
-                return 0;  // an address: nothing is read
-            default:
-                return compute(step);
-        }
-        std::copy(scratch_.begin(), scratch_.end(), undefined_.begin() + operation.result);
-        return 0;
-    }
-
-    void copy(std::uint32_t to, std::uint32_t from, std::uint32_t count, Lanes lanes) {
-        if (to == from) return;
-        for (std::uint32_t i = 0; i < count; ++i)
-            undefined_[to + i] = (undefined_[to + i] & ~lanes) | (undefined_[from + i] & lanes);
-    }
-
-    void gather(const Step& step, const Operation& operation) {
-        for (std::uint32_t component = 0; component < operation.count; ++component) {
-            Lanes lanes = 0;
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                if ((step.lanes >> lane & 1U) == 0) continue;
-                const std::uint32_t from = address(step, operation.operands[0], operation.operands[1], lane);
-                lanes |= undefined_[from + component] & Lanes{1} << lane;
-            }
-            undefined_[operation.result + component] = lanes;
-        }
-    }
-
-    Lanes compute(const Step& step) {
-        Lanes lanes = 0;
-        for (const evaluate::Slice& operand : step.info().operands)
-            lanes |= undefined_in(operand.slot, operand.count);
-        std::fill_n(undefined_.begin() + step.info().result.slot, step.info().result.count, 0);
-        return lanes & step.lanes;
-    }
-
-    const evaluate::Program& program_;
-    std::vector<Lanes> undefined_;          ///< of each slot
-    std::vector<Lanes> scratch_;            ///< an operation's result may share slots with its operands
-    std::vector<std::uint32_t> followers_;  ///< of each operation: unobserved copies directly behind it
-};
 
 Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
     Lanes result = 0;
@@ -201,12 +73,35 @@ struct Run {
     }
 };
 
-/// An invocation left some component of an output unwritten.
-struct Unwritten {
+/// The operation that last stores to the output; nothing where none does.
+std::optional<std::uint32_t> last_store(const evaluate::Program& program, const evaluate::Port& port) {
+    std::optional<std::uint32_t> found;
+    for (std::uint32_t at = 0; at < program.operations.size(); ++at) {
+        const Slice& to = program.infos[at].result;
+        const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
+        if (code_of(program.operations[at]) == spv::OpStore && is_within) found = at;
+    }
+    return found;
+}
+
+/// Outputs of OpenGL's own may be left alone, and vertex outputs that the fragment stage does not read.
+bool must_be_written(const evaluate::Program& program, const evaluate::Port& port) {
+    if (last_store(program, port)) return true;
+    return program.is_fragment && !port.name.starts_with("gl_");
+}
+
+/// Lanes of a batch in which a component of an output is undefined.
+struct UndefinedOutput {
     std::size_t first_invocation = 0;  ///< of lane 0
     std::size_t output = 0;            ///< index into Program::outputs
     Lanes lanes = 0;
+    Cause cause;
+    std::optional<std::uint32_t> first_use;  ///< the operation that first computed with it
+    bool is_unwritten = false;               ///< the output itself was not written
 };
+
+constexpr std::string_view kReadUnwritten = "a value is read before it is written";
+constexpr std::string_view kNoReturn = "a function returns no value on some path";
 
 /// Watches every operation of a run. Cheap where no trap happens: whole rows of lanes are screened, and only
 /// suspicious ones looked at.
@@ -214,7 +109,7 @@ class TrapObserver final : public evaluate::Observer<float> {
   public:
     /// `also`, unless it is null, sees every step too.
     TrapObserver(const Run& run, evaluate::Observer<float>* also)
-        : run_(run), definedness_(run.program), also_(also) {
+        : run_(run), taint_(run.program), also_(also) {
         for (std::size_t at = 0; at < run.program.operations.size(); ++at) {
             const evaluate::Row& row = evaluate::instruction_table()[run.program.operations[at].row];
             Watch& watch = watches_.emplace_back();
@@ -224,51 +119,75 @@ class TrapObserver final : public evaluate::Observer<float> {
             // The other operations pass on what these made.
             watch.makes_floats =
                 row.kind <= Kind::matrix && run.program.infos[at].result.scalar == evaluate::Scalar::float32;
+            watch.first_decider = first_decider(row);
         }
     }
 
     void after(const Step& step) override {
         if (!is_in_batch_ || step.first_invocation != batch_) begin_batch(step.first_invocation);
-        if (const Lanes lanes = definedness_.after(step); lanes != 0)
-            add(step, "a value is read before it is written", lanes);
         const Watch& watch = watches_[step.operation];
+        hits_.clear();
         if (watch.has_silent || watch.makes_floats) judge(step, watch);
+        tell_hits(step);
+        if (watch.first_decider) reach_by_operand(step, *watch.first_decider);
+        taint_.after(step);
+        if (taint_.used() != 0) keep_text(step);
+        for (const Hit& hit : hits_) taint_.mark(step, hit.lanes, {Cause::Kind::trap, hit.trap});
+        for (const Hit& hit : clamped_) taint_.mark(step, hit.lanes, {Cause::Kind::trap, hit.trap});
+        clamped_.clear();
         if (also_ != nullptr) also_->after(step);
     }
 
     void clamped(const Step& step, std::size_t lane, std::int64_t index, std::uint32_t extent) override {
         if (!is_in_batch_ || step.first_invocation != batch_) begin_batch(step.first_invocation);
-        mark_trapped(Lanes{1} << lane);
+        const Lanes lanes = Lanes{1} << lane;
+        mark_trapped(lanes);
         constexpr std::string_view kMessage = "array index out of bounds";
-        Finding& finding = findings_[{step.operation, kMessage}];
-        if (finding.points++ > 0) return;
         const std::string& array = step.program.names[step.info().result.name];
-        run_.show(finding, kMessage, fmt::format("{}, index {} of {}", array, index, extent),
-                  step.first_invocation + lane, step.operation);
+        const std::string text = fmt::format("{}, index {} of {}", array, index, extent);
+        if ((taint_.operands_of(step) & lanes) != 0)
+            return follow(step, kMessage, text, lane, taint_.operand_cause(step, lane));
+        const std::size_t trap = trap_of(step.operation, kMessage, text, step.first_invocation + lane);
+        traps_[trap].points += 1;
+        clamped_.push_back({kMessage, lanes, trap});
+    }
+
+    void ends(const evaluate::Block& block, Lanes lanes) override {
+        using End = evaluate::Block::End;
+        if (!is_in_batch_ || (block.end != End::branch && block.end != End::select)) return;
+        const Lanes undefined = taint_.lanes_of(block.condition, 1) & lanes;
+        for (std::size_t lane = 0; lane < kLanes && undefined != 0; ++lane)
+            if ((undefined >> lane & 1U) != 0)
+                reach(taint_.cause_of(block.condition, 1, lane), lane, block.place);
+    }
+
+    void copied(const Operation& copy, Lanes lanes) override {
+        if (is_in_batch_) taint_.copied(copy, lanes);
     }
 
     /// To be called when the run is over.
     void finish() {
         if (!is_in_batch_) return;
-        is_in_batch_ = false;
         for (std::size_t output = 0; output < run_.program.outputs.size(); ++output) {
             const evaluate::Port& port = run_.program.outputs[output];
-            const Lanes lanes = definedness_.undefined_in(port.slot, port.components);
-            if (lanes != 0) unwritten_.push_back({batch_, output, lanes});
+            const Lanes lanes = taint_.lanes_of(port.slot, port.components);
+            for (std::size_t lane = 0; lane < kLanes && lanes != 0; ++lane)
+                if ((lanes >> lane & 1U) != 0) finish_output(output, port, lane);
         }
+        is_in_batch_ = false;
     }
+    /// To be called then with what the run gave: what nobody wrote matters once it is an output.
+    void judge_outputs(const evaluate::Outputs& outputs);
 
     /// Whether the invocation met a trap.
-    [[nodiscard]] bool trapped(std::size_t invocation) const {
-        const std::size_t batch = invocation / kLanes;
-        return batch < trapped_.size() && (trapped_[batch] >> invocation % kLanes & 1U) != 0;
+    [[nodiscard]] bool trapped(std::size_t invocation) const { return is_marked(trapped_, invocation); }
+    /// Whether an output of the invocation comes of a constant that is no finite number.
+    [[nodiscard]] bool is_of_constants(std::size_t invocation) const {
+        return is_marked(of_constants_, invocation);
     }
-    /// By operation and message.
-    [[nodiscard]] const std::map<std::pair<std::uint32_t, std::string_view>, Finding>& findings() const {
-        return findings_;
-    }
+    [[nodiscard]] const std::vector<Finding>& findings() const { return traps_; }
     /// Of every batch; discarded invocations among them.
-    [[nodiscard]] const std::vector<Unwritten>& unwritten() const { return unwritten_; }
+    [[nodiscard]] const std::vector<UndefinedOutput>& undefined_outputs() const { return undefined_; }
 
   private:
     /// How an operation is watched.
@@ -276,13 +195,33 @@ class TrapObserver final : public evaluate::Observer<float> {
         std::span<const TrapRule> rules;
         bool has_silent = false;
         bool makes_floats = false;  ///< the result must be finite
+        /// The first operand that decides what is read, so that it must be defined; nothing where none does.
+        std::optional<std::size_t> first_decider;
     };
+    /// A rule that happened.
+    struct Hit {
+        std::string_view message;
+        Lanes lanes = 0;
+        std::size_t trap = 0;  ///< index into traps_
+    };
+
+    static std::optional<std::size_t> first_decider(const evaluate::Row& row) {
+        if (row.code == spv::OpAccessChain) return 0;
+        if (row.kind == Kind::image || row.code == spv::OpVectorExtractDynamic) return 1;
+        if (row.code == spv::OpVectorInsertDynamic) return 2;
+        return std::nullopt;
+    }
+
+    [[nodiscard]] static bool is_marked(const std::vector<Lanes>& batches, std::size_t invocation) {
+        const std::size_t batch = invocation / kLanes;
+        return batch < batches.size() && (batches[batch] >> invocation % kLanes & 1U) != 0;
+    }
 
     void begin_batch(std::size_t first_invocation) {
         finish();
         is_in_batch_ = true;
         batch_ = first_invocation;
-        definedness_.begin();
+        taint_.begin();
     }
 
     void judge(const Step& step, const Watch& watch) {
@@ -290,7 +229,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         for (const TrapRule& rule : watch.rules) {
             if (!rule.is_silent) continue;
             const Lanes lanes = rule.happens_in(step) & ~told;
-            if (lanes != 0) add(step, rule.message, lanes);
+            if (lanes != 0) hits_.push_back({rule.message, lanes});
             told |= lanes;
         }
         if (watch.makes_floats) judge_result(step, watch, ~told);
@@ -307,56 +246,185 @@ class TrapObserver final : public evaluate::Observer<float> {
         for (const TrapRule& rule : watch.rules) {
             if (rule.is_silent) continue;
             const Lanes explained = lanes & rule.happens_in(step);
-            if (explained != 0) add(step, rule.message, explained);
+            if (explained != 0) hits_.push_back({rule.message, explained});
             lanes &= ~explained;
         }
         const Lanes nan = is_nan(step, result, lanes);
-        if (nan != 0) add(step, "a NaN made from finite numbers", nan);
-        if ((lanes & ~nan) != 0) add(step, "an infinity made from finite numbers", lanes & ~nan);
+        if (nan != 0) hits_.push_back({"a NaN made from finite numbers", nan});
+        if ((lanes & ~nan) != 0) hits_.push_back({"an infinity made from finite numbers", lanes & ~nan});
     }
 
-    void add(const Step& step, std::string_view message, Lanes lanes) {
-        Finding& finding = findings_[{step.operation, message}];
-        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-        if (finding.points == 0)
-            run_.show(finding, message, operation_text(step, lane), step.first_invocation + lane,
-                      step.operation);
-        finding.points += static_cast<std::uint64_t>(std::popcount(lanes));
-        mark_trapped(lanes);
+    /// Those whose operands are defined are traps of their own, the others follow from an earlier one.
+    void tell_hits(const Step& step) {
+        if (hits_.empty()) return;
+        const Lanes undefined = taint_.operands_of(step);
+        for (Hit& hit : hits_) {
+            mark_trapped(hit.lanes);
+            for (std::size_t lane = 0; lane < kLanes && (hit.lanes & undefined) != 0; ++lane)
+                if ((hit.lanes & undefined & Lanes{1} << lane) != 0)
+                    follow(step, hit.message, {}, lane, taint_.operand_cause(step, lane));
+            hit.lanes &= ~undefined;
+            if (hit.lanes == 0) continue;
+            const auto lane = static_cast<std::size_t>(std::countr_zero(hit.lanes));
+            hit.trap = trap_of(step.operation, hit.message, {}, step.first_invocation + lane);
+            Finding& finding = traps_[hit.trap];
+            if (finding.points == 0) finding.operation = operation_text(step, lane);
+            finding.points += static_cast<std::uint64_t>(std::popcount(hit.lanes));
+        }
+        std::erase_if(hits_, [](const Hit& hit) { return hit.lanes == 0; });
     }
 
-    void mark_trapped(Lanes lanes) {
-        const std::size_t batch = batch_ / kLanes;
-        if (batch >= trapped_.size()) trapped_.resize(batch + 1);
-        trapped_[batch] |= lanes;
+    /// The trap of that operation and message, new ones filled in but for their number of points.
+    std::size_t trap_of(std::uint32_t operation, std::string_view message, std::string text,
+                        std::size_t invocation) {
+        const auto [known, is_new] = trap_index_.try_emplace({operation, message}, traps_.size());
+        if (is_new) run_.show(traps_.emplace_back(), message, std::move(text), invocation, operation);
+        return known->second;
     }
+
+    /// What happens in a lane because of an earlier cause is told beneath that one.
+    void follow(const Step& step, std::string_view message, std::string text, std::size_t lane,
+                const Cause& cause) {
+        std::optional<std::size_t> trap;
+        if (cause.kind == Cause::Kind::trap)
+            trap = cause.index;
+        else if (cause.kind != Cause::Kind::constant)
+            trap = reach(cause, lane, step.info().place);
+        if (!trap) return;
+        std::vector<Consequence>& known = traps_[*trap].consequences;
+        const Place& place = step.place();
+        if (place == traps_[*trap].place && message == traps_[*trap].message) return;
+        const auto is_same = [&](const Consequence& one) {
+            return one.place == place && one.message == message;
+        };
+        if (known.size() >= kMostConsequences || std::any_of(known.begin(), known.end(), is_same)) return;
+        if (text.empty()) text = operation_text(step, lane);
+        known.push_back({place, std::string(message), std::move(text)});
+    }
+
+    /// What nobody wrote came to matter in a lane: its finding. `place` is told where it was only copied.
+    std::optional<std::size_t> reach(const Cause& cause, std::size_t lane, std::uint32_t place) {
+        return reach(cause, taint_.first_use(cause, lane), batch_ + lane, place);
+    }
+    std::optional<std::size_t> reach(const Cause& cause, std::optional<std::uint32_t> first_use,
+                                     std::size_t invocation, std::uint32_t place) {
+        const evaluate::Program& program = run_.program;
+        const auto operations = static_cast<std::uint32_t>(program.operations.size());
+        std::size_t trap = 0;
+        if (cause.kind == Cause::Kind::no_return) {
+            const evaluate::UndefinedValue& value = program.undefined[cause.index];
+            trap = trap_without_operation(operations + static_cast<std::uint32_t>(cause.index), kNoReturn,
+                                          value.function + "()", invocation, program.places[value.place]);
+        } else if (cause.kind != Cause::Kind::unwritten) {
+            return std::nullopt;
+        } else if (first_use) {
+            trap = trap_of(*first_use, kReadUnwritten, texts_[*first_use], invocation);
+        } else {
+            const auto undefined = static_cast<std::uint32_t>(program.undefined.size());
+            trap = trap_without_operation(operations + undefined + place, kReadUnwritten, {}, invocation,
+                                          program.places[place]);
+        }
+        const std::size_t batch = invocation / kLanes;
+        const Lanes lane = Lanes{1} << invocation % kLanes;
+        auto& [counted_batch, lanes] = counted_[trap];
+        if (counted_batch != batch) lanes = 0;
+        counted_batch = batch;
+        if ((lanes & lane) == 0) ++traps_[trap].points;
+        lanes |= lane;
+        mark(trapped_, batch, lane);
+        return trap;
+    }
+
+    std::size_t trap_without_operation(std::uint32_t number, std::string_view message, std::string text,
+                                       std::size_t invocation, const Place& place) {
+        const auto [known, is_new] = trap_index_.try_emplace({number, message}, traps_.size());
+        if (is_new) {
+            run_.show(traps_.emplace_back(), message, std::move(text), invocation, std::nullopt);
+            traps_.back().place = place;
+        }
+        return known->second;
+    }
+
+    /// Operands that decide what is read must be defined.
+    void reach_by_operand(const Step& step, std::size_t first) {
+        const auto& operands = step.info().operands;
+        for (std::size_t i = first; i < operands.size(); ++i) {
+            const Lanes undefined = taint_.lanes_of(operands[i]) & step.lanes;
+            for (std::size_t lane = 0; lane < kLanes && undefined != 0; ++lane)
+                if ((undefined >> lane & 1U) != 0)
+                    reach(taint_.cause_of(operands[i].slot, operands[i].count, lane), lane,
+                          step.info().place);
+        }
+    }
+
+    void finish_output(std::size_t output, const evaluate::Port& port, std::size_t lane) {
+        const Cause& cause = taint_.cause_of(port.slot, port.components, lane);
+        if (cause.kind == Cause::Kind::constant) mark(of_constants_, batch_ / kLanes, Lanes{1} << lane);
+        if (cause.kind != Cause::Kind::unwritten && cause.kind != Cause::Kind::no_return) return;
+        bool is_unwritten = false;
+        if (cause.kind == Cause::Kind::unwritten) {
+            const auto& [slot, count] = run_.program.variables[cause.index];
+            is_unwritten = slot <= port.slot && port.slot < slot + count;
+        }
+        const auto first_use = taint_.first_use(cause, lane);
+        if (!undefined_.empty()) {
+            UndefinedOutput& last = undefined_.back();
+            if (last.first_invocation == batch_ && last.output == output && last.first_use == first_use &&
+                last.cause.kind == cause.kind && last.cause.index == cause.index) {
+                last.lanes |= Lanes{1} << lane;
+                return;
+            }
+        }
+        undefined_.push_back(
+            {batch_, output, Lanes{1} << lane, cause, first_use, is_unwritten && !first_use});
+    }
+
+    void keep_text(const Step& step) {
+        const auto [known, is_new] = texts_.try_emplace(step.operation);
+        const Lanes lanes = taint_.used() & step.lanes;
+        if (is_new && lanes != 0)
+            known->second = operation_text(step, static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+
+    void mark_trapped(Lanes lanes) { mark(trapped_, batch_ / kLanes, lanes); }
+    static void mark(std::vector<Lanes>& batches, std::size_t batch, Lanes lanes) {
+        if (batch >= batches.size()) batches.resize(batch + 1);
+        batches[batch] |= lanes;
+    }
+
+    static constexpr std::size_t kMostConsequences = 8;  ///< told beneath a finding
 
     const Run& run_;
     std::vector<Watch> watches_;  ///< of each operation
-    Definedness definedness_;
+    Taint taint_;
     evaluate::Observer<float>* also_;
     bool is_in_batch_ = false;
-    std::size_t batch_ = 0;  ///< its first invocation
-    std::map<std::pair<std::uint32_t, std::string_view>, Finding> findings_;
-    std::vector<Unwritten> unwritten_;
-    std::vector<Lanes> trapped_;  ///< of each batch up to the last in which anything trapped
+    std::size_t batch_ = 0;       ///< its first invocation
+    std::vector<Hit> hits_;       ///< of the step at hand
+    std::vector<Hit> clamped_;    ///< indices of the step at hand
+    std::vector<Finding> traps_;  ///< in the order in which they first happened
+    std::map<std::pair<std::uint32_t, std::string_view>, std::size_t>
+        trap_index_;  ///< by operation and message
+    std::map<std::size_t, std::pair<std::size_t, Lanes>>
+        counted_;                                 ///< of a trap: batch and lanes it was last counted in
+    std::map<std::uint32_t, std::string> texts_;  ///< of operations that first used what nobody wrote
+    std::vector<UndefinedOutput> undefined_;
+    std::vector<Lanes> trapped_;       ///< of each batch up to the last in which anything trapped
+    std::vector<Lanes> of_constants_;  ///< likewise
 };
 
-/// The operation that last stores to the output; nothing where none does.
-std::optional<std::uint32_t> last_store(const evaluate::Program& program, const evaluate::Port& port) {
-    std::optional<std::uint32_t> found;
-    for (std::uint32_t at = 0; at < program.operations.size(); ++at) {
-        const Slice& to = program.infos[at].result;
-        const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
-        if (code_of(program.operations[at]) == spv::OpStore && is_within) found = at;
+void TrapObserver::judge_outputs(const evaluate::Outputs& outputs) {
+    for (const UndefinedOutput& undefined : undefined_) {
+        const evaluate::Port& port = run_.program.outputs[undefined.output];
+        if (undefined.is_unwritten || !must_be_written(run_.program, port)) continue;
+        const std::optional<std::uint32_t> store = last_store(run_.program, port);
+        const std::uint32_t place = store ? run_.program.infos[*store].place : 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::size_t index = undefined.first_invocation + lane;
+            if ((undefined.lanes >> lane & 1U) != 0 && index < outputs.count && !outputs.discarded[index])
+                reach(undefined.cause, undefined.first_use, index, place);
+        }
     }
-    return found;
-}
-
-/// Outputs of OpenGL's own may be left alone, and vertex outputs that the fragment stage does not read.
-bool must_be_written(const evaluate::Program& program, const evaluate::Port& port) {
-    if (last_store(program, port)) return true;
-    return program.is_fragment && !port.name.starts_with("gl_");
 }
 
 /// Which way an output left its bounds; nothing where it did not.
@@ -384,9 +452,9 @@ struct OutputFindings {
 
 /// Outputs that some invocation, not discarded, leaves unwritten.
 void add_unwritten(const evaluate::Outputs& outputs, const TrapObserver& observer, OutputFindings& findings) {
-    for (const Unwritten& unwritten : observer.unwritten()) {
+    for (const UndefinedOutput& unwritten : observer.undefined_outputs()) {
         const evaluate::Port& port = findings.run.program.outputs[unwritten.output];
-        if (!must_be_written(findings.run.program, port)) continue;
+        if (!unwritten.is_unwritten || !must_be_written(findings.run.program, port)) continue;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const std::size_t index = unwritten.first_invocation + lane;
             if ((unwritten.lanes >> lane & 1U) != 0 && index < outputs.count && !outputs.discarded[index])
@@ -408,9 +476,11 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
                 const Interval& bounds = all[i * components + component];
                 if (value >= bounds.low && value <= bounds.high) continue;
                 if (outputs.discarded[i] || observer.trapped(i)) continue;
-                findings.add(port, fault_of(value, bounds), i,
-                             fmt::format("{} is not within [{}, {}]", static_cast<float>(value),
-                                         static_cast<float>(bounds.low), static_cast<float>(bounds.high)));
+                Finding& finding = findings.add(
+                    port, fault_of(value, bounds), i,
+                    fmt::format("{} is not within [{}, {}]", static_cast<float>(value),
+                                static_cast<float>(bounds.low), static_cast<float>(bounds.high)));
+                finding.follows_from_constants = observer.is_of_constants(i);
             }
     }
 }
@@ -424,12 +494,14 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
     TrapObserver observer(run, also);
     GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, options_of(machine), &observer));
     observer.finish();
+    observer.judge_outputs(outputs);
     OutputFindings of_outputs{run};
     add_unwritten(outputs, observer, of_outputs);
     if (!bounds.empty()) add_out_of_bounds(outputs, observer, bounds, of_outputs);
     std::vector<Finding> findings;
     for (auto& [message, finding] : of_outputs.by_message) findings.push_back(std::move(finding));
-    for (const auto& [where, finding] : observer.findings()) findings.push_back(finding);
+    for (const Finding& finding : observer.findings())
+        if (finding.points > 0) findings.push_back(finding);
     return findings;
 }
 

@@ -16,6 +16,15 @@ namespace gobo::sanitize {
 /// What one invocation was given.
 using Point = evaluate::EvalPoint;
 
+/// What happens because of a finding.
+struct Consequence {
+    Place place;
+    std::string message;
+    std::string operation;  ///< with its values
+
+    friend bool operator==(const Consequence&, const Consequence&) = default;
+};
+
 /// An undefined operation at one place of one stage.
 struct Finding {
     StageKind stage = StageKind::vertex;
@@ -25,6 +34,9 @@ struct Finding {
     Machine machine = Machine::ieee;  ///< that the example was run on
     Point point;                      ///< the first that showed it
     std::uint64_t points = 0;
+    std::vector<Consequence> consequences;  ///< in the order in which they happened
+    bool is_of_constants = false;           ///< what compilers fold, whatever the inputs
+    bool follows_from_constants = false;    ///< it comes of a constant that is no finite number
 };
 
 /// The point as an input file of `gobo eval`, numbers that read back as the same floats. `heading` becomes

@@ -17,8 +17,9 @@ enum class Machine {
     fused,        ///< a * b + c is rounded once
     regrouped,    ///< (a + b) + c is computed as a + (b + c), and what cancels is gone
     reordered,    ///< (a + b) + c is computed as (a + c) + b, and what cancels is gone
-    errors_up,    ///< pow, exp, log, inversesqrt and their like too large by all that is allowed
+    errors_up,    ///< divisions, roots, powers, exponentials, angles too large by all that is allowed
     errors_down,  ///< too small by as much
+    mediump,      ///< what the shader says is mediump or lowp is a 16-bit float
 };
 
 struct MachineRow {
@@ -36,6 +37,7 @@ inline constexpr MachineRow kMachineRows[] = {
     {Machine::reordered, "reordered", {.sums = evaluate::Sums::reordered}},
     {Machine::errors_up, "errors_up", {.errors = evaluate::Errors::largest_up}},
     {Machine::errors_down, "errors_down", {.errors = evaluate::Errors::largest_down}},
+    {Machine::mediump, "mediump", {.is_half = true}},
 };
 
 [[nodiscard]] constexpr std::string_view name_of(Machine machine) {

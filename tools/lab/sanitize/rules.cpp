@@ -106,7 +106,7 @@ Lanes vector_test(const Step& step) {
     return lanes_of(hits, step);
 }
 
-constexpr auto kIsZero = [](Extent v) { return v.largest == 0; };
+constexpr auto kIsZero = [](Extent v) { return v.square == 0 && v.largest == 0; };  // and no NaN
 // Below the smallest normal number the square has lost digits, and is 0 where denormals are flushed.
 constexpr auto kUnderflows = [](Extent v) {
     return v.largest > 0 && v.square < std::numeric_limits<float>::min();
@@ -119,6 +119,9 @@ constexpr auto kIsNotPositive = [](float a) { return a <= 0; };
 constexpr auto kIsBeyondOne = [](float a) { return std::fabs(a) > 1; };
 constexpr auto kAnyIsNaN = [](float a, float b) { return (a != a) | (b != b); };
 constexpr auto kNoDivisor = [](std::int32_t, std::int32_t b) { return b == 0; };
+constexpr auto kHasNoQuotient = [](std::int32_t a, std::int32_t b) {
+    return (a == std::numeric_limits<std::int32_t>::min()) & (b == -1);
+};
 constexpr auto kEitherIsNegative = [](std::int32_t a, std::int32_t b) { return (a < 0) | (b < 0); };
 constexpr auto kShiftsTooFar = [](std::int32_t, std::int32_t by) { return (by < 0) | (by > 31); };
 
@@ -129,6 +132,7 @@ constexpr TrapRule kTrapRules[] = {
     {spv::OpFMod, "mod() by zero", false, two<kDivisorIsZero>},
     {spv::OpFRem, "remainder of a division by zero", false, two<kDivisorIsZero>},
     {spv::OpSDiv, "integer division by zero", true, two_ints<kNoDivisor>},
+    {spv::OpSDiv, "integer division overflows", true, two_ints<kHasNoQuotient>},
     {spv::OpUDiv, "integer division by zero", true, two_ints<kNoDivisor>},
     {spv::OpSMod, "integer remainder by zero", true, two_ints<kNoDivisor>},
     {spv::OpSMod, "integer remainder of a negative number", true, two_ints<kEitherIsNegative>},

@@ -13,9 +13,11 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/evaluate/functions.hpp"
+#include "lab/sanitize/constant_faults.hpp"
 #include "lab/sanitize/guide.hpp"
 #include "lab/sanitize/shrink.hpp"
 #include "lab/verify/random_points.hpp"
+#include "validate/preprocess.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -25,6 +27,15 @@ using Signature = std::tuple<std::string, int, std::string>;
 
 Signature signature_of(const Finding& finding) {
     return {finding.place.file, finding.place.line, finding.message};
+}
+
+void add_consequences(Finding& finding, const Finding& other) {
+    for (const Consequence& one : other.consequences) {
+        const auto is_same = [&](const Consequence& known) {
+            return known.place == one.place && known.message == one.message;
+        };
+        if (std::ranges::none_of(finding.consequences, is_same)) finding.consequences.push_back(one);
+    }
 }
 
 /// Points are made and run in portions, so that they stay in the cache and their rows are not mapped anew
@@ -50,6 +61,11 @@ class StageSearch {
     StageSearch(const StageSearch&) = delete;
     StageSearch& operator=(const StageSearch&) = delete;
 
+    /// What compilers fold, to be given before anything runs.
+    void add(const std::vector<Finding>& of_constants) {
+        has_constants_ = !of_constants.empty();
+        for (const Finding& finding : of_constants) findings_.try_emplace(signature_of(finding), finding);
+    }
     void run_hard(std::size_t count) {
         run(count, [&](std::size_t first, std::size_t portion) {
             return hard_points(space_, portion, options_.seed + first / kPortion);
@@ -89,16 +105,20 @@ class StageSearch {
             for (Finding& finding : found) {
                 on_this_machine[signature_of(finding)] += finding.points;
                 finding.stage = kind_;
-                all.try_emplace(signature_of(finding), std::move(finding));
+                const auto [known, is_new] = all.try_emplace(signature_of(finding), finding);
+                if (!is_new) add_consequences(known->second, finding);
             }
             // A point that traps on several machines is still one.
             for (const auto& [signature, count] : on_this_machine)
                 all[signature].points = std::max(all[signature].points, count);
         }
         for (const auto& [signature, finding] : all) {
+            if (finding.follows_from_constants && has_constants_) continue;
             const auto [known, is_new] =
                 findings_.try_emplace(signature, finding);  // the first example is kept
-            if (!is_new) known->second.points += finding.points;
+            if (is_new) continue;
+            known->second.points += finding.points;
+            add_consequences(known->second, finding);
         }
         points_ += points.count;
         return {};
@@ -111,9 +131,37 @@ class StageSearch {
     std::optional<OutputBounds> bounds_;
     std::optional<Guide> guide_;  ///< nothing where nothing is to be learnt
     std::map<Signature, Finding> findings_;
+    bool has_constants_ = false;  ///< findings of constants
     std::uint64_t points_ = 0;
     Diagnostics diagnostics_;  ///< why the stage could not be evaluated
 };
+
+/// The line of a piece that stands at a line of the stage's source.
+Place place_of(const Composition& composition, const Stage& stage, int line) {
+    for (const int number : stage.pieces) {
+        const Piece& piece = composition.piece(number);
+        const auto lines = static_cast<int>(std::ranges::count(piece.text, '\n'));
+        if (line <= lines) return {piece.path, line, 0};
+        line -= lines;
+    }
+    return {};
+}
+
+std::vector<Finding> findings_of_constants(const Composition& composition, const Stage& stage) {
+    std::vector<Finding> findings;
+    const std::optional<std::string> source = preprocessed(composition, stage);
+    if (!source) return findings;
+    for (const ConstantFault& fault : faults_of_constants(*source)) {
+        Finding finding;
+        finding.stage = stage.kind;
+        finding.place = place_of(composition, stage, fault.line);
+        finding.message = fault.message;
+        finding.operation = fault.operation;
+        finding.is_of_constants = true;
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
 
 /// What stages share is reported once.
 void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
@@ -129,6 +177,7 @@ void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
             continue;
         }
         shared->finding.points += finding.points;
+        add_consequences(shared->finding, finding);
         std::vector<std::size_t>& all = shared->permutations;
         all.insert(all.end(), permutations.begin(), permutations.end());
     }
@@ -159,6 +208,7 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
         const SpirvModule& spirv = validated.stages[i].spirv;
         stages[i].emplace(family, key, composition.stages[i].kind, evaluate::decode(spirv),
                           depth_promise_of(spirv), options);
+        stages[i]->add(findings_of_constants(composition, composition.stages[i]));
         stages[i]->run_hard(points);
         stages[i]->run_guided(options.guided);
     });
@@ -179,7 +229,8 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
     }
     parallel_for(options.jobs, stages.size(), [&](std::size_t stage) {
         for (SharedFinding& shared : report.findings)
-            if (shared.stage == stage) shared.finding = stages[stage]->simplified(shared.finding);
+            if (shared.stage == stage && !shared.finding.is_of_constants)
+                shared.finding = stages[stage]->simplified(shared.finding);
     });
     std::sort(report.findings.begin(), report.findings.end(),
               [](const SharedFinding& a, const SharedFinding& b) {

@@ -56,6 +56,7 @@ class Shrinking {
         }
         shown_.stage = wanted_.stage;
         shown_.points = wanted_.points;
+        shown_.consequences = wanted_.consequences;
         return shown_;
     }
 
