@@ -38,6 +38,8 @@ TomlReader::TomlReader(std::string_view text, std::string path) : path_(std::mov
 
 toml::table TomlReader::parse(std::string_view text, const std::string& path) {
     texts_[path] = text;
+    if (std::ranges::any_of(text, [](char byte) { return static_cast<unsigned char>(byte) >= 0x80; }))
+        beyond_ascii_.insert(path);
     if (const int line = line_of_overlong_key(text); line > 0) {
         error(Place{path, line, 0}, fmt::format("a key has more than {} parts", kMostKeyParts),
               "nest fewer tables");
@@ -47,7 +49,7 @@ toml::table TomlReader::parse(std::string_view text, const std::string& path) {
         return toml::parse(text, path);
     } catch (const toml::parse_error& failure) {
         const toml::source_position at = failure.source().begin;
-        error(Place{path, static_cast<int>(at.line), static_cast<int>(at.column)},
+        error(in_bytes({path, static_cast<int>(at.line), static_cast<int>(at.column)}),
               fmt::format("not valid TOML: {}", failure.description()), "see https://toml.io for the syntax");
         return {};
     }
@@ -71,8 +73,21 @@ void TomlReader::extend(std::string_view base_text, std::string base_path,
 }
 
 Place TomlReader::place_of(const toml::source_region& region) const {
-    return {region.path ? *region.path : path_, static_cast<int>(region.begin.line),
-            static_cast<int>(region.begin.column)};
+    return in_bytes({region.path ? *region.path : path_, static_cast<int>(region.begin.line),
+                     static_cast<int>(region.begin.column)});
+}
+
+/// The library counts columns in characters.
+Place TomlReader::in_bytes(Place place) const {
+    if (!beyond_ascii_.contains(place.file)) return place;
+    const std::string_view line = line_of(texts_.at(place.file), place.line);
+    int left = place.column;
+    std::size_t bytes = 0;
+    for (; left > 1 && bytes < line.size(); --left)
+        for (++bytes; bytes < line.size() && (static_cast<unsigned char>(line[bytes]) & 0xC0) == 0x80;)
+            ++bytes;
+    place.column = static_cast<int>(bytes) + left;
+    return place;
 }
 
 Place TomlReader::place_of_text(const toml::node& node) const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,9 @@ class TomlReader {
   private:
     [[nodiscard]] toml::table parse(std::string_view text, const std::string& path);
 
+    [[nodiscard]] Place in_bytes(Place place) const;
+
+    std::set<std::string> beyond_ascii_;             ///< documents with characters of several bytes, by path
     std::map<std::string, std::string_view> texts_;  ///< of the documents, by path
     std::string path_;
     toml::table root_;

@@ -17,6 +17,7 @@
 #include "core/text.hpp"
 #include "core/write_together.hpp"
 #include "gobo/kept_answers.hpp"
+#include "gobo/machine_messages.hpp"
 
 namespace gobo {
 namespace {
@@ -58,20 +59,42 @@ class UserFiles final : public FileSystem {
     DiskFileSystem disk_;
 };
 
-/// Asked before the options are read, so that what is wrong with them has colours too.
-bool wants_color(const std::vector<std::string>& arguments) {
-    bool color = isatty(STDERR_FILENO) != 0;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const bool is_next = i > 0 && arguments[i - 1] == "--color";
-        if (arguments[i] == "--color=always" || (is_next && arguments[i] == "always")) color = true;
-        if (arguments[i] == "--color=never" || (is_next && arguments[i] == "never")) color = false;
-    }
-    return color;
-}
+/// How messages are written. Asked before the options are read, so that what is wrong with them is written
+/// so, too.
+struct Messages {
+    MessageFormat format = MessageFormat::text;
+    bool color = false;
 
-int report(const Diagnostics& diagnostics, bool color) {
-    for (const Diagnostic& diagnostic : diagnostics) std::fputs(to_text(diagnostic, color).c_str(), stderr);
-    return exit_status(diagnostics);
+    explicit Messages(const std::vector<std::string>& arguments) : color(isatty(STDERR_FILENO) != 0) {
+        const std::string colors = value_of("--color", arguments);
+        if (colors == "always") color = true;
+        if (colors == "never") color = false;
+        const std::string named = value_of("--diagnostics", arguments);
+        if (named == "json") format = MessageFormat::json;
+        if (named == "sarif") format = MessageFormat::sarif;
+    }
+
+  private:
+    /// The last one given.
+    static std::string value_of(const std::string& option, const std::vector<std::string>& arguments) {
+        std::string value;
+        for (std::size_t i = 0; i < arguments.size(); ++i) {
+            if (arguments[i].starts_with(option + "=")) value = arguments[i].substr(option.size() + 1);
+            if (i > 0 && arguments[i - 1] == option) value = arguments[i];
+        }
+        return value;
+    }
+};
+
+int report(const Diagnostics& diagnostics, const Messages& messages, const std::string& program) {
+    const int status = exit_status(diagnostics);
+    std::string text;
+    if (messages.format == MessageFormat::json) text = json_of(diagnostics, status);
+    if (messages.format == MessageFormat::sarif) text = sarif_of(diagnostics, status, program);
+    if (messages.format == MessageFormat::text)
+        for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic, messages.color);
+    std::fputs(text.c_str(), stderr);
+    return status;
 }
 
 /// A full disk shows when the stream is flushed.
@@ -128,8 +151,7 @@ Result<Outcome> answer(const Application& application, const World& world,
     return with_files_written(std::move(outcome));
 }
 
-int run(Application application, const std::vector<std::string>& arguments) {
-    const bool color = wants_color(arguments);
+int run(Application application, const std::vector<std::string>& arguments, const Messages& messages) {
     CommonOptions options;
     for (Command& command : application.commands)
         if (command.run) command.groups.push_back(common_options(options));
@@ -146,12 +168,12 @@ int run(Application application, const std::vector<std::string>& arguments) {
                 "gobo-lab" +
                 error.help;
         }
-        return report(outcome.error(), color);
+        return report(outcome.error(), messages, application.name);
     }
     if (const auto written = write_output(outcome->output); !written)
         append(outcome->diagnostics, written.error());
-    const int status = report(outcome->diagnostics, color);
-    if (!outcome->summary.empty() && !options.quiet)
+    const int status = report(outcome->diagnostics, messages, application.name);
+    if (!outcome->summary.empty() && !options.quiet && messages.format == MessageFormat::text)
         std::fputs((printable(outcome->summary) + "\n").c_str(), stderr);
     return status;
 }
@@ -160,14 +182,17 @@ int run(Application application, const std::vector<std::string>& arguments) {
 
 int run_application(const Application& application, int count, char** arguments) {
     prepare_process();
+    const std::vector<std::string> words(arguments + 1, arguments + count);
+    const Messages messages(words);
+    const auto report_fault = [&](Fault fault, std::string message) {
+        return report(fail(fault, std::move(message)).value(), messages, application.name);
+    };
     try {
-        return run(application, {arguments + 1, arguments + count});
+        return run(application, words, messages);
     } catch (const std::bad_alloc&) {
-        std::fputs("gobo: error: the system gives no more memory\n", stderr);
-        return 3;
+        return report_fault(Fault::file, "the system gives no more memory");
     } catch (const std::exception& error) {
-        std::fputs(("gobo: error: internal fault: " + printable(error.what()) + "\n").c_str(), stderr);
-        return 4;
+        return report_fault(Fault::internal, fmt::format("internal fault: {}", error.what()));
     }
 }
 

@@ -17,12 +17,18 @@ struct BuildOptions : SelectionOptions {
     std::string folder;
     std::string header;
     std::string cpp_namespace;
+    std::string depfile;
     std::string depfile_target;
+    bool glslc_depfile = false;
     bool comments = false;
 };
 
+/// What -o says to have the header printed.
+constexpr const char* kStandardOutput = "-";
+
 /// The path of the header without its end, which those of the manifest and the depfile begin with, too.
 Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
+    if (options.folder == kStandardOutput) return family.name;
     if (options.header.empty()) return options.folder + "/" + family.name;
     const std::size_t size = options.header.size();
     if (!options.header.ends_with(".hpp") || size == 4 || options.header.find('/') != std::string::npos)
@@ -85,14 +91,24 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
     append(validated.diagnostics, check_depfile_names(target, files));
     const std::string manifest = emit_manifest(input);
     const std::string depfile = emit_depfile({target}, {files.begin(), files.end()});
-    // The header is what others are compiled with: where it is new, the rest is.
-    return Outcome{
+    Outcome outcome{
         {},
         std::move(validated.diagnostics),
         fmt::format("{}.hpp: {} permutations, {} stages, {} pieces", stem, composition.permutations.size(),
                     composition.stages.size(), composition.pieces.size()),
-        {{stem + ".d", depfile}, {stem + ".json", manifest}, {stem + ".hpp", header}},
+        {},
         world.cache == nullptr ? -1 : static_cast<int>(validated.compiled)};
+    const bool is_printed = options.folder == kStandardOutput;
+    // The header is what others are compiled with: where it is new, the rest is.
+    if (!is_printed || !options.depfile.empty())
+        outcome.files.push_back({options.depfile.empty() ? stem + ".d" : options.depfile, depfile});
+    if (is_printed) {
+        outcome.output = header;
+    } else {
+        outcome.files.push_back({stem + ".json", manifest});
+        outcome.files.push_back({stem + ".hpp", header});
+    }
+    return outcome;
 }
 
 }  // namespace
@@ -102,14 +118,20 @@ Command build_command() {
     return {
         {"build", "Write the C++ header, the JSON manifest and the depfile"},
         {family_argument(options->family),
-         {"-o,--output", "DIR", "Folder for FAMILY.hpp, FAMILY.json and FAMILY.d", &options->folder,
-          kRequired},
+         {"-o,--output", "DIR",
+          "Folder for FAMILY.hpp, FAMILY.json and FAMILY.d; - prints the header and writes none of them",
+          &options->folder, kRequired},
          {"--header", "FILE", "Name of the header, the manifest's and the depfile's; by default FAMILY.hpp",
           &options->header},
          {"--namespace", "NAME", "C++ namespace of the header; by default the family's name",
           &options->cpp_namespace},
+         {"--depfile", "FILE", "The depfile, also -MF; by default FAMILY.d beside the header",
+          &options->depfile},
+         {"--glslc-depfile", "", "-MD of glslc: the depfile is written anyway", &options->glslc_depfile,
+          kHidden},
          {"--depfile-target", "FILE",
-          "What the depfile says is made, by default the header: a stamp, for build tools that compare times",
+          "What the depfile says is made, also -MT, by default the header: a stamp, for build tools that "
+          "compare times",
           &options->depfile_target},
          comments_option(options->comments),
          dialect_option(options->dialect)},

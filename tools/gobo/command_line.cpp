@@ -135,6 +135,16 @@ tl::unexpected<Diagnostics> refuse(const CLI::App& app, const CLI::ParseError& e
     return fail(Fault::usage, fmt::format("unexpected argument '{}'", chosen.remaining().front()), see_help);
 }
 
+/// The arguments of `gobo build` with what glslc calls its options replaced by gobo's names.
+std::vector<std::string> with_own_names(std::vector<std::string> arguments) {
+    if (arguments.front() != "build") return arguments;
+    const std::map<std::string_view, std::string_view> names = {
+        {"-MD", "--glslc-depfile"}, {"-MF", "--depfile"}, {"-MT", "--depfile-target"}};
+    for (std::string& argument : arguments)
+        if (const auto own = names.find(argument); own != names.end()) argument = own->second;
+    return arguments;
+}
+
 }  // namespace
 
 std::string described(const Option& option) {
@@ -168,8 +178,9 @@ Result<CommandLine> read_command_line(const Application& application,
         fmt::format("{}\n\nExit status: {}\n\nExamples:\n{}", kTerms, kExitStatus, application.examples));
     for (const Command& command : application.commands) add_command(app, command);
     try {
-        app.parse(
-            std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // reversed, as CLI11 has it
+        std::vector<std::string> words = with_own_names(arguments);
+        std::ranges::reverse(words);  // as CLI11 has it
+        app.parse(std::move(words));
     } catch (const CLI::Success& asked) {
         std::ostringstream text;
         app.exit(asked, text, text);

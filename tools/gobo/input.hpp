@@ -20,6 +20,7 @@ struct CommonOptions {
     int jobs = 0;                              ///< threads; 0: as many as the computer has
     std::string library;  ///< a folder to read shader_lib and templates from instead of the embedded ones
     std::string color = "auto";
+    std::string diagnostics = "text";
     bool quiet = false;
     bool follow = false;      ///< links out of the folders that are searched for pieces
     bool in_process = false;  ///< glslang runs in this process, not in children
