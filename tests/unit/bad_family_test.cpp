@@ -64,7 +64,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:16: error: 'values' must be an array of strings\n"
      "    values = [\"a\", 2]\n"
      "                   ^\n"
-     "  help: write values = ...\n"},
+     "  help: write values = [\"...\", \"...\"]\n"},
     {"value_with_a_bad_name",
      "[features.fog]\n"
      "values = [\"a b\"]\n",
@@ -219,14 +219,14 @@ const BadRow bad_rows[] = {
      "              ^\n"
      "  help: write OLD = \"FEATURE\" or \"FEATURE=OLD\" = \"FEATURE=VALUE\", of which only the new one "
      "exists\n"},
-    {"count_of_one_number",
+    {"count_that_falls",
      "[features.point]\n"
-     "count = [4, 4]\n"
+     "count = [4, 3]\n"
      "constant = \"N\"\n",
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
-     "    count = [4, 4]\n"
+     "    count = [4, 3]\n"
      "            ^\n"
-     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST above LEAST\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST not below LEAST\n"},
     {"version_unknown", "version = \"335 core\"\n",
      "tiny.toml:4:11: error: GLSL has no version '335 core'\n"
      "    version = \"335 core\"\n"
@@ -242,10 +242,11 @@ const BadRow bad_rows[] = {
     {"include_rule_without_name",
      "[includes]\n"
      "'#pragma import' = '*'\n",
-     "tiny.toml:5:20: error: '#pragma import' does not say where the name stands\n"
+     "tiny.toml:5:20: error: '*' does not say where the name stands\n"
      "    '#pragma import' = '*'\n"
      "                       ^\n"
-     "  help: write one * in the line and one in the path: '#pragma import \"*\"' = 'lib/*.glsl'\n"},
+     "  help: write one * in the line and one in the path: '#pragma import \"*\"' = 'lib/*.glsl'; or none in "
+     "both\n"},
     {"substitute_of_a_comment",
      "[substitute]\n"
      "'//' = 'a'\n",
@@ -325,7 +326,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:9: error: feature 'point' has no valid count\n"
      "    count = 4\n"
      "            ^\n"
-     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST above LEAST\n"},
+     "  help: write count = [LEAST, MOST], whole numbers from 0 to 4096, MOST not below LEAST\n"},
     {"count_without_constant",
      "[features.point]\n"
      "count = [0, 4]\n",
@@ -355,7 +356,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:10: error: 'define' must be a string\n"
      "    define = true\n"
      "             ^\n"
-     "  help: write define = ...\n"},
+     "  help: write define = \"...\"\n"},
     {"rules_that_are_no_tables", "rules = [\"fog\"]\n",
      "tiny.toml:4:9: error: 'rules' must be an array of tables\n"
      "    rules = [\"fog\"]\n"
@@ -413,7 +414,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:7:10: error: 'forbid' must be a string\n"
      "    forbid = 1\n"
      "             ^\n"
-     "  help: write forbid = ...\n"},
+     "  help: write forbid = \"...\"\n"},
     {"varying_that_is_no_table",
      "[varyings]\n"
      "normal = 1\n",
@@ -509,7 +510,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:11: error: 'a' must be finite numbers\n"
      "    \"a\" = [0, inf]\n"
      "              ^\n"
-     "  help: write a = ...\n"},
+     "  help: write a = 0.5, or [0, 1]\n"},
     {"domain_unknown_name",
      "[domain]\n"
      "\"a\" = { rnage = [0, 1] }\n",
@@ -523,7 +524,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:5: error: 'a' must be finite numbers\n"
      "    a = true\n"
      "        ^\n"
-     "  help: write a = ...\n"},
+     "  help: write a = 0.5, or [0, 1]\n"},
     {"render_without_source",
      "[render]\n"
      "a = { numbers = [1] }\n",
@@ -532,9 +533,11 @@ const BadRow bad_rows[] = {
      "        ^\n"
      "  help: add source = \"...\"\n"},
     {"default_set_of_nothing",
+     "[features.a]\n"
+     "define = \"A\"\n"
      "[default_set]\n"
-     "where = \"a == 1\"\n",
-     "tiny.toml:4:1: error: [default_set] selects nothing\n"
+     "where = \"a == on\"\n",
+     "tiny.toml:6:1: error: [default_set] selects nothing\n"
      "    [default_set]\n"
      "    ^\n"
      "  help: add keys = [...], all = true or cover = 2\n"},
@@ -561,7 +564,7 @@ const BadRow bad_rows[] = {
      "tiny.toml:5:7: error: 'all' must be true or false\n"
      "    all = 1\n"
      "          ^\n"
-     "  help: write all = ...\n"},
+     "  help: write all = true or false\n"},
     {"unknown_table",
      "[feature.fog]\n"
      "define = \"A\"\n",

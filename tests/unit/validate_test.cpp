@@ -60,10 +60,7 @@ TEST_F(Validate, MapsMessagesToThePieceAndItsLine) {
     files["fog/linear.glsl"] = "// thick\n\n\nvec4 seen() { return density; }\n";
     EXPECT_THAT(messages(),
                 ElementsAre("fog/linear.glsl:4: error: 'density' : undeclared identifier "
-                            "[fog=linear, and 3 more keys]\n    vec4 seen() { return density; }\n",
-                            "fog/linear.glsl:4: error: 'return' : cannot convert return value to function "
-                            "return type [fog=linear, and 3 more keys]\n"
-                            "    vec4 seen() { return density; }\n"))
+                            "[fog=linear, and 3 more keys]\n    vec4 seen() { return density; }\n"))
         << "once, for the four keys with linear fog";
 }
 
@@ -283,9 +280,7 @@ TEST_F(Validate, LetsNoPieceCloseAnothersBracket) {
         "}\n";
     files["a.glsl"] = "float a() {\n";
     files["b.glsl"] = "return 1.0; }\n";
-    EXPECT_THAT(messages(),
-                ElementsAre(HasSubstr("tiny.frag:4: error: 'oops'"), HasSubstr("tiny.frag:4: error:")))
-        << "which GLSL allows";
+    EXPECT_THAT(messages(), ElementsAre(HasSubstr("tiny.frag:4: error: 'oops'"))) << "which GLSL allows";
 }
 
 TEST_F(Validate, WantsAMain) {

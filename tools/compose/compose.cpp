@@ -62,6 +62,15 @@ class Composer {
             const auto line = static_cast<int>(1 + std::count(prologue.text.begin(), at, '\n'));
             prologue.moved_lines[line] = {extension.place, extension.line};
         }
+        for (const Feature& feature : family_.features) {  // as macros of features, at those
+            auto at = prologue.text.find(fmt::format("#define {} ", feature.macro));
+            if (at == std::string::npos) at = prologue.text.find(fmt::format("#define {}\n", feature.macro));
+            if (at == std::string::npos || feature.macro.empty()) continue;
+            const auto lines = std::count(prologue.text.begin(),
+                                          prologue.text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+            prologue.moved_lines[static_cast<int>(1 + lines)] = {
+                feature.place, prologue.text.substr(at, prologue.text.find('\n', at) - at)};
+        }
         Stage stage{placement.stage, {library_.generated(std::move(prologue))}};
         const auto behind_prologue =
             placement.placed.begin() + static_cast<std::ptrdiff_t>(placement.behind_prologue);

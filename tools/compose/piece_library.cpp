@@ -109,6 +109,10 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
     GOBO_TRY(ScannedPiece scanned,
              scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
                         piece.text));
+    if (const int line = line_of_subroutine_array(scanned.code, chosen_functions_); line > 0)
+        return fail({piece.path, line, 0}, line_of(piece, line),
+                    "an array of subroutine uniforms cannot be a feature: each of its elements chooses anew",
+                    "declare a uniform, and a feature, for each element");
     choose_subroutines(scanned.text, scanned.code, chosen_functions_);
     composition_.stated_bindings.merge(scanned.bindings);
     Diagnostics& warnings = composition_.warnings;
@@ -131,7 +135,7 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
 void PieceLibrary::note_head(const Piece& piece) {
     const bool is_head = piece.name.find('#') == std::string::npos;
     if (is_head) heads_[piece.path] = std::nullopt;
-    const int line = is_head || !piece.on_disk ? 0 : line_before_pieces(piece.file_text);
+    const int line = is_head ? 0 : line_before_pieces(piece.file_text);
     if (line == 0) return;
     Diagnostic warning = fail({piece.path, line, 0}, line_of(piece, line),
                               "nothing includes this text: it stands before the first #piece",

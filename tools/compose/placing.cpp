@@ -59,16 +59,24 @@ Result<void> Placer::place_legacy(Placement& placement) {
     return {};
 }
 
-Result<void> Placer::check_version(const Source& source) const {
+Result<void> Placer::check_version(const Placement& placement, const Source& source) const {
     const auto plain = [](std::string_view version) {
         std::string text;  // with one blank where there are several
         for (const char character : version)
             if (character != ' ' || !text.ends_with(' ')) text += character;
         return text.substr(0, text.find(" core"));
     };
-    const bool is_free =
-        source.version.empty() || family_.version.empty() || composition_.dialect != Dialect::own;
-    if (is_free || plain(source.version) == plain(family_.version)) return {};
+    if (source.version.empty() || composition_.dialect != Dialect::own) return {};
+    if (family_.version.empty()) {
+        const bool is_template = placement.open.empty();
+        if (!is_template || placement.version.empty() || plain(source.version) == plain(placement.version))
+            return {};
+        return fail_at(source.version_line,
+                       fmt::format("#version {} where the {} stage begins with {}", source.version,
+                                   name_of(placement.stage), placement.version),
+                       "a stage has one version: state the same in all of its files, or in the first alone");
+    }
+    if (plain(source.version) == plain(family_.version)) return {};
     return fail_at(source.version_line,
                    fmt::format("#version {} where the family states {}", source.version, family_.version),
                    fmt::format("leave one of them out: the family's is at {}:{}", family_.version_place.file,
@@ -105,7 +113,7 @@ Result<void> Placer::place(Placement& placement, int file, const Include& includ
             include,
             fmt::format("the stage takes more than {} includes or {} bytes", kMostIncludes, kMostBytes),
             "include files at the top, where each comes once, or put #pragma once into them");
-    GOBO_TRY_DO(check_version(source));
+    GOBO_TRY_DO(check_version(placement, source));
     if (placement.version.empty()) placement.version = source.version;
     placement.open.push_back(file);
     for (const Include& needed : source.includes) GOBO_TRY_DO(follow(placement, needed, &source));

@@ -41,8 +41,8 @@ class Placer {
   private:
     /// Puts the declarations of what OpenGL had built in, and the stage mentions, behind the prologue.
     Result<void> place_legacy(Placement& placement);
-    /// Refuses a file whose version is not the one that the family states.
-    Result<void> check_version(const Source& source) const;
+    /// Refuses a file whose version is not the one that the family states, or that the stage begins with.
+    Result<void> check_version(const Placement& placement, const Source& source) const;
     /// Refuses a `#define` that gives the macro of a feature another text.
     Result<void> check_macro(const Placement& placement, const Directive& directive) const;
     /// Places a file: what it includes at its top, then its text.

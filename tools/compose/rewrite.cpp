@@ -26,15 +26,16 @@ std::string folded(std::string_view line) {
     return result;
 }
 
-/// What stands for the rule's `*` in a folded line.
+/// What stands for the rule's `*` in a folded line; nothing but an empty text where the rule has none.
 std::optional<std::string_view> name_in(std::string_view line, const IncludeRule& rule) {
     const std::string pattern = folded(rule.line);
-    const auto star = pattern.find('*');
+    const auto star = std::min(pattern.find('*'), pattern.size());
     if (!line.starts_with(std::string_view(pattern).substr(0, star))) return std::nullopt;
     line.remove_prefix(star);
-    const std::string_view end = std::string_view(pattern).substr(star + 1);
-    const auto at = end.empty() ? std::min(line.find(' '), line.size()) : line.find(end);
-    if (at == std::string_view::npos || at == 0) return std::nullopt;
+    const bool has_star = star < pattern.size();
+    const std::string_view end = std::string_view(pattern).substr(has_star ? star + 1 : star);
+    const auto at = !has_star ? 0 : end.empty() ? std::min(line.find(' '), line.size()) : line.find(end);
+    if (at == std::string_view::npos || (at == 0 && has_star)) return std::nullopt;
     const std::string_view behind = trim(line.substr(at + end.size()));
     const bool is_over =
         behind.empty() || behind == ";" || behind.starts_with("//") || behind.starts_with("/*");
@@ -214,7 +215,8 @@ std::string with_includes(std::string_view text, const Family& family) {
             const std::optional<std::string_view> name = name_in(compared, rule);
             if (!name || is_of_family(compared, family)) continue;
             std::string path = rule.path;
-            written = fmt::format("#include \"{}\"", path.replace(path.find('*'), 1, *name));
+            if (const auto star = path.find('*'); star != std::string::npos) path.replace(star, 1, *name);
+            written = fmt::format("#include \"{}\"", path);
             break;
         }
         result += written;

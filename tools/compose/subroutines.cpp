@@ -61,6 +61,16 @@ std::vector<SubroutineUniform> subroutine_uniforms(const std::string& code) {
     return uniforms;
 }
 
+int line_of_subroutine_array(const std::string& code, const std::set<std::string>& chosen) {
+    if (chosen.empty() || code.find("subroutine") == std::string::npos) return 0;
+    const Tokens tokens = tokens_of(code);
+    for (std::size_t i = 0; i + 4 < tokens.size(); ++i)
+        if (tokens[i] == "subroutine" && tokens[i + 1] == "uniform" && tokens[i + 4] == "[" &&
+            chosen.contains(std::string(tokens[i + 3])))
+            return 1 + static_cast<int>(std::count(code.data(), tokens[i].data(), '\n'));
+    return 0;
+}
+
 void choose_subroutines(std::string& text, std::string& code, const std::set<std::string>& chosen) {
     const std::vector<SubroutineUniform> uniforms = subroutine_uniforms(code);
     if (chosen.empty() || code.find("subroutine") == std::string::npos ||

@@ -16,6 +16,9 @@ struct SubroutineUniform {
 /// The subroutine uniforms of code without comments.
 [[nodiscard]] std::vector<SubroutineUniform> subroutine_uniforms(const std::string& code);
 
+/// The line of the first subroutine uniform that is an array and whose name `chosen` holds; 0: there is none.
+[[nodiscard]] int line_of_subroutine_array(const std::string& code, const std::set<std::string>& chosen);
+
 /// Where `chosen` holds the name of every subroutine uniform in `code`: blanks their declarations, and
 /// `subroutine` before types and functions, in both texts, which have the same characters at the same places
 /// but for comments.

@@ -126,11 +126,19 @@ std::vector<Domain> read_domains(const TomlTable& root) {
     return domains;
 }
 
+/// The text as TOML writes it, on one line.
+std::string shown(std::string_view text) {
+    std::string line;
+    for (const char character : text)
+        line += character == '\n' ? "\\n" : character == '\r' ? "\\r" : std::string(1, character);
+    return line;
+}
+
 /// "330 core", where the family states it.
 std::string read_version(const TomlTable& root) {
     const std::optional<std::string> version = root.string("version");
     if (version && !is_glsl_version(*version))
-        root.reader.error(root.place_of("version"), fmt::format("GLSL has no version '{}'", *version),
+        root.reader.error(root.place_of("version"), fmt::format("GLSL has no version '{}'", shown(*version)),
                           "write a number that GLSL has and the profile: 330 core, 450, 300 es");
     return version.value_or("");
 }
@@ -158,12 +166,14 @@ std::vector<IncludeRule> read_include_rules(const TomlTable& root) {
     for (const auto& [key, node] : table->entries) {
         IncludeRule rule{std::string(trim(key.str())), table->string(key.str()).value_or(""),
                          root.reader.place_of(node)};
+        const auto stars = std::ranges::count(rule.line, '*');  // without one, the line means one file
         for (const std::string& text : {rule.line, rule.path})
-            if (std::ranges::count(text, '*') != 1 || text.find('\n') != std::string::npos ||
-                rule.line == "*")
-                root.reader.error(rule.place, fmt::format("'{}' does not say where the name stands", text),
+            if (stars > 1 || std::ranges::count(text, '*') != stars || text.find('\n') != std::string::npos ||
+                rule.line == "*" || text.empty())
+                root.reader.error(rule.place,
+                                  fmt::format("'{}' does not say where the name stands", shown(text)),
                                   "write one * in the line and one in the path: '#pragma import \"*\"' = "
-                                  "'lib/*.glsl'");
+                                  "'lib/*.glsl'; or none in both");
         rules.push_back(std::move(rule));
     }
     std::ranges::stable_sort(rules, std::ranges::greater(),
@@ -179,7 +189,7 @@ std::map<std::string, std::string> read_substitutions(const TomlTable& root) {
     for (const auto& [key, node] : table->entries) {
         const std::string text = table->string(key.str()).value_or("");
         if (!is_substituted(key.str()) || !is_macro_text(text))
-            root.reader.error(node, fmt::format("cannot replace '{}' by '{}'", key.str(), text),
+            root.reader.error(node, fmt::format("cannot replace '{}' by '{}'", shown(key.str()), shown(text)),
                               "write a name, perhaps between signs, and one line without comments");
         substitutions.emplace(key.str(), text);
     }
@@ -200,6 +210,7 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
     selection.cover = static_cast<int>(std::clamp<std::int64_t>(cover.value_or(0), 0, kLargestCover));
     selection.over = table->strings("over");
     selection.where = table->string("where").value_or("");
+    if (!selection.where.empty()) read_condition(*table, "where", family.features);
     if (selection.names_nothing() && cover.value_or(0) == 0)
         table->error({}, "selects nothing", "add keys = [...], all = true or cover = 2");
     if (root.reader.failed()) return selection;
@@ -208,7 +219,6 @@ std::optional<Selection> read_default_set(const TomlTable& root, const Family& f
         if (const auto key = parse_key(family, named.text, table->place_of("keys")); !key)
             root.reader.take(key.error());
     for (const std::string& name : selection.over) read_feature_name(*table, "over", name, family.features);
-    if (!selection.where.empty()) read_condition(*table, "where", family.features);
     return selection;
 }
 
@@ -247,9 +257,10 @@ std::vector<Templates> read_programs(const TomlTable& root) {
     if (!tables) return programs;
     for (const auto& [key, node] : tables->entries) {
         const std::string what = fmt::format("program '{}'", key.str());
-        if (!node.is_table() || !is_identifier(key.str()) || key.str() == "main") {
+        const bool is_value = !key.str().empty() && std::ranges::all_of(key.str(), is_identifier_part);
+        if (!node.is_table() || !is_value || key.str() == "main") {
             root.reader.error(
-                node, what + " must be an identifier other than 'main' with a table",
+                node, what + " must be a table, called by letters, digits and _ and not 'main'",
                 "write [programs.NAME] with its stages; those at the top of the file are 'main'");
             break;
         }

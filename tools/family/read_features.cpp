@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "family/render_sources.hpp"
 
 namespace gobo {
 namespace {
@@ -67,10 +68,10 @@ void read_count(const TomlTable& table, Feature& feature) {
         const auto* number = range == nullptr || range->size() != 2 ? nullptr : (*range)[i].as_integer();
         return number == nullptr ? -1 : number->get();
     };
-    if (bound(0) < 0 || bound(1) <= bound(0) || bound(1) > kLargestCount)
+    if (bound(0) < 0 || bound(1) < bound(0) || bound(1) > kLargestCount)
         return table.error(
             "count", "has no valid count",
-            fmt::format("write count = [LEAST, MOST], whole numbers from 0 to {}, MOST above LEAST",
+            fmt::format("write count = [LEAST, MOST], whole numbers from 0 to {}, MOST not below LEAST",
                         kLargestCount));
     feature.lowest = static_cast<int>(bound(0));
     for (std::int64_t i = bound(0); i <= bound(1); ++i) feature.values.push_back(std::to_string(i));
@@ -110,6 +111,10 @@ void read_macro(const TomlTable& table, Feature& feature) {
     feature.substituted = table.string("substitute").value_or("");
     if ((table.has(entry) || is_macro) && !is_identifier(feature.macro))
         table.error({}, fmt::format("has '{}' for a macro", feature.macro), "a macro is an identifier");
+    if (feature.macro == "defined" || feature.macro.starts_with("gl_"))
+        table.error(entry, fmt::format("has '{}' for a macro, which GLSL keeps for itself", feature.macro),
+                    feature.macro == "defined" ? "choose another name"
+                                               : "no #define can replace it: use [substitute]");
     if (table.has("substitute") && !is_substituted(feature.substituted))
         table.error("substitute", fmt::format("cannot replace '{}'", feature.substituted),
                     "write a name, best with a sign that GLSL has no use for: \"@name@\" or \"$name\"");
@@ -384,6 +389,9 @@ std::vector<RenderValue> read_render_values(const TomlTable& table, std::string_
         } else {
             value.numbers = table.reader.numbers_of(node, value.name);
         }
+        if (!value.source.empty() && std::ranges::count(kRenderSources, value.source) == 0)
+            table.reader.error(node, fmt::format("unknown source '{}' for '{}'", value.source, value.name),
+                               suggestion(value.source, {kRenderSources.begin(), kRenderSources.end()}));
         values.push_back(std::move(value));
     }
     return values;

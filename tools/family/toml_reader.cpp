@@ -1,6 +1,7 @@
 #include "family/toml_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -112,7 +113,17 @@ void TomlReader::take(const Diagnostics& errors) {
 }
 
 void TomlReader::wrong_type(const toml::node& node, std::string_view name, std::string_view wanted) {
-    error(node, fmt::format("'{}' must be {}", name, wanted), fmt::format("write {} = ...", name));
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> examples = {
+        {{"a string", "\"...\""},
+         {"an array of strings", "[\"...\", \"...\"]"},
+         {"a whole number", "2"},
+         {"finite numbers", "0.5, or [0, 1]"}}};
+    const auto example =
+        std::ranges::find(examples, wanted, &std::pair<std::string_view, std::string_view>::first);
+    error(node, fmt::format("'{}' must be {}", name, wanted),
+          wanted == "a table"         ? fmt::format("write [{}], and what belongs to it below", name)
+          : example == examples.end() ? fmt::format("write {} = {}", name, wanted)
+                                      : fmt::format("write {} = {}", name, example->second));
 }
 
 std::vector<double> TomlReader::numbers_of(const toml::node& node, std::string_view name) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -157,6 +158,22 @@ void simplify_subjects(Diagnostics& diagnostics, const LoadedFamily& family, con
         if (diagnostic.severity == Severity::error) simplifier.simplify(diagnostic);
 }
 
+/// A template that is missing is told where the family file names it.
+void put_at_mention(Diagnostic& error, const LoadedFamily& family) {
+    const std::vector<std::string> parts = split(error.message, '\'');
+    if (!error.message.starts_with("no template '") || parts.size() < 2) return;
+    const std::string wanted = fmt::format("\"{}\"", parts[1]);
+    std::istringstream lines(family.text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        const auto at = line.find(wanted);
+        if (at == std::string::npos) continue;
+        error.place = {family.family.path, number, static_cast<int>(at) + 1};
+        error.quoted_line = line;
+        return;
+    }
+}
+
 }  // namespace
 
 OptionGroup common_options(CommonOptions& options) {
@@ -231,6 +248,7 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
     loaded.name = name;
     GOBO_TRY(loaded.dialect, read_dialect(dialect));
     GOBO_TRY(const FamilyText source, find_family(world, name));
+    loaded.text = source.text;
     const std::string folder = folder_of(source.path);
     std::string base_folder = folder;
     const FindFamily find_base = [&](const std::string& base_name) -> Result<FamilyText> {
@@ -295,7 +313,11 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
 }
 
 Result<Composition> compose_keys(const LoadedFamily& family, const std::vector<Key>& keys) {
-    return compose(family.family, keys, family.search, family.dialect, family.comments);
+    Result<Composition> composition =
+        compose(family.family, keys, family.search, family.dialect, family.comments);
+    if (!composition)
+        for (Diagnostic& error : composition.error()) put_at_mention(error, family);
+    return composition;
 }
 
 Result<Composition> compose_selection(const World& world, LoadedFamily& family,

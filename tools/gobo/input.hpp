@@ -57,6 +57,7 @@ struct World {
 /// A family with where its pieces are found, the files read so far and the dialect to compose for.
 struct LoadedFamily {
     std::string name;  ///< as the command line has it
+    std::string text;  ///< of the family file, for messages
     Family family;
     SearchPath search;
     std::vector<std::string> files;  ///< on disk, for the depfile

@@ -73,6 +73,9 @@ class LinkCheck {
         : stages_(stages), version_(version_of(stages.front().pieces.front()->text)) {}
 
     Diagnostics run() {
+        if (version_.es && stages_.size() == 1 && stages_.front().kind == StageKind::vertex)
+            add({{stages_.front().pieces.back()->path, 0, 0}, ""}, Severity::error,
+                "a program of OpenGL ES needs a fragment stage", "add one whose main() is empty");
         for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
             earlier_ = stages_.begin();
             if (later_ != earlier_) check_versions();

@@ -6,6 +6,7 @@
 
 #include "compose/dialect.hpp"
 #include "reflect/reflect.hpp"
+#include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
 
 namespace gobo {
@@ -17,10 +18,11 @@ using spirv::Part;
 
 class StageCheck {
   public:
-    StageCheck(const spirv::Module& module, const spirv::Usage& usage,
+    StageCheck(const spirv::Module& module, const spirv::Usage& usage, const Interface& interface,
                const std::vector<const Piece*>& pieces)
         : module_(module),
           usage_(usage),
+          interface_(interface),
           pieces_(pieces),
           kind_(static_cast<StageKind>(module.entry_points.front().model)) {}
 
@@ -28,6 +30,7 @@ class StageCheck {
         check_language();
         if (places_vertices) check_position();
         if (kind_ == StageKind::compute) check_local_size();
+        if (kind_ == StageKind::geometry) check_vertices();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -104,6 +107,28 @@ class StageCheck {
                           "write layout(local_size_x = 64) in; with the number of invocations in a group"));
     }
 
+    /// MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS: those of all vertices together.
+    void check_vertices() {
+        constexpr std::int64_t kGuaranteed = 1024;
+        std::int64_t vertices = 0;
+        for (const spirv::Instruction& instruction : module_.instructions)
+            if (instruction.opcode == spv::OpExecutionMode &&
+                instruction.as<spv::ExecutionMode>(2) == spv::ExecutionModeOutputVertices)
+                vertices = instruction.as<std::uint32_t>(3);
+        const Part position = spirv::built_in_output(module_, spv::BuiltInPosition);
+        std::int64_t components = position.first != Id::none && usage_.written.contains(position) ? 4 : 0;
+        for (const Variable& output : interface_.outputs)
+            if (!output.usage.unused)
+                components += std::int64_t{1} * glsl_type(output.type).value_or(GlslType{}).components() *
+                              element_count(output.array);
+        if (vertices * components > kGuaranteed)
+            refuse(use_of("max_vertices", pieces_),
+                   fmt::format("{} vertices of {} components each are {}, OpenGL guarantees only {} "
+                               "(MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS)",
+                               vertices, components, vertices * components, kGuaranteed),
+                   "emit fewer vertices, or hand on less with each");
+    }
+
     void check_output(const spirv::Variable& variable) {
         const std::string name = module_.name(variable.id);
         const bool is_written = usage_.writes(variable.id);
@@ -152,6 +177,7 @@ class StageCheck {
 
     const spirv::Module& module_;
     const spirv::Usage& usage_;
+    const Interface& interface_;
     const std::vector<const Piece*>& pieces_;
     StageKind kind_;
     Diagnostics found_;
@@ -159,9 +185,9 @@ class StageCheck {
 
 }  // namespace
 
-Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
+Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage, const Interface& interface,
                         const std::vector<const Piece*>& pieces, bool places_vertices) {
-    return StageCheck(module, usage, pieces).run(places_vertices);
+    return StageCheck(module, usage, interface, pieces).run(places_vertices);
 }
 
 }  // namespace gobo

@@ -1,0 +1,162 @@
+#include "validate/glslang_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
+#include "spirv/glsl_type.hpp"
+
+namespace gobo {
+namespace {
+
+/// glslang has read on to the next line, or further, where it finds a directive wrong: the directive's line.
+int line_of_directive(std::string_view message, const Piece& piece, int line) {
+    const std::string_view word = message.starts_with("'#extension'")                ? "extension"
+                                  : message.starts_with("'preprocessor evaluation'") ? "if"
+                                                                                     : "";
+    for (int above = line; !word.empty() && above > 0; --above) {
+        const std::vector<std::string_view> tokens = tokens_of(line_of(piece, above));
+        if (tokens.size() > 1 && tokens[0] == "#" &&
+            (tokens[1] == word || (word == "if" && tokens[1] == "elif")))
+            return above;
+    }
+    return line;
+}
+
+/// Names what the family made of a line, where a word of it stands nowhere in the file.
+void explain_rewriting(Diagnostic& diagnostic, const Piece& piece, int line) {
+    if (piece.file_text.empty() || !diagnostic.help.empty()) return;
+    const std::string_view made = trim(line_of(piece.text, line));
+    const std::vector<std::string_view> written = tokens_of(piece.file_text);
+    for (const std::string_view token : tokens_of(made))
+        if (std::ranges::find(written, token) == written.end()) {
+            diagnostic.help =
+                fmt::format("[substitute], or what else the family rewrites, makes of it: {}", made);
+            return;
+        }
+}
+
+/// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
+/// searched for.
+void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
+    const std::string message = diagnostic.message;
+    for (const Piece* piece : pieces) {
+        if (!message.starts_with(piece->path + ":")) continue;
+        int line = 0;
+        const char* end = message.data() + message.size();
+        const auto parsed = std::from_chars(message.data() + piece->path.size() + 1, end, line);
+        if (parsed.ec != std::errc{} || parsed.ptr == end || *parsed.ptr != ':') continue;
+        diagnostic.message = trim({parsed.ptr + 1, end});
+        line = line_of_directive(diagnostic.message, *piece, line);
+        // A generated piece carries the lines of the file it comes from only where it stands for one.
+        put_at(diagnostic, *piece, line);
+        explain_rewriting(diagnostic, *piece, line);
+        if (!diagnostic.quoted_line.empty()) return;  // else another piece of the same file may hold it
+    }
+}
+
+/// Adds what glslang leaves out: which extension, which numbers.
+void explain(Diagnostic& diagnostic) {
+    if (diagnostic.severity == Severity::warning &&
+        diagnostic.message.starts_with("'#extension' : extension not supported"))
+        diagnostic.help =
+            "glslang, by which shaders are checked, does not know it: what it brings is refused";
+    if (diagnostic.message.starts_with("'depth layout qualifier' : not supported for this version"))
+        diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
+    if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
+        diagnostic.help = "OpenGL ES has it by GL_EXT_conservative_depth only, which glslang does not know";
+    if (diagnostic.message.starts_with("'subroutine' : not allowed") ||
+        diagnostic.message.starts_with("'subroutine' : feature not yet implemented")) {
+        diagnostic.message = "'subroutine' : SPIR-V, by which shaders are checked, has no subroutines";
+        diagnostic.help =
+            "make each subroutine uniform a feature: [features.NAME] with define = \"UNIFORM\" and values = "
+            "[\"FUNCTION\", \"FUNCTION\"]";
+    }
+    // The alignment of an array, a struct or a matrix is left to the reader.
+    if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
+    const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
+    const auto at = std::ranges::find(tokens, "offset");
+    if (tokens.end() - at < 5 || at[1] != "=" || at[3] != ")") return;
+    const std::optional<GlslType> type = glsl_type(at[4]);
+    if (type && !type->is_matrix())
+        diagnostic.message += fmt::format(": {} is not a multiple of {}, to which a {} is aligned", at[2],
+                                          type->column_alignment(), at[4]);
+}
+
+}  // namespace
+
+void make_strict(Diagnostic& diagnostic, std::string_view prologue, bool is_relaxed) {
+    const auto says = [&](std::string_view text) { return diagnostic.message.starts_with(text); };
+    if (diagnostic.severity != Severity::warning) return;
+    if (says("'return' : type conversion on return values was not explicitly allowed until") &&
+        prologue.find("GL_ARB_shading_language_420pack") == std::string_view::npos) {
+        diagnostic.severity = Severity::error;
+        diagnostic.message = "'return' of another type than the function's: GLSL converts it from 4.20 on";
+        diagnostic.help = "write the value in the function's type, as 1.0 for a float, or state #version 420";
+    }
+    // Of what glslang's relaxed rules let pass, drivers take but one.
+    constexpr std::array<std::string_view, 6> relaxed = {"The following extension must be enabled",
+                                                         "undefined macro in expression",
+                                                         "unexpected tokens following",
+                                                         "requires declaration of default precision",
+                                                         "(un)defined",
+                                                         "non-constant global initializer"};
+    for (const std::string_view text : relaxed)
+        if (is_relaxed && diagnostic.message.find(text) != std::string::npos)
+            diagnostic.severity = Severity::error;
+    if (says("'switch' : last case/default label not followed by statements")) {
+        diagnostic.severity = Severity::error;
+        diagnostic.help = "write break; behind it";
+    }
+}
+
+Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
+                               const Place& otherwise, bool all) {
+    constexpr std::string_view given_up = "'' : compilation terminated";
+    // Where glslang gives up, an #extension seems to lack its line's end.
+    const bool gave_up = log.find(given_up) != std::string_view::npos;
+    const auto says_nothing = [&](std::string_view line) {
+        const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
+        return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
+               (!all && holds("'subroutine' : feature not yet implemented")) ||
+               (!all && gave_up && holds("'#extension' : extra tokens"));
+    };
+    Diagnostics diagnostics;
+    for (const std::string& full_line : split(log, '\n')) {
+        const std::string_view line = full_line;
+        if (says_nothing(line)) continue;
+        const bool is_error = line.starts_with("ERROR: ");
+        if (is_error || line.starts_with("WARNING: ")) {
+            Diagnostic& diagnostic = diagnostics.emplace_back();
+            diagnostic.severity = is_error ? Severity::error : Severity::warning;
+            diagnostic.place = otherwise;
+            diagnostic.message = trim(line.substr(line.find(' ')));
+            locate(diagnostic, pieces);
+        } else if (!diagnostics.empty()) {  // a message that goes on
+            diagnostics.back().message += fmt::format(" {}", line);
+        }
+    }
+    // The composer has seen to the ends of all conditions: another error keeps glslang from finding one.
+    const auto is_missing_end = [](const Diagnostic& diagnostic) {
+        return diagnostic.message == "'' : missing #endif";
+    };
+    if (!std::ranges::all_of(diagnostics, is_missing_end)) std::erase_if(diagnostics, is_missing_end);
+    for (Diagnostic& diagnostic : diagnostics) explain(diagnostic);
+    return diagnostics;
+}
+
+void drop_consequences(Diagnostics& diagnostics) {
+    std::set<std::pair<std::string, int>> faulty;
+    std::erase_if(diagnostics, [&](const Diagnostic& found) {
+        if (found.severity != Severity::error || found.place.line == 0) return false;
+        const bool is_first = faulty.insert({found.place.file, found.place.line}).second;
+        return !is_first && found.message.find("undeclared identifier") == std::string::npos;
+    });
+}
+
+}  // namespace gobo

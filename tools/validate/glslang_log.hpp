@@ -1,0 +1,25 @@
+// What glslang says, as diagnostics at the pieces.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "compose/composition.hpp"
+#include "core/diagnostic.hpp"
+
+namespace gobo {
+
+/// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
+/// with the line quoted; the rest (those of linking) stand at `otherwise`. Of what follows from another
+/// message nothing is said, unless `all`.
+[[nodiscard]] Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Piece*>& pieces,
+                                             const Place& otherwise, bool all = false);
+
+/// Makes errors of what glslang only warns of, although the specification refuses it and drivers do.
+void make_strict(Diagnostic& diagnostic, std::string_view prologue, bool is_relaxed);
+
+/// Keeps of the errors of one line the first, and further names that are declared nowhere: the others follow
+/// from it.
+void drop_consequences(Diagnostics& diagnostics);
+
+}  // namespace gobo
