@@ -8,7 +8,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <glslang/MachineIndependent/localintermediate.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
@@ -22,14 +21,13 @@
 #include "validate/old_versions.hpp"
 #include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
-#include "validate/tree_rules.hpp"
+#include "validate/switch_rules.hpp"
 
 namespace gobo {
 namespace {
 
-EShMessages rules(bool for_spirv, bool are_relaxed) {
-    return static_cast<EShMessages>((for_spirv ? EShMsgSpvRules : EShMsgDefault) |
-                                    (are_relaxed ? EShMsgRelaxedErrors : EShMsgDefault));
+EShMessages rules(bool for_spirv) {
+    return for_spirv ? EShMsgSpvRules : EShMsgDefault;
 }
 
 EShLanguage language_of(StageKind kind) {
@@ -155,15 +153,13 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     shader.setAutoMapLocations(true);
     shader.setAutoMapBindings(map_bindings);
     bindings_mapped_ = map_bindings;
-    const bool is_fine = shader.parse(GetDefaultResources(), 110, false, rules(for_spirv, is_relaxed_));
+    const auto messages = static_cast<EShMessages>(rules(for_spirv) | further_messages_);
+    const bool is_fine = shader.parse(GetDefaultResources(), 110, false, messages);
     const Place place{pieces_.back()->path, 0, 0};
     Diagnostics found = with_macros(
         with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
-    for (Diagnostic& diagnostic : found) make_strict(diagnostic, prologue, is_relaxed_);
-    if (is_fine && shader.getIntermediate()->getNumEntryPoints() == 0)
-        return fail(place, "", fmt::format("the {} stage has no main()", name_of(kind_)),
-                    "write void main() in the template")
-            .value();
+    for (Diagnostic& diagnostic : found)
+        make_strict(diagnostic, prologue, (further_messages_ & EShMsgRelaxedErrors) != 0);
     if (is_fine || has_errors(found)) return found;
     found = diagnostics_of_log(shader.getInfoLog(), pieces_, place, true);
     if (has_errors(found)) return found;
@@ -203,19 +199,26 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
 
 Diagnostics GlslangStage::parse() {
     const std::string prologue = without_requirements(pieces_.front()->text);
-    is_relaxed_ = false;
+    const bool has_switches = has_strict_switches(pieces_);
+    further_messages_ = has_switches ? EShMsgAST : EShMsgDefault;
     Diagnostics found = parse_by_glslang(prologue);
     // That a macro gives `defined` is an error to glslang alone; it can be told to go on.
-    is_relaxed_ = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
+    const bool is_relaxed = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
         return diagnostic.message.starts_with(
             "'defined' : cannot use in preprocessor expression when expanded");
     });
-    if (is_relaxed_) found = parse_by_glslang(prologue);
+    if (is_relaxed) {
+        further_messages_ |= EShMsgRelaxedErrors;
+        found = parse_by_glslang(prologue);
+    }
     drop_consequences(found);
     if (has_errors(found)) return found;
-    for (Diagnostics& more :
-         std::array{check_tree(*shader_->shader.getIntermediate(), pieces_), check_language(kind_, pieces_)})
+    Diagnostics more = check_language(kind_, pieces_);
+    std::ranges::move(more, std::back_inserter(found));
+    if (has_switches) {
+        more = check_switches(shader_->shader.getInfoDebugLog(), pieces_);
         std::ranges::move(more, std::back_inserter(found));
+    }
     return found;
 }
 
@@ -234,7 +237,7 @@ Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
     for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
-    const bool is_fine = program.link(rules(true, false));
+    const bool is_fine = program.link(rules(true));
     std::vector<const Piece*> earlier;
     for (std::size_t i = 0; i + 1 < stages.size(); ++i)
         earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
@@ -249,7 +252,11 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
 Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool places_vertices) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
-    if (!program.link(rules(true, false))) {  // no main(), recursion
+    if (!program.link(rules(true))) {
+        if (std::string_view(program.getInfoLog()).find("Missing entry point") != std::string_view::npos)
+            return fail(Place{pieces_.back()->path, 0, 0}, "",
+                        fmt::format("the {} stage has no main()", name_of(kind_)),
+                        "write void main() in the template");
         Diagnostics found =
             with_places(diagnostics_of_log(program.getInfoLog(), {}, {pieces_.back()->path, 0, 0}), pieces_);
         if (has_errors(found)) return tl::unexpected(std::move(found));

@@ -20,7 +20,7 @@ class GlslangStage {
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
     /// own rules, then raised. What glslang says of it, and where it is content what check_language() and
-    /// check_tree() do.
+    /// check_switches() do.
     Diagnostics parse();
 
     /// The SPIR-V of the parsed stage, unstated locations and bindings assigned, and its interface, where
@@ -54,7 +54,7 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
-    bool is_relaxed_ = false;
+    int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };
 
 }  // namespace gobo
