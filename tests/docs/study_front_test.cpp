@@ -9,32 +9,48 @@
 namespace gobo {
 namespace {
 
-/// The command that the page prints beside its table.
-std::string command_in(const std::string& page) {
-    static const std::regex command("`(gobo study lit --front '[^']*')");
-    std::smatch found;
-    return std::regex_search(page, found, command) ? found[1].str() : "";
-}
+/// The commands that the page prints beside its tables, and the picture of each.
+struct Shown {
+    const char* name;
+    const char* command;  ///< as a regular expression
+    const char* picture;
+};
 
-TEST(StudyFront, IsWhatItsCommandPrints) {
-    const std::string page = text_of_file(GOBO_SOURCE_DIR "/docs/study.md");
-    const std::string command = command_in(page);
-    ASSERT_NE(command, "") << "the page prints no such command";
+class StudyFronts : public testing::TestWithParam<Shown> {
+  protected:
+    StudyFronts() : page_(text_of_file(GOBO_SOURCE_DIR "/docs/study.md")) {
+        std::smatch found;
+        if (std::regex_search(page_, found, std::regex(GetParam().command))) command_ = found[1].str();
+    }
+
+    std::string page_;
+    std::string command_;
+};
+
+TEST_P(StudyFronts, AreWhatTheirCommandPrints) {
+    ASSERT_NE(command_, "") << "the page prints no such command";
     Reader reader(GOBO_COMMAND);
-    const CommandResult table = reader.run(command);
+    const CommandResult table = reader.run(command_);
     ASSERT_EQ(table.status, 0) << table.printed;
-    EXPECT_NE(page.find(table.printed), std::string::npos) << "put this into the page:\n" << table.printed;
+    EXPECT_NE(page_.find(table.printed), std::string::npos) << "put this into the page:\n" << table.printed;
 }
 
-TEST(StudyFront, IsDrawnAsItsCommandDrawsIt) {
-    const std::string command = command_in(text_of_file(GOBO_SOURCE_DIR "/docs/study.md"));
-    ASSERT_NE(command, "");
+TEST_P(StudyFronts, AreDrawnAsTheirCommandDrawsThem) {
+    ASSERT_NE(command_, "");
     Reader reader(GOBO_COMMAND);
-    const CommandResult drawn = reader.run(command + " --svg study.svg --quiet > printed && cat study.svg");
+    const CommandResult drawn = reader.run(command_ + " --svg study.svg --quiet > printed && cat study.svg");
     ASSERT_EQ(drawn.status, 0) << drawn.printed;
-    EXPECT_EQ(drawn.printed, text_of_file(GOBO_SOURCE_DIR "/docs/pictures/study.svg"))
-        << "remake it: " << command << " --svg docs/pictures/study.svg";
+    EXPECT_EQ(drawn.printed,
+              text_of_file(std::string(GOBO_SOURCE_DIR "/docs/pictures/") + GetParam().picture))
+        << "remake it: " << command_ << " --svg docs/pictures/" << GetParam().picture;
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Docs, StudyFronts,
+    testing::Values(Shown{"ByOperations", "`(gobo study lit --front '[^']*')`", "study.svg"},
+                    Shown{"ByChips", "`(gobo study lit --front '[^']*' --gpu [a-z0-9,]*)`",
+                          "study_on_gpus.svg"}),
+    [](const auto& shown) { return shown.param.name; });
 
 }  // namespace
 }  // namespace gobo

@@ -5,6 +5,7 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "lab/study/chip_fronts.hpp"
 #include "lab/study/front.hpp"
 
 namespace gobo::study {
@@ -81,6 +82,76 @@ TEST(FrontTable, NumbersTheFrontInItsChart) {
           "data-key=\"light=1 power=rough\"", ">weighted cost of a fragment, in additions</text>"})
         EXPECT_NE(svg.find(part), std::string::npos) << part;
     EXPECT_EQ(svg.find(">5</text>"), std::string::npos) << "what is dominated has no number";
+}
+
+/// Cheaper by additions, dearer on a chip: the near power.
+constexpr const char* kChips =
+    "effects,key,scene,error_max,error_rms,cost,front,cycles_navi21,front_navi21,driver_navi21,instructions_"
+    "navi21\n"
+    "light=1,light=1,*,2e-07,1e-08,1200,yes,400,yes,\"RDNA2, radv Mesa 1\",arithmetic 90 transcendental 8\n"
+    "light=1,light=1 power=near,*,8e-07,2e-08,1000,yes,440,no,\"RDNA2, radv Mesa 1\",arithmetic 99 "
+    "transcendental 6\n"
+    "light=1,light=1 power=rough,*,0.02,0.003,900,yes,,,\"RDNA2, radv Mesa 1\",arithmetic 60\n"
+    "light=1,light=1 shading=vertex,*,0.3,0.1,120,yes,50,yes,\"RDNA2, radv Mesa 1\",arithmetic 9\n"
+    "light=1,light=1,teapot,2e-07,1e-08,1200,yes,400,yes,\"RDNA2, radv Mesa 1\",arithmetic 90\n"
+    "light=1,light=1 shading=vertex,teapot,0.3,0.1,120,no,50,yes,\"RDNA2, radv Mesa 1\",arithmetic 9\n";
+
+TEST(ChipFronts, StandSideBySide) {
+    const auto rows = read_rows(kChips, "study.csv", small_family(), key_of("light=1")).value();
+    const auto measures = measures_of(rows, {"navi21"}).value();
+    EXPECT_EQ(fronts_table(rows, measures),
+              "| quality | largest error | llvmpipe, additions | navi21, cycles |\n"
+              "|---|---|---|---|\n"
+              "| most accurate | 2.0e-07 | **1200** | **400** |\n"
+              "| `power=near` | 8.0e-07 | **1000** | 440 |\n"
+              "| `power=rough` | 0.02 | **900** | \u2013 |\n"
+              "| `shading=vertex` | 0.3 | **120** | **50** |\n");
+}
+
+TEST(ChipFronts, TellWhatChangesPlacesAndWhy) {
+    const auto rows = read_rows(kChips, "study.csv", small_family()).value();
+    const auto measures = measures_of(rows, {}).value();
+    EXPECT_EQ(
+        changed_places_table(small_family(), rows, measures),
+        "| feature | value | against | llvmpipe | navi21 | instructions more | pairs |\n"
+        "|---|---|---|---|---|---|---|\n"
+        "| power | `near` | `exact` | \u00d70.83 | \u00d71.10 | navi21: arithmetic +9, transcendental -2 | 1 "
+        "|\n");
+    EXPECT_EQ(values_table(small_family(), rows, measures),
+              "| feature | value | matters in | llvmpipe | navi21 |\n"
+              "|---|---|---|---|---|\n"
+              "| power | `exact` | 1 | 1 | 1 |\n"
+              "| power | `near` | 1 | 1 | 0 |\n"
+              "| power | `rough` | 1 | 1 | 0 |\n"
+              "| shading | `fragment` | 2 | 2 | 2 |\n"
+              "| shading | `vertex` | 2 | 1 | 2 |\n");
+}
+
+TEST(ChipFronts, AreDrawnOneAboveAnotherWithTheSameNumbers) {
+    const auto rows = read_rows(kChips, "study.csv", small_family(), key_of("light=1")).value();
+    std::vector<const StudyRow*> all;
+    for (const StudyRow& row : rows) all.push_back(&row);
+    const auto measures = measures_of(rows, {}).value();
+    const std::string svg = fronts_svg(small_family(), {"shading"}, all, "light=1", measures);
+    const auto count = [&](const std::string& part) {
+        std::size_t found = 0;
+        for (std::size_t at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("<svg"), 3U);
+    EXPECT_EQ(count(">4</text>"), 2U) << "shading=vertex, on both";
+    EXPECT_EQ(count(">3</text>"), 1U) << "power=rough, on one";
+    EXPECT_EQ(count(">navi21: cycles (RDNA2, radv Mesa 1)</text>"), 1U);
+    const std::string page = fronts_page(small_family(), {"shading"}, rows, measures);
+    EXPECT_NE(page.find("<td>near</td>"), std::string::npos);
+    EXPECT_NE(page.find("<h2>light=1</h2>"), std::string::npos);
+}
+
+TEST(ChipFronts, OfChipsThatNobodyCostedAreRefused) {
+    const auto rows = read_rows(kChips, "study.csv", small_family()).value();
+    EXPECT_EQ(to_text(measures_of(rows, {"ampere"}).error().front()),
+              "gobo: error: the study holds no cycles of ampere\n"
+              "  help: add them: gobo cost FAMILY --study FILE --gpu ampere > NEW\n");
 }
 
 struct BadStudy {

@@ -10,7 +10,7 @@
 #include "lab/commands/lab_input.hpp"
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/study_cycles.hpp"
-#include "lab/study/front.hpp"
+#include "lab/study/chip_fronts.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/rows.hpp"
@@ -31,7 +31,8 @@ struct StudyCommandOptions {
     bool callgrind = false;
     std::vector<std::string> gpus;
     std::string driver;
-    std::string front;  ///< effects of a finished study to show
+    std::string front;   ///< effects of a finished study to show
+    std::string fronts;  ///< a page of all fronts of a finished study
     std::string svg;
     std::string study_file;
     std::string draw;       ///< a key to draw once: what callgrind watches
@@ -69,22 +70,49 @@ Result<Context> open_timing_context(const StudyCommandOptions& options) {
     return open_context(backend);
 }
 
+/// The rows of the study that --study names, or of the one that came with the family.
+Result<std::vector<study::StudyRow>> read_study(const StudyCommandOptions& options, const World& world,
+                                                const Family& family, const Key* effects) {
+    GOBO_TRY(const auto file,
+             read_or_shipped(world, options.study_file, fmt::format("data/study/{}.csv", family.name)));
+    return effects != nullptr ? study::read_rows(file.text, file.path, family, *effects)
+                              : study::read_rows(file.text, file.path, family);
+}
+
+/// Without chips the front by additions; with chips all of them, side by side.
 Result<Outcome> show_front(const StudyCommandOptions& options, const World& world) {
     GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
     GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
     GOBO_TRY(const Key key, parse_key(family.family, options.front));
     const Key effects = effects_of(family.family, key);
-    GOBO_TRY(const auto file, read_or_shipped(world, options.study_file,
-                                              fmt::format("data/study/{}.csv", family.family.name)));
-    GOBO_TRY(const auto rows, study::read_rows(file.text, file.path, family.family, effects));
-    if (!options.svg.empty()) {
-        std::vector<const study::StudyRow*> all;
-        for (const study::StudyRow& row : rows) all.push_back(&row);
-        const study::Chart chart =
-            study::front_chart(family.family, plan.rate, all, key_text(family.family, effects));
-        GOBO_TRY_DO(world.disk.write(options.svg, chart.svg()));
+    GOBO_TRY(const auto rows, read_study(options, world, family.family, &effects));
+    std::vector<const study::StudyRow*> all;
+    for (const study::StudyRow& row : rows) all.push_back(&row);
+    const std::string title = key_text(family.family, effects);
+    if (options.gpus.empty()) {
+        const study::Chart chart = study::front_chart(family.family, plan.rate, all, title);
+        if (!options.svg.empty()) GOBO_TRY_DO(world.disk.write(options.svg, chart.svg()));
+        return Outcome{study::front_table(rows), {}, options.svg};
     }
-    return Outcome{study::front_table(rows), {}, options.svg};
+    GOBO_TRY(const auto measures, study::measures_of(rows, split(join(options.gpus, ","), ',')));
+    if (!options.svg.empty())
+        GOBO_TRY_DO(
+            world.disk.write(options.svg, study::fronts_svg(family.family, plan.rate, all, title, measures)));
+    return Outcome{study::fronts_table(rows, measures), {}, options.svg};
+}
+
+/// The page of all fronts, and what it says of values.
+Result<Outcome> show_fronts(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
+    GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
+    GOBO_TRY(const auto rows, read_study(options, world, family.family, nullptr));
+    GOBO_TRY(const auto measures, study::measures_of(rows, split(join(options.gpus, ","), ',')));
+    GOBO_TRY_DO(
+        world.disk.write(options.fronts, study::fronts_page(family.family, plan.rate, rows, measures)));
+    return Outcome{fmt::format("{}\n{}", study::changed_places_table(family.family, rows, measures),
+                               study::values_table(family.family, rows, measures)),
+                   {},
+                   options.fronts};
 }
 
 std::string control_text(double control) {
@@ -189,6 +217,7 @@ std::string study_summary(const Family& family, const study::Study& study, const
 
 Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     if (!options.front.empty()) return show_front(options, world);
+    if (!options.fronts.empty()) return show_fronts(options, world);
     if (options.folder.empty())
         return fail(Fault::usage, "--output is required",
                     "name the folder for index.html, the charts and the tables: -o study");
@@ -234,8 +263,12 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     if (!chips.empty()) {
         const auto costs = costs_of_study(world, loaded, read_csv(files["study.csv"]), "study.csv", chips,
                                           options.driver, diagnostics);
-        for (const char* table : {"study.csv", "summary.csv"})
-            files[table] = csv_text(cost::with_cycles(read_csv(files[table]), costs));
+        const CsvTable with_cycles = cost::with_cycles(read_csv(files["study.csv"]), costs);
+        files["study.csv"] = csv_text(with_cycles);
+        files["summary.csv"] = csv_text(cost::summary_of(with_cycles, read_csv(files["summary.csv"])));
+        GOBO_TRY(const auto with_chips, study::read_rows(files["study.csv"], "study.csv", family));
+        GOBO_TRY(const auto measures, study::measures_of(with_chips, {}));
+        files["fronts.html"] = study::fronts_page(family, study.plan.rate, with_chips, measures);
     }
     for (const auto& [name, text] : files) GOBO_TRY_DO(world.disk.write(options.folder + "/" + name, text));
     return Outcome{study_summary(family, study, weights), std::move(diagnostics),
@@ -253,8 +286,14 @@ Command study_command() {
          {"--front", "KEY", "Print the front of these effects from a finished study, in six lines, and stop",
           &options->front},
          {"--svg", "FILE", "With --front: its chart", &options->svg},
+         {"--fronts", "FILE",
+          "Write the fronts of a finished study as a page, by llvmpipe and by chips one above another; print "
+          "which "
+          "choices change places, and stop",
+          &options->fronts},
          {"--study", "FILE",
-          "With --front: a study.csv or summary.csv; by default the one that came with the family",
+          "With --front and --fronts: a study.csv or summary.csv; by default the one that came with the "
+          "family",
           &options->study_file},
          {"--effects", "KEY", "A combination of effects; by default those of the plan",
           &options->study.effects},
@@ -264,7 +303,9 @@ Command study_command() {
           between(study::kLeastRounds, 1000)},
          {"--backend", "osmesa|egl", "What is timed", &options->backend},
          {"--gpu", "A,B,...",
-          "Chips, as gobo cost has them: their cycles and fronts are columns of the tables too",
+          "Chips, as gobo cost has them: their cycles and fronts are columns of the tables too, and "
+          "fronts.html "
+          "shows them; with --front and --fronts those to show",
           &options->gpus},
          driver_option(options->driver),
          {"--callgrind", "",

@@ -60,14 +60,6 @@ void fill_up(const std::vector<const StudyRow*>& front, std::vector<const StudyR
     std::sort(chosen.begin(), chosen.end(), is_more_accurate);
 }
 
-/// The feature that colours the points: the first that says where light is computed, else the first quality.
-int coloured_feature(const Family& family, const std::vector<std::string>& rate) {
-    for (const std::string& name : rate)
-        if (const auto feature = family.index_of(name)) return *feature;
-    const std::vector<int> features = quality_features(family);
-    return features.empty() ? -1 : features.front();
-}
-
 std::string tip_of(const StudyRow& row) {
     std::string tip = fmt::format(
         "{}\nerror: max {}, 99.9 % {}, RMS {}\nof it rounding {}, approximation {}, shading rate {}\n"
@@ -169,6 +161,13 @@ double place(const Axis& axis, double value) {
 }
 
 }  // namespace
+
+int coloured_feature(const Family& family, const std::vector<std::string>& rate) {
+    for (const std::string& name : rate)
+        if (const auto feature = family.index_of(name)) return *feature;
+    const std::vector<int> features = quality_features(family);
+    return features.empty() ? -1 : features.front();
+}
 
 std::string spread_text(const Spread& spread) {
     return fmt::format("{} ({} to {})", short_number(spread.median), short_number(spread.low),
@@ -365,15 +364,16 @@ std::string Chart::legend() const {
     return text;
 }
 
-std::string Chart::svg() const {
+std::string Chart::svg(int top) const {
     const int rows = (static_cast<int>(legend_.size()) + 2) / 3;
     const int full = height_ + rows * kLegendRow;
     return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"{8} viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
         "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" "
         "fill=\"#ffffff\"/>\n"
         "<text x=\"{2}\" y=\"20\" font-size=\"14\" font-weight=\"bold\">{3}</text>\n{4}{5}{6}{7}</svg>\n",
-        width_, full, kLeft, html_escaped(title_), axes(), lines_, marks_ + beside_marks_, legend());
+        width_, full, kLeft, html_escaped(title_), axes(), lines_, marks_ + beside_marks_, legend(),
+        top == 0 ? "" : fmt::format(" y=\"{}\"", top));
 }
 
 }  // namespace gobo::study

@@ -47,8 +47,8 @@ class Chart {
     /// `series` below 0 stands for the black line.
     void add_legend(std::string label, int series, bool is_hollow = false);
 
-    /// An <svg> element that stands alone as a file too.
-    [[nodiscard]] std::string svg() const;
+    /// An <svg> element that stands alone as a file too; within another one it begins `top` pixels down.
+    [[nodiscard]] std::string svg(int top = 0) const;
 
   private:
     [[nodiscard]] double x_at(double value) const;
@@ -72,6 +72,10 @@ class Chart {
     std::vector<std::pair<double, double>> labelled_;
     std::vector<Label> legend_;
 };
+
+/// The feature that colours the points: the first that says where light is computed, else the first quality;
+/// -1 where there is none.
+[[nodiscard]] int coloured_feature(const Family& family, const std::vector<std::string>& rate);
 
 /// What is on the front, most accurate first.
 [[nodiscard]] std::vector<const StudyRow*> front_of(const std::vector<const StudyRow*>& rows);

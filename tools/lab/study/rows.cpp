@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/study/qualities.hpp"
 
@@ -260,6 +261,41 @@ void measure_alone(const Family& family, const Study& study, const Weights& weig
     if (summary.combinations == 0) summary.least_cost = 0;
 }
 
+constexpr const char* kStudyHelp =
+    "name effects that the study holds, or make a study of them: gobo study FAMILY --effects KEY -o FOLDER";
+
+/// Where a chip's figures stand.
+struct ChipColumns {
+    std::string gpu;
+    std::size_t cycles = 0;
+    std::optional<std::size_t> front, driver, instructions;
+};
+
+std::vector<ChipColumns> chip_columns(const CsvTable& table) {
+    constexpr std::string_view kPrefix = "cycles_";
+    std::vector<ChipColumns> chips;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        if (!table.columns[i].starts_with(kPrefix)) continue;
+        const std::string gpu = table.columns[i].substr(kPrefix.size());
+        chips.push_back({gpu, i, table.column("front_" + gpu), table.column("driver_" + gpu),
+                         table.column("instructions_" + gpu)});
+    }
+    return chips;
+}
+
+ChipRow chip_row(const ChipColumns& columns, const std::vector<std::string>& cells) {
+    const auto cell = [&](const std::optional<std::size_t>& at) { return at ? cells[*at] : ""; };
+    ChipRow chip{columns.gpu,
+                 cell(columns.driver),
+                 number_in_cell(cells[columns.cycles]),
+                 cell(columns.front) == "yes",
+                 {}};
+    const std::vector<std::string> words = split(cell(columns.instructions), ' ');
+    for (std::size_t i = 0; i + 1 < words.size(); i += 2)
+        chip.instructions[words[i]] = number_in_cell(words[i + 1]).value_or(0);
+    return chip;
+}
+
 }  // namespace
 
 Spread StudyRow::time() const {
@@ -320,35 +356,39 @@ std::string study_csv(const std::vector<StudyRow>& rows) {
     return csv_text(table);
 }
 
-Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path, const Family& family,
-                                        const Key& effects) {
-    const auto problem = [&](std::size_t row, std::string message) {
-        return fail_at_row(path, row, std::move(message),
-                           "name effects that the study holds, or make a study of them: gobo study FAMILY "
-                           "--effects KEY -o FOLDER");
-    };
+Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path, const Family& family) {
     const CsvTable table = read_csv(csv);
     for (const char* column : {"effects", "key", "scene", "error_max", "cost", "front"})
-        if (!table.column(column)) return problem(0, fmt::format("has no column '{}'", column));
+        if (!table.column(column))
+            return fail_at_row(path, 0, fmt::format("has no column '{}'", column), kStudyHelp);
+    const std::vector<ChipColumns> chips = chip_columns(table);
     std::vector<StudyRow> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        StudyRow row;
+        StudyRow& row = rows.emplace_back();
         visit_columns(
             row,
             [&](const std::string& name, auto& member, const auto&... words) {
                 if (const auto index = table.column(name)) read_cell(table.rows[i][*index], member, words...);
             },
             [](const auto&...) {});
-        if (row.scene != kAllScenes) continue;
-        const auto own = parse_key(family, row.effects);
+        const auto effects = parse_key(family, row.effects);
         const auto key = parse_key(family, row.key);
-        if (!own || !key) return problem(i, (own ? key.error() : own.error()).front().message);
-        if (*own != effects) continue;
+        if (!effects || !key)
+            return fail_at_row(path, i, (effects ? key : effects).error().front().message, kStudyHelp);
         row.quality = quality_text(family, *key);
-        rows.push_back(std::move(row));
+        for (const ChipColumns& columns : chips) row.chips.push_back(chip_row(columns, table.rows[i]));
     }
+    return rows;
+}
+
+Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path, const Family& family,
+                                        const Key& effects) {
+    GOBO_TRY(std::vector<StudyRow> rows, read_rows(csv, path, family));
+    std::erase_if(rows, [&](const StudyRow& row) {
+        return row.scene != kAllScenes || parse_key(family, row.effects).value() != effects;
+    });
     if (!rows.empty()) return rows;
-    return problem(0, fmt::format("holds no '{}'", key_text(family, effects)));
+    return fail_at_row(path, 0, fmt::format("holds no '{}'", key_text(family, effects)), kStudyHelp);
 }
 
 std::vector<StudyRow> summary_of(const Family& family, const std::vector<StudyRow>& rows) {

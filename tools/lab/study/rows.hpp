@@ -1,6 +1,7 @@
 // A study as tables, out and in again: what the report shows and what budgets choose by.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,15 @@
 #include "lab/study/study.hpp"
 
 namespace gobo::study {
+
+/// What a row costs on a chip, by its compiler's estimate.
+struct ChipRow {
+    std::string gpu;               ///< "navi21"
+    std::string driver;            ///< "RDNA2, radv Mesa 25.0.7"
+    std::optional<double> cycles;  ///< of 64 fragments with their part of the vertices; nothing: unknown
+    bool on_front = false;
+    std::map<std::string, double> instructions;  ///< of the fragment stage by kind
+};
 
 /// One row of study.csv: a key on a scene, or over all of them.
 struct StudyRow : Measurement {
@@ -23,6 +33,7 @@ struct StudyRow : Measurement {
     /// Whether no key that is as accurate is measurably faster. Nothing where the row was not timed, or the
     /// control of its combination of effects does not hold.
     std::optional<bool> on_time_front;
+    std::vector<ChipRow> chips;  ///< read from a study that has them; in the order of its columns
 
     /// Nanoseconds of a fragment with its part of the vertices, as Costs::total; of a row that was timed.
     [[nodiscard]] Spread time() const;
@@ -33,9 +44,11 @@ struct StudyRow : Measurement {
 
 [[nodiscard]] std::string study_csv(const std::vector<StudyRow>& rows);
 
-/// The rows of one combination of effects over all scenes, from a study.csv or summary.csv, but for the
-/// operations by kind. Errors, at `path` and the line: a missing column, a key that the family does not have,
-/// effects that the study does not hold.
+/// All rows of a study.csv or summary.csv, but for the operations by kind. Errors, at `path` and the line: a
+/// missing column, a key that the family does not have.
+[[nodiscard]] Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path,
+                                                      const Family& family);
+/// Those of one combination of effects over all scenes; that the study does not hold it is an error too.
 [[nodiscard]] Result<std::vector<StudyRow>> read_rows(std::string_view csv, const std::string& path,
                                                       const Family& family, const Key& effects);
 
