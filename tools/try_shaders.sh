@@ -1,27 +1,28 @@
 #!/bin/bash
-# Tries gobo on shader sets that others wrote, and prints a table of how far each comes.
+# Tries gobo on shader sets that others wrote, compares its verdicts with the driver's, and prints a table.
 set -u
 usage() {
     cat <<END
-usage: tools/try_shaders.sh [--gobo GOBO] [--link PROGRAM] [--scratch DIR] [--list] FOLDER
+usage: tools/try_shaders.sh [--gobo GOBO] [--scratch DIR] [--list] FOLDER
   FOLDER holds one folder for each set. In a set, every .toml file is a family, tried over its default set.
   Where a set has none, each vertex file with a fragment file of the same name is a pair, for which a family
   of three lines is written: .vs .fs, .vert .frag, .vsh .fsh, .glslv .glslf, _vp.glsl _fp.glsl. Files of that
-  name that end in .tcs .tes .gs or .tesc .tese .geom are the stages between.
-  --gobo GOBO      the program to try; by default that of build/release
-  --link PROGRAM   asks the driver about texts that gobo refuses: reads lines "ID core|es VERTEX FRAGMENT"
-                   and answers "ID linked" or "ID refused", a tab between them
+  name that end in .tcs .tes .gs or .tesc .tese .geom are the stages between, and each subroutine uniform
+  becomes a choice of its functions.
+  --gobo GOBO      the program to try, with gobo-lab beside it; by default that of build/release
   --scratch DIR    where families, headers, pictures and messages go; by default a new folder of /tmp
-  --list           print each refused key with the first error
+  --list           print what is refused, and the reason
+The table counts keys: those that gobo takes, whose header it builds, whose interface it prints and whose
+picture it draws; then those that the driver was asked about by gobo link, those that gobo takes and the driver
+does not link, and those that gobo refuses and the driver links.
 END
 }
 root=$(cd "$(dirname "$0")/.." && pwd)
 gobo=$root/build/release/bin/gobo
-link='' scratch='' list=''
+scratch='' list=''
 while [ $# -gt 1 ]; do
     case $1 in
         --gobo) gobo=$2; shift 2 ;;
-        --link) link=$2; shift 2 ;;
         --scratch) scratch=$2; shift 2 ;;
         --list) list=yes; shift ;;
         *) usage >&2; exit 2 ;;
@@ -32,6 +33,16 @@ folder=$(cd "$1" && pwd)
 [ -x "$gobo" ] || { echo "no program $gobo: build it, or name another by --gobo" >&2; exit 3; }
 [ -n "$scratch" ] || scratch=$(mktemp -d /tmp/try_shaders.XXXXXX)
 mkdir -p "$scratch" || exit 3
+
+# A feature for each subroutine uniform of a shader file: a choice of the functions of its type.
+write_subroutines() { # FILE
+    local text type name functions
+    text=$(sed 's://.*::' "$1" | tr '\n\t\r' '   ')
+    grep -oE 'subroutine +uniform +\w+ +\w+' <<< "$text" | while read -r _ _ type name; do
+        functions=$(grep -oE "subroutine *\( *$type *\) *\w+ +\w+" <<< "$text" | sed 's/.* /"/; s/$/"/' | paste -sd, -)
+        printf '\n[features.%s]\ndefine = "%s"\nvalues = [%s]\n' "$name" "$name" "$functions"
+    done
+}
 
 # A family file for each vertex file of a set that has a fragment file of the same name.
 write_pairs() { # SET_FOLDER DIR
@@ -57,32 +68,28 @@ tess_evaluation .tese
 geometry .gs
 geometry .geom
 END
+            { write_subroutines "$vertex"; write_subroutines "$fragment"; } >> "$2/pair_$number.toml"
             dirname "$vertex" > "$2/pair_$number.folder"
         done
     done
 }
 
-# Runs gobo, keeps what it says, adds 1 to the count named first where it succeeds.
-try() { # COUNT LOG ARGUMENTS...
-    local count=$1 log=$2
-    shift 2
-    timeout 300 "$gobo" "$@" > "$log.out" 2> "$log.err" || return 1
-    printf -v "$count" %d $((${!count} + 1))
+# Runs gobo and keeps what it says.
+run() { # LOG ARGUMENTS...
+    local log=$1
+    shift
+    timeout 900 "$gobo" "$@" > "$log.out" 2> "$log.err"
+}
+note() {
+    [ -n "$list" ] && echo "$*" >&2
+}
+# The number before some words of the last line of a file; 0 where it is not there.
+number_before() { # WORDS FILE
+    tail -n 1 "$2" | grep -oE "[0-9]+ $1" | grep -oE '^[0-9]+' || echo 0
 }
 
-# Whether the driver links a key's text: yes, no, or ? without --link.
-driver_links() { # FAMILY FOLDER KEY LOG
-    local context=core
-    [ -n "$link" ] || { echo '?'; return; }
-    grep -E '^(tess|geometry|compute)' "$1" > /dev/null && { echo '?'; return; }  # it links pairs
-    "$gobo" show "$1" "$3" -I "$2" --stage vertex > "$4.vert" 2> /dev/null || { echo '?'; return; }
-    "$gobo" show "$1" "$3" -I "$2" --stage fragment > "$4.frag" 2> /dev/null || { echo '?'; return; }
-    head -n 1 "$4.vert" | grep ' es' >/dev/null && context=es
-    echo "x $context $4.vert $4.frag" | "$link" | grep '^x	linked' >/dev/null && echo yes || echo no
-}
-
-echo '| set | families | keys | check | build | reflect | render, linked by the driver | refused though the driver links |'
-echo '|---|---|---|---|---|---|---|---|'
+echo '| set | families | keys | taken | built | reflected | drawn | compared | taken, not linked | refused, linked |'
+echo '|---|---|---|---|---|---|---|---|---|---|'
 for set in "$folder"/*/; do
     name=$(basename "$set")
     work=$scratch/$name
@@ -92,32 +99,32 @@ for set in "$folder"/*/; do
         write_pairs "$set" "$work"
         mapfile -t families < <(find "$work" -maxdepth 1 -name '*.toml' | sort -V)
     fi
-    keys=0 check=0 build=0 reflect=0 render=0 stricter=0 number=0
+    keys=0 taken=0 built=0 reflected=0 drawn=0 compared=0 laxer=0 stricter=0 number=0
     for family in "${families[@]}"; do
         number=$((number + 1))
         log=$work/$number
         of=$(cat "${family%.toml}.folder" 2> /dev/null || dirname "$family")
-        # Keys first: a family that cannot be listed counts as one key that fails.
-        "$gobo" list "$family" > "$log.keys" 2> "$log.list.err" || echo default > "$log.keys"
-        try build "$log.build" build "$family" -I "$of" -o "$work/headers_$number"
-        row=0
+        # A family that cannot be listed counts as one key that fails.
+        run "$log.list" list "$family" || echo default > "$log.list.out"
+        count=$(wc -l < "$log.list.out")
+        keys=$((keys + count))
+        run "$log.link" link "$family" -I "$of"
+        grep -q compared "$log.link.out" || note "$name, $family: $(grep -m 1 error "$log.link.err")"
+        grep 'refused, though' "$log.link.out" | while read -r line; do note "$name, $family, $line"; done
+        grep 'error: gobo takes' "$log.link.err" | while read -r line; do note "$name, $family, $line"; done
+        more=$(number_before 'taken that the driver' "$log.link.out")
+        taken=$((taken + more + $(number_before 'taken and linked' "$log.link.out")))
+        laxer=$((laxer + more))
+        stricter=$((stricter + $(number_before 'refused that it' "$log.link.out")))
+        compared=$((compared + $(number_before 'compared' "$log.link.out")))
+        run "$log.build" build "$family" -I "$of" -o "$work/headers_$number" && built=$((built + count))
         while read -r key; do
-            row=$((row + 1))
-            keys=$((keys + 1))
-            at=$log.$row
-            if ! try check "$at.check" check "$family" -I "$of" --key "$key"; then
-                linked=$(driver_links "$family" "$of" "$key" "$at")
-                [ "$linked" = yes ] && stricter=$((stricter + 1))
-                [ -n "$list" ] && echo "$name, $family, $key (driver links: $linked): $(grep -m 1 error "$at.check.err")" >&2
-                continue
-            fi
-            try reflect "$at.reflect" reflect "$family" "$key" -I "$of"
-            if ! try render "$at.render" render "$family" -I "$of" --key "$key" -o "$work/pictures_$number" --size 16x12; then
-                [ -n "$list" ] && echo "$name, $family, $key: $(grep -m 1 error "$at.render.err")" >&2
-            fi
-        done < "$log.keys"
+            run "$log.reflect" reflect "$family" "$key" -I "$of" && reflected=$((reflected + 1))
+        done < "$log.list.out"
+        run "$log.render" render "$family" -I "$of" --keys-from "$log.list.out" -o "$work/pictures_$number" --size 16x12 ||
+            note "$name, $family: $(grep -m 1 error "$log.render.err")"
+        drawn=$((drawn + $(wc -l < "$log.render.out")))
     done
-    [ -n "$link" ] || stricter='?'
-    echo "| $name | ${#families[@]} | $keys | $check | $build | $reflect | $render | $stricter |"
+    echo "| $name | ${#families[@]} | $keys | $taken | $built | $reflected | $drawn | $compared | $laxer | $stricter |"
 done
 echo "messages and pictures: $scratch" >&2

@@ -21,6 +21,7 @@ inline const Title kSanitize = {"sanitize",
                                 "Watch every operation on hard inputs for what GLSL leaves undefined"};
 inline const Title kProbe = {"probe", "Light-probe maps and harmonics from an HDR map of an environment"};
 inline const Title kRender = {"render", "A picture of every key of a selection, or of scenes"};
+inline const Title kLink = {"link", "Whether OpenGL's driver links what gobo takes, key by key"};
 inline const Title kCost = {"cost",
                             "What permutations cost on GPUs, as their drivers' compilers estimate it"};
 inline const Title kStudy = {"study", "Error against cost of every quality: tables and a report"};

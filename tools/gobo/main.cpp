@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
           {titles::kSanitize},
           {titles::kProbe},
           {titles::kRender},
+          {titles::kLink},
           {titles::kCost},
           {titles::kStudy}}},
         argc, argv);

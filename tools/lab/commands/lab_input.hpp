@@ -102,6 +102,7 @@ using CubeImages = std::map<std::string, Image>;
 [[nodiscard]] Command sanitize_command();
 [[nodiscard]] Command probe_command();
 [[nodiscard]] Command render_command();
+[[nodiscard]] Command link_command();
 [[nodiscard]] Command cost_command();
 /// Hidden: what a process of gobo cost runs for one chip (see cost::DriverProcess).
 [[nodiscard]] Command compile_pipelines_command();

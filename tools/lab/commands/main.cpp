@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
          "  gobo render lit --key 'spot=1' -o pictures\n"
          "  gobo COMMAND --help",
          {eval_command(), test_command(), sanitize_command(), probe_command(), render_command(),
-          cost_command(), study_command(), build, scene, compile_pipelines_command()},
+          link_command(), cost_command(), study_command(), build, scene, compile_pipelines_command()},
          measure_qualities},
         argc, argv);
 }
