@@ -27,6 +27,10 @@ if(GOBO_SANITIZE)
   target_link_options(gobo_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(GOBO_FUZZ)
+  target_compile_options(gobo_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # gobo_folder(FOLDER USES folder ... LINK lib ...): a folder of tools/ as a static library, lab/study as gobo_lab_study. Its files
 # find what every folder includes in precompiled headers. main.cpp is left to gobo_program().
 function(gobo_folder folder)

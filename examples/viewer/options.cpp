@@ -22,6 +22,10 @@ CommandLine read_command_line(int argc, char** argv) {
         ->type_name("DIR");
     app.add_option("--record", options.record, "File of keys that were asked for but not built")
         ->capture_default_str();
+    app.add_option(
+        "--reload", options.reload,
+        "Socket of gobo watch --serve: changed shaders are taken as they are saved. Without a window "
+        "each frame but the first waits for a change");
     app.add_option("--width", options.size.width, "Pixels")
         ->check(CLI::Range(16, 8192))
         ->capture_default_str();

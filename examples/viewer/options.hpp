@@ -16,6 +16,7 @@ struct Options {
     std::string keys;    ///< one is pressed before each frame but the first
     std::string folder;  ///< for pictures; empty: none
     std::string record = "viewer.keys";
+    std::string reload;  ///< a socket of gobo watch; empty: none
     Size size;
 };
 

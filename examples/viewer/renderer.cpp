@@ -61,10 +61,22 @@ lit::Harmonics harmonics_block(const gobo::scene::Probe& probe, const glm::dmat4
     return block;
 }
 
+/// Whether the texts are those that the header has.
+bool is_as_built(const gobo::ReloadedProgram& program, const lit::Permutation& permutation) {
+    bool is_same = true;
+    gobo::runtime::for_each_stage(permutation, [&](gobo::runtime::StageKind kind, const auto& stage) {
+        const auto other = std::find_if(program.stages.begin(), program.stages.end(),
+                                        [&](const auto& reloaded) { return reloaded.kind == kind; });
+        is_same = is_same && other != program.stages.end() && other->text == stage.source();
+    });
+    return is_same;
+}
+
 }  // namespace
 
-Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record)
-    : gl_(gl), stage_(stage), size_(size), record_(record) {
+Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record,
+                   const std::string& reload)
+    : gl_(gl), stage_(stage), size_(size), record_(record), reload_(reload) {
     make_framebuffer();
     for (const StageDraw& draw : stage.draws) {
         upload(draw.mesh);
@@ -121,9 +133,40 @@ GLuint Renderer::program_of(const lit::Key& key) {
     keys_.insert(text);
     const auto known = programs_.find(permutation);
     if (known != programs_.end()) return known->second;
-    const gobo::gl::Program program = gobo::gl::build_program(*permutation, gl_);
+    const auto reloaded = reloaded_.find(text);
+    gobo::gl::Program program;
+    if (reloaded != reloaded_.end())
+        program = gobo::gl::build_program(*permutation, reloaded->second.stages, gl_);
+    if (!program) program = gobo::gl::build_program(*permutation, gl_);
     if (!program) complain(text, program.error);
     return programs_[permutation] = program.id;
+}
+
+std::string Renderer::take_changes() {
+    std::size_t changed = 0;
+    reload_.take([&](const gobo::ReloadedProgram& program) {
+        const bool is_first = reloaded_.find(program.key) == reloaded_.end();
+        reloaded_[program.key] = program;
+        for (auto& [permutation, id] : programs_) {
+            if (lit::key_text(permutation->key()) != program.key) continue;
+            if (is_first && is_as_built(program, *permutation)) continue;
+            const gobo::gl::Program rebuilt = gobo::gl::build_program(*permutation, program.stages, gl_);
+            if (!rebuilt) {  // the old one stays
+                complaints_.push_back(program.key + ": " + rebuilt.error);
+                continue;
+            }
+            gl_.DeleteProgram(id);
+            id = rebuilt.id;
+            ++changed;
+        }
+    });
+    const std::string errors = reload_.errors();
+    if (errors != reload_errors_ && !errors.empty()) complaints_.push_back(errors);
+    const bool is_new_error = errors != reload_errors_;
+    reload_errors_ = errors;
+    if (changed > 0)
+        return std::to_string(changed) + (changed == 1 ? " program changed" : " programs changed");
+    return is_new_error ? (errors.empty() ? "errors are mended" : "errors") : "";
 }
 
 void Renderer::draw(std::size_t number, const Settings& settings, const glm::dmat4& view,

@@ -8,6 +8,7 @@
 
 #include <glad/gl.h>
 #include <gobo/record.hpp>
+#include <gobo/reload.hpp>
 
 #include "lab/render/image.hpp"
 #include "orbit.hpp"
@@ -25,7 +26,13 @@ class Renderer {
   public:
     /// The functions must stay those of the current context for as long as this lives. Keys that were not
     /// built are noted in `record`.
-    Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record);
+    /// `reload` is the socket of gobo watch, or empty.
+    Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record,
+             const std::string& reload);
+
+    /// Takes the shaders that were changed since, between two frames. What is new: "2 programs changed";
+    /// empty where nothing is.
+    [[nodiscard]] std::string take_changes();
 
     /// Draws one frame to a float framebuffer.
     void draw(const Settings& settings, const Orbit& orbit);
@@ -60,6 +67,8 @@ class Renderer {
     const Stage& stage_;
     Size size_;
     gobo::KeyRecord& record_;
+    gobo::Reload reload_;
+    std::map<std::string, gobo::ReloadedProgram> reloaded_;  ///< what was taken last, by key
     GLuint framebuffer_ = 0;
     std::vector<Vertices> vertices_;  ///< of each draw
     std::map<int, GLuint> blocks_;    ///< buffers by binding
@@ -67,6 +76,7 @@ class Renderer {
     std::set<std::string> keys_;
     std::set<std::string> complained_;
     std::vector<std::string> complaints_;
+    std::string reload_errors_;
 };
 
 }  // namespace viewer

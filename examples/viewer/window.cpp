@@ -64,7 +64,7 @@ gobo::Result<void> look(GLFWwindow* window, const GladGLContext& gl, const Optio
     Pressed pressed;
     glfwSetWindowUserPointer(window, &pressed);
     glfwSetKeyCallback(window, &on_key);
-    Renderer renderer(gl, stage, options.size, record);
+    Renderer renderer(gl, stage, options.size, record, options.reload);
     Displayed displayed(options, reinterpret_cast<const char*>(gl.GetString(GL_RENDERER)));
     Settings settings;
     Orbit orbit = orbit_of(stage, options.size.width, options.size.height);
@@ -72,6 +72,8 @@ gobo::Result<void> look(GLFWwindow* window, const GladGLContext& gl, const Optio
     while (shown && glfwWindowShouldClose(window) == GLFW_FALSE) {
         show(window, renderer);
         glfwWaitEventsTimeout(0.1);
+        const std::string reloaded = renderer.take_changes();
+        if (shown && !reloaded.empty()) shown = displayed.frame(renderer, settings, orbit, reloaded);
         const Pressed now = std::exchange(pressed, {});
         for (const char key : now.keys) {
             const std::string change = press(key, settings);

@@ -123,18 +123,18 @@ template <class GetLength, class GetLog>
     return log;
 }
 
-/// A compiled shader, or 0 with `error` set.
-template <class Tables, class Functions>
-[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, runtime::StageKind kind,
-                               const Functions& gl, std::string& error) {
+/// A compiled shader, or 0 with `error` set. `translated(log)` has the log's places name files.
+template <class Functions, class Translated>
+[[nodiscard]] unsigned compile_texts(const std::vector<std::string_view>& pieces, runtime::StageKind kind,
+                                     const Functions& gl, std::string& error, Translated translated) {
     std::vector<const char*> texts;
     std::vector<int> lengths;
-    stage.for_each_piece([&texts, &lengths](std::string_view text) {
-        texts.push_back(text.data());
-        lengths.push_back(static_cast<int>(text.size()));
-    });
+    for (const std::string_view piece : pieces) {
+        texts.push_back(piece.data());
+        lengths.push_back(static_cast<int>(piece.size()));
+    }
     const unsigned shader = gl.CreateShader(constant::shader_of_stage[static_cast<std::size_t>(kind)]);
-    gl.ShaderSource(shader, stage.piece_count(), texts.data(), lengths.data());
+    gl.ShaderSource(shader, static_cast<int>(texts.size()), texts.data(), lengths.data());
     gl.CompileShader(shader);
     int compiled = 0;
     gl.GetShaderiv(shader, constant::compile_status, &compiled);
@@ -142,10 +142,18 @@ template <class Tables, class Functions>
     const std::string log =
         read_log([&](int* size) { gl.GetShaderiv(shader, constant::info_log_length, size); },
                  [&](int size, int* length, char* text) { gl.GetShaderInfoLog(shader, size, length, text); });
-    error = std::string(runtime::name_of(kind)) + " stage does not compile\n" +
-            runtime::translated_log(stage, log);
+    error = std::string(runtime::name_of(kind)) + " stage does not compile\n" + translated(log);
     gl.DeleteShader(shader);
     return 0;
+}
+
+template <class Tables, class Functions>
+[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, runtime::StageKind kind,
+                               const Functions& gl, std::string& error) {
+    std::vector<std::string_view> pieces;
+    stage.for_each_piece([&pieces](std::string_view text) { pieces.push_back(text); });
+    return compile_texts(pieces, kind, gl, error,
+                         [&stage](const std::string& log) { return runtime::translated_log(stage, log); });
 }
 
 }  // namespace detail
@@ -201,16 +209,14 @@ void set_bindings(unsigned program, const Functions& gl) {
     detail::set_bindings<Tables>(program, gl, [](const runtime::Only&) { return true; });
 }
 
-/// Compiles and links a permutation of a generated header, and binds its attributes, blocks and samplers as
-/// the header says. Needs a current context of OpenGL 3.3 or OpenGL ES 3.0 at least.
+namespace detail {
+
+/// Links the shaders, which go, as the permutation's program; there is none where an error is set already.
 template <class Permutation, class Functions>
-[[nodiscard]] Program build_program(const Permutation& permutation, const Functions& gl) {
+[[nodiscard]] Program link(const Permutation& permutation, const std::vector<unsigned>& shaders,
+                           const Functions& gl, std::string error) {
     Program program;
-    std::vector<unsigned> shaders;
-    runtime::for_each_stage(permutation, [&](runtime::StageKind kind, const auto& stage) {
-        const unsigned shader = program.error.empty() ? detail::compile(stage, kind, gl, program.error) : 0;
-        if (shader != 0) shaders.push_back(shader);
-    });
+    program.error = std::move(error);
     if (!program.error.empty()) {
         for (const unsigned shader : shaders) gl.DeleteShader(shader);
         return program;
@@ -235,9 +241,40 @@ template <class Permutation, class Functions>
         gl.DeleteProgram(id);
         return program;
     }
-    set_bindings(permutation, id, gl);
+    gl::set_bindings(permutation, id, gl);
     program.id = id;
     return program;
+}
+
+}  // namespace detail
+
+/// Compiles and links a permutation of a generated header, and binds its attributes, blocks and samplers as
+/// the header says. Needs a current context of OpenGL 3.3 or OpenGL ES 3.0 at least.
+template <class Permutation, class Functions>
+[[nodiscard]] Program build_program(const Permutation& permutation, const Functions& gl) {
+    std::string error;
+    std::vector<unsigned> shaders;
+    runtime::for_each_stage(permutation, [&](runtime::StageKind kind, const auto& stage) {
+        const unsigned shader = error.empty() ? detail::compile(stage, kind, gl, error) : 0;
+        if (shader != 0) shaders.push_back(shader);
+    });
+    return detail::link(permutation, shaders, gl, std::move(error));
+}
+
+/// The same from other texts of its stages, each with a `kind` and a `text`: those of <gobo/reload.hpp>.
+template <class Permutation, class Stages, class Functions>
+[[nodiscard]] Program build_program(const Permutation& permutation, const Stages& stages,
+                                    const Functions& gl) {
+    std::string error;
+    std::vector<unsigned> shaders;
+    for (const auto& stage : stages) {
+        const auto as_it_is = [](const std::string& log) { return log; };
+        const unsigned shader = error.empty() ? detail::compile_texts({std::string_view(stage.text)},
+                                                                      stage.kind, gl, error, as_it_is)
+                                              : 0;
+        if (shader != 0) shaders.push_back(shader);
+    }
+    return detail::link(permutation, shaders, gl, std::move(error));
 }
 
 #ifndef GOBO_GL_NO_LOADER

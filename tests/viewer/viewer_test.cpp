@@ -128,5 +128,44 @@ TEST(Viewer, RecordsWhatWasNotBuilt) {
               std::string::npos);
 }
 
+TEST(Viewer, TakesAPieceThatIsEditedWhileItRuns) {
+    const std::string folder = fresh_folder("reload");
+    std::filesystem::create_directories(folder + "/library");
+    for (const char* part : {"shader_lib", "templates"})
+        std::filesystem::copy(fmt::format("{}/{}", GOBO_SOURCE_DIR, part),
+                              fmt::format("{}/library/{}", folder, part),
+                              std::filesystem::copy_options::recursive);
+    // Saves each edit when the frame before is drawn.
+    const std::string script = fmt::format(
+        R"(cd '{0}' || exit 1
+'{1}' watch lit --library library --key 'directional=1 fog=linear point=1 specular=blinn spot=1' --key default -o out --serve reload 2> watched &
+watching=$!
+trap 'kill $watching' EXIT
+for i in $(seq 600); do [ -S reload ] && break; sleep 0.05; done
+'{2}' '{3}' --headless --frames 4 --turn 0 --width 160 --height 100 --record keys --reload reload -o . > log 2>&1 &
+viewing=$!
+frame() {{ for i in $(seq 1200); do grep -q "^frame $1" log && return; sleep 0.05; done; exit 1; }}
+frame 0
+sed -i 's/clamp(ahead \/ depth, 0.0, 1.0)/0.25 * clamp(ahead \/ depth, 0.0, 1.0)/' library/shader_lib/fog.glsl
+frame 1
+sed -i 's/0.25 [*] clamp/missing * clamp/' library/shader_lib/fog.glsl
+frame 2
+sed -i 's/missing [*] clamp/clamp/' library/shader_lib/fog.glsl
+wait $viewing)",
+        folder, GOBO_PROGRAM, GOBO_VIEWER, kScene);
+    DiskFileSystem disk;
+    ASSERT_TRUE(disk.write(folder + "/edit.sh", script));
+    ASSERT_EQ(run(fmt::format("bash '{}/edit.sh'", folder)), 0)
+        << text_of(folder + "/log") << text_of(folder + "/watched");
+    const std::string log = text_of(folder + "/log");
+    EXPECT_NE(log.find("frame 1, 1 program changed: "), std::string::npos) << log;
+    EXPECT_NE(log.find("frame 2, errors: "), std::string::npos) << log;
+    EXPECT_NE(log.find("fog.glsl:22: error: 'missing' : undeclared"), std::string::npos) << log;
+    EXPECT_GT(difference(frame(folder, 0), frame(folder, 1)), 1e-2);
+    EXPECT_EQ(difference(frame(folder, 1), frame(folder, 2)), 0) << "the old program stays";
+    EXPECT_EQ(difference(frame(folder, 0), frame(folder, 3)), 0)
+        << "and is as it was when the edit is undone";
+}
+
 }  // namespace
 }  // namespace gobo

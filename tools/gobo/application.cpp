@@ -116,22 +116,6 @@ void become_lab(const std::vector<std::string>& arguments) {
     execvp("gobo-lab", passed.data());
 }
 
-/// Writes the files of an outcome, and says in its summary what was new.
-Result<Outcome> with_files_written(Outcome outcome) {
-    std::vector<std::string> notes;
-    if (outcome.compiled >= 0)
-        notes.push_back(
-            fmt::format("{} {} compiled", outcome.compiled, outcome.compiled == 1 ? "stage" : "stages"));
-    if (!outcome.files.empty()) {
-        std::vector<NewFile> files;
-        for (const OutputFile& file : outcome.files) files.push_back({file.path, file.content});
-        GOBO_TRY(const bool is_changed, write_together(files));
-        if (!is_changed) notes.emplace_back("unchanged");
-    }
-    if (!notes.empty()) outcome.summary += fmt::format(" ({})", join(notes, ", "));
-    return outcome;
-}
-
 Result<Outcome> answer(const Application& application, const World& world,
                        const std::vector<std::string>& arguments) {
     const bool completes = arguments.size() > 1 && arguments.front() == "complete";
@@ -157,7 +141,16 @@ int run(Application application, const std::vector<std::string>& arguments, cons
         if (command.run) command.groups.push_back(common_options(options));
     UserFiles disk(options);
     MemoryFileSystem shipped(shipped_files());
-    auto outcome = answer(application, {disk, shipped, options, application.measure}, arguments);
+    const auto tell = [&](const Outcome& told) {
+        const bool is_text = messages.format == MessageFormat::text;
+        // Only what is so now is to be seen.
+        if (is_text && isatty(STDERR_FILENO) != 0) std::fputs("\033[H\033[2J", stderr);
+        report(told.diagnostics, messages, application.name);
+        if (is_text && !options.quiet) std::fputs((printable(told.summary) + "\n").c_str(), stderr);
+        std::fflush(stderr);
+    };
+    auto outcome =
+        answer(application, {disk, shipped, options, application.measure, nullptr, tell}, arguments);
     if (!outcome) {
         for (Diagnostic& error : outcome.error()) {
             if (error.fault != Fault::needs_lab) continue;
@@ -179,6 +172,21 @@ int run(Application application, const std::vector<std::string>& arguments, cons
 }
 
 }  // namespace
+
+Result<Outcome> with_files_written(Outcome outcome) {
+    std::vector<std::string> notes;
+    if (outcome.compiled >= 0)
+        notes.push_back(
+            fmt::format("{} {} compiled", outcome.compiled, outcome.compiled == 1 ? "stage" : "stages"));
+    if (!outcome.files.empty()) {
+        std::vector<NewFile> files;
+        for (const OutputFile& file : outcome.files) files.push_back({file.path, file.content});
+        GOBO_TRY(const bool is_changed, write_together(files));
+        if (!is_changed) notes.emplace_back("unchanged");
+    }
+    if (!notes.empty()) outcome.summary += fmt::format(" ({})", join(notes, ", "));
+    return outcome;
+}
 
 int run_application(const Application& application, int count, char** arguments) {
     prepare_process();

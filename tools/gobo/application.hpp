@@ -17,6 +17,9 @@ struct Application {
 /// The exit status of the process.
 [[nodiscard]] int run_application(const Application& application, int count, char** arguments);
 
+/// Writes the files of an outcome, and says in its summary what was new.
+[[nodiscard]] Result<Outcome> with_files_written(Outcome outcome);
+
 inline constexpr const char* kTerms =
     "A family is a set of shaders that share templates: lit, or a .toml file of your own. A key, such as "
     "'fog=linear point=3', chooses one permutation of it.";

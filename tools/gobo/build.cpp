@@ -1,4 +1,6 @@
 // gobo build: the generated header, its manifest and its depfile.
+#include "gobo/build.hpp"
+
 #include <map>
 #include <set>
 
@@ -11,20 +13,6 @@
 
 namespace gobo {
 namespace {
-
-struct BuildOptions : SelectionOptions {
-    BudgetOptions budget;
-    std::string folder;
-    std::string header;
-    std::string cpp_namespace;
-    std::string depfile;
-    std::string depfile_target;
-    bool glslc_depfile = false;
-    bool comments = false;
-};
-
-/// What -o says to have the header printed.
-constexpr const char* kStandardOutput = "-";
 
 /// The path of the header without its end, which those of the manifest and the depfile begin with, too.
 Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
@@ -61,7 +49,9 @@ United united_interface(const Composition& composition, const Validated& validat
     return united;
 }
 
-Result<Outcome> run(const BuildOptions& options, const World& world) {
+}  // namespace
+
+Result<Built> build(const BuildOptions& options, const World& world) {
     GOBO_TRY_DO(refuse_without_budget(options.budget));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const std::string stem, stem_of(options, family.family));
@@ -74,7 +64,7 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
         for (const QualityChoice& choice : qualities) chosen.insert(choice.key);
         keys.assign(chosen.begin(), chosen.end());
     }
-    GOBO_TRY(const Composition composition, compose_keys(family, keys));
+    GOBO_TRY(Composition composition, compose_keys(family, keys));
     GOBO_TRY(Validated validated, compile(world, family, composition));
     const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,
@@ -108,40 +98,48 @@ Result<Outcome> run(const BuildOptions& options, const World& world) {
         outcome.files.push_back({stem + ".json", manifest});
         outcome.files.push_back({stem + ".hpp", header});
     }
-    return outcome;
+    return Built{std::move(outcome), std::move(family.family), std::move(composition)};
 }
 
-}  // namespace
+std::vector<Option> build_arguments(BuildOptions& options) {
+    return {family_argument(options.family),
+            {"-o,--output", "DIR",
+             "Folder for FAMILY.hpp, FAMILY.json and FAMILY.d; - prints the header and writes none of them",
+             &options.folder, kRequired},
+            {"--header", "FILE",
+             "Name of the header, the manifest's and the depfile's; by default FAMILY.hpp", &options.header},
+            {"--namespace", "NAME", "C++ namespace of the header; by default the family's name",
+             &options.cpp_namespace},
+            {"--depfile", "FILE", "The depfile, also -MF; by default FAMILY.d beside the header",
+             &options.depfile},
+            {"--glslc-depfile", "", "-MD of glslc: the depfile is written anyway", &options.glslc_depfile,
+             kHidden},
+            {"--depfile-target", "FILE",
+             "What the depfile says is made, also -MT, by default the header: a stamp, for build tools that "
+             "compare times",
+             &options.depfile_target},
+            comments_option(options.comments),
+            dialect_option(options.dialect)};
+}
+
+std::vector<OptionGroup> build_groups(BuildOptions& options) {
+    return {selection_options(options), budget_options(options.budget)};
+}
 
 Command build_command() {
     const auto options = std::make_shared<BuildOptions>();
-    return {
-        {"build", "Write the C++ header, the JSON manifest and the depfile"},
-        {family_argument(options->family),
-         {"-o,--output", "DIR",
-          "Folder for FAMILY.hpp, FAMILY.json and FAMILY.d; - prints the header and writes none of them",
-          &options->folder, kRequired},
-         {"--header", "FILE", "Name of the header, the manifest's and the depfile's; by default FAMILY.hpp",
-          &options->header},
-         {"--namespace", "NAME", "C++ namespace of the header; by default the family's name",
-          &options->cpp_namespace},
-         {"--depfile", "FILE", "The depfile, also -MF; by default FAMILY.d beside the header",
-          &options->depfile},
-         {"--glslc-depfile", "", "-MD of glslc: the depfile is written anyway", &options->glslc_depfile,
-          kHidden},
-         {"--depfile-target", "FILE",
-          "What the depfile says is made, also -MT, by default the header: a stamp, for build tools that "
-          "compare times",
-          &options->depfile_target},
-         comments_option(options->comments),
-         dialect_option(options->dialect)},
-        {selection_options(*options), budget_options(options->budget)},
-        "  gobo build lit --key 'fog=linear point=3' --key default -o generated\n"
-        "  gobo build lit --cover 3 --where 'point <= 2' -o out\n"
-        "  gobo build lit --keys-from recorded.txt --namespace game::shaders --dialect 330 -o generated\n"
-        "  gobo build lit --key 'directional=1 specular=blinn' --max-error 0.01 -o generated\n"
-        "  gobo build game.toml --all -I my_pieces -o generated",
-        [options](const World& world) { return run(*options, world); }};
+    return {{"build", "Write the C++ header, the JSON manifest and the depfile"},
+            build_arguments(*options),
+            build_groups(*options),
+            "  gobo build lit --key 'fog=linear point=3' --key default -o generated\n"
+            "  gobo build lit --cover 3 --where 'point <= 2' -o out\n"
+            "  gobo build lit --keys-from recorded.txt --namespace game::shaders --dialect 330 -o generated\n"
+            "  gobo build lit --key 'directional=1 specular=blinn' --max-error 0.01 -o generated\n"
+            "  gobo build game.toml --all -I my_pieces -o generated",
+            [options](const World& world) -> Result<Outcome> {
+                GOBO_TRY(Built built, build(*options, world));
+                return std::move(built.outcome);
+            }};
 }
 
 }  // namespace gobo

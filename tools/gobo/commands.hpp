@@ -13,6 +13,7 @@ namespace gobo {
 [[nodiscard]] Command scene_command();
 [[nodiscard]] Command library_command();
 [[nodiscard]] Command cache_command();
+[[nodiscard]] Command watch_command();
 
 namespace titles {
 inline const Title kEval = {"eval", "Evaluate one invocation of a stage, in fp32 and fp64"};

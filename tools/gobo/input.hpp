@@ -42,6 +42,8 @@ struct World {
     const CommonOptions& options;
     MeasureQualities measure;
     ResultCache* cache = nullptr;  ///< where results are kept from one run to the next; null: nowhere
+    /// Writes what is told and the summary at once, for a command that goes on.
+    std::function<void(const Outcome&)> tell = nullptr;
 
     [[nodiscard]] int jobs() const {
         return options.jobs > 0 ? options.jobs

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
           repeatable(build_command()),
           repeatable(reflect_command()),
           repeatable(scene_command()),
+          watch_command(),
           library_command(),
           cache_command(),
           {titles::kEval},

@@ -1,0 +1,183 @@
+// gobo watch: what is saved is built, errors are told, and an application that runs takes what changed.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gobo/reload.hpp>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/file_system.hpp"
+
+namespace gobo {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using testing::HasSubstr;
+
+/// However slow the computer is; nothing here waits as long on a quiet one.
+constexpr std::chrono::seconds kPatience{30};
+
+void save(const std::string& path, const std::string& text) {
+    fs::create_directories(fs::path(path).parent_path());
+    std::ofstream(path) << text;
+}
+
+/// As editors do that keep the old file until the new one is whole.
+void save_by_renaming(const std::string& path, const std::string& text) {
+    save(path + "~", text);
+    fs::rename(path + "~", path);
+}
+
+std::string text_of(const std::string& path) {
+    return DiskFileSystem().read(path).value_or("");
+}
+
+bool await(const std::function<bool()>& is_so) {
+    const Clock::time_point end = Clock::now() + kPatience;
+    while (!is_so()) {
+        if (Clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+}
+
+class Watch : public testing::TestWithParam<const char*> {
+  protected:
+    void SetUp() override {
+        folder = ::mkdtemp(folder.data());
+        save(folder + "/tiny.toml",
+             "name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n"
+             "[features.fog]\nvalues = [\"none\", \"linear\"]\n");
+        save(folder + "/tiny.vert", "void main() { gl_Position = vec4(0.0); }\n");
+        save(folder + "/tiny.frag",
+             "#include <fog>\nlayout(location = 0) out vec4 color;\nvoid main() { color = seen(); }\n");
+        save(folder + "/fog/none.glsl", "vec4 seen() { return vec4(1.0); }\n");
+        save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.5); }\n");
+        start();
+        application.emplace(socket());
+        ASSERT_TRUE(await([&] { return programs.size() == 2 || take() >= 2; })) << text_of(folder + "/log");
+    }
+    void TearDown() override {
+        stop(SIGTERM);
+        fs::remove_all(folder);
+    }
+    [[nodiscard]] std::string socket() const { return folder + "/reload"; }
+
+    void start() {
+        process = ::fork();
+        if (process == 0) {
+            const std::string out = folder + "/log";
+            if (std::freopen(out.c_str(), "a", stderr) == nullptr) ::_exit(127);
+            const std::string family = folder + "/tiny.toml";
+            const std::string output = folder + "/out";
+            ::execl(GOBO_PROGRAM, "gobo", "watch", family.c_str(), "--all", "-I", (folder + "/mine").c_str(),
+                    "-o", output.c_str(), "--serve", socket().c_str(), "-j", "1",
+                    GetParam()[0] == '\0' ? nullptr : GetParam(), nullptr);
+            ::_exit(127);
+        }
+    }
+    /// Its exit status.
+    int stop(int signal) {
+        if (process < 0) return -1;
+        ::kill(process, signal);
+        int status = 0;
+        ::waitpid(process, &status, 0);
+        process = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    /// What the application takes between two frames.
+    int take() {
+        int count = 0;
+        application->take([&](const ReloadedProgram& program) {
+            programs[program.key] = program;
+            ++count;
+        });
+        taken += count;
+        return count;
+    }
+    [[nodiscard]] std::string fragment_of(const std::string& key) const {
+        for (const ReloadedStage& stage : programs.at(key).stages)
+            if (stage.kind == runtime::StageKind::fragment) return stage.text;
+        return {};
+    }
+    /// Saves, and waits until the application has what it means.
+    bool takes(const std::function<void()>& change, const std::string& key, const std::string& text) {
+        const Clock::time_point start = Clock::now();
+        change();
+        const bool is_taken = await([&] {
+            take();
+            return fragment_of(key).find(text) != std::string::npos;
+        });
+        const auto taken_for = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
+        RecordProperty("milliseconds", static_cast<int>(taken_for.count()));
+        return is_taken;
+    }
+
+    std::string folder = "/tmp/gobo_watch_XXXXXX";
+    pid_t process = -1;
+    std::optional<Reload> application;
+    std::map<std::string, ReloadedProgram> programs;
+    int taken = 0;
+};
+
+TEST_P(Watch, HandsOnWhatIsSavedAndNothingElse) {
+    EXPECT_THAT(fragment_of("default"), HasSubstr("vec4(1.0)"));
+    taken = 0;
+    EXPECT_TRUE(takes([&] { save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.25); }\n"); },
+                      "fog=linear", "vec4(0.25)"));
+    EXPECT_EQ(taken, 1) << "the other program has no such piece";
+    EXPECT_TRUE(
+        takes([&] { save_by_renaming(folder + "/fog/none.glsl", "vec4 seen() { return vec4(0.75); }\n"); },
+              "default", "vec4(0.75)"));
+    EXPECT_THAT(text_of(folder + "/out/tiny.hpp"), HasSubstr("vec4(0.75)"));
+}
+
+TEST_P(Watch, KeepsTheOldProgramsWhileThereAreErrors) {
+    save(folder + "/fog/linear.glsl", "vec4 seen() { return missing; }\n");
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }))
+        << text_of(folder + "/log");
+    EXPECT_THAT(application->errors(), HasSubstr("fog/linear.glsl:1: error: 'missing' : undeclared"));
+    EXPECT_THAT(fragment_of("fog=linear"), HasSubstr("vec4(0.5)"));
+    EXPECT_THAT(text_of(folder + "/out/tiny.hpp"), HasSubstr("vec4(0.5)"));
+    EXPECT_THAT(text_of(folder + "/log"), HasSubstr("waiting for a change"));
+    EXPECT_TRUE(takes([&] { save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.125); }\n"); },
+                      "fog=linear", "vec4(0.125)"));
+    EXPECT_EQ(application->errors(), "");
+}
+
+TEST_P(Watch, SeesFilesThatComeAndGo) {
+    EXPECT_TRUE(takes([&] { save(folder + "/mine/fog/linear.glsl", "vec4 seen() { return vec4(0.01); }\n"); },
+                      "fog=linear", "vec4(0.01)"))
+        << "a folder that was not there";
+    EXPECT_TRUE(takes([&] { fs::remove(folder + "/mine/fog/linear.glsl"); }, "fog=linear", "vec4(0.5)"));
+    fs::rename(folder + "/tiny.frag", folder + "/away");
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    EXPECT_THAT(application->errors(), HasSubstr("tiny.frag"));
+    fs::rename(folder + "/away", folder + "/tiny.frag");
+    ASSERT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
+}
+
+TEST_P(Watch, EndsWhenItIsAskedTo) {
+    EXPECT_EQ(stop(SIGINT), 0) << text_of(folder + "/log");
+    EXPECT_FALSE(fs::exists(socket()));
+    // The application goes on, and finds the next one.
+    take();
+    EXPECT_FALSE(application->is_connected());
+    start();
+    ASSERT_TRUE(await([&] { return take() > 0; }));
+    EXPECT_TRUE(application->is_connected());
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, Watch, testing::Values("", "--look"),
+                         [](const auto& row) { return row.param[0] == '\0' ? "told" : "looks"; });
+
+}  // namespace
+}  // namespace gobo

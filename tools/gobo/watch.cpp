@@ -1,0 +1,173 @@
+// gobo watch: what gobo build does, again whenever a file that it read changes.
+#include <chrono>
+#include <csignal>
+#include <memory>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include "core/file_trace.hpp"
+#include "core/file_watch.hpp"
+#include "core/result_cache.hpp"
+#include "gobo/application.hpp"
+#include "gobo/build.hpp"
+#include "gobo/commands.hpp"
+#include "gobo/reload_server.hpp"
+
+namespace gobo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Milliseconds of quiet after which a file is taken for saved, and between two looks where nobody tells.
+constexpr int kQuiet = 5;
+constexpr int kBetweenLooks = 200;
+
+struct WatchOptions : BuildOptions {
+    std::string socket;
+    bool looks = false;
+};
+
+/// Ends of the process that others ask for, as something to wait for.
+class Ending {
+  public:
+    Ending() {
+        sigset_t ends;
+        sigemptyset(&ends);
+        for (const int end : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, end);
+        sigprocmask(SIG_BLOCK, &ends, &before_);
+        descriptor_ = ::signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
+    }
+    Ending(const Ending&) = delete;
+    Ending& operator=(const Ending&) = delete;
+    ~Ending() {
+        signalfd_siginfo told{};
+        while (::read(descriptor_, &told, sizeof told) > 0) {
+        }
+        ::close(descriptor_);
+        sigprocmask(SIG_SETMASK, &before_, nullptr);
+    }
+    [[nodiscard]] int descriptor() const { return descriptor_; }
+
+  private:
+    sigset_t before_{};
+    int descriptor_ = -1;
+};
+
+class Watcher {
+  public:
+    Watcher(const WatchOptions& options, const World& world, std::unique_ptr<ReloadServer> server)
+        : options_(options),
+          world_(world),
+          cache_(world.cache == nullptr ? memory_ : *world.cache),
+          server_(std::move(server)) {}
+
+    /// Builds until it is asked to end. The error of the first build where no saved file can mend it.
+    Result<Outcome> run() {
+        for (bool is_first = true;; is_first = false) {
+            const Clock::time_point start = Clock::now();
+            TracedFiles files(world_.disk);
+            Result<Built> built = build(
+                options_, {files, world_.shipped, world_.options, world_.measure, &cache_, world_.tell});
+            if (!built && is_first && exit_status(built.error()) > 1)
+                return tl::unexpected(std::move(built).error());
+            if (!files.is_repeatable())
+                return fail(Fault::usage, "a file that is read only once cannot be watched",
+                            "name files, not standard input or a pipe");
+            tell(std::move(built), start);
+            if (!wait(files.questions())) return Outcome{};
+        }
+    }
+
+  private:
+    void tell(Result<Built> built, Clock::time_point start) {
+        Result<Outcome> outcome =
+            built ? with_files_written(built->outcome) : tl::unexpected(std::move(built).error());
+        if (!outcome) {
+            std::string errors;
+            for (const Diagnostic& error : outcome.error()) errors += to_text(error);
+            if (server_) server_->offer_errors(errors);
+            world_.tell(
+                {{}, std::move(outcome).error(), fmt::format("{}: waiting for a change", options_.family)});
+            return;
+        }
+        if (server_) {
+            const std::size_t changed = server_->offer(built->family, built->composition);
+            outcome->summary +=
+                fmt::format(", {} {} handed on", changed, changed == 1 ? "program" : "programs");
+        }
+        const auto taken = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
+        outcome->summary += fmt::format(", {} ms", taken.count());
+        world_.tell(*outcome);
+    }
+
+    /// Until an answer is another one. False where the process is to end.
+    bool wait(const std::vector<FileQuestion>& questions) {
+        watch_.follow(questions);
+        const bool looks = options_.looks || watch_.descriptor() < 0;
+        while (are_answered_alike(questions, world_.disk)) {
+            for (bool has_news = false; !has_news;) {
+                std::vector<pollfd> waited = {{ending_.descriptor(), POLLIN, 0},
+                                              {watch_.descriptor(), POLLIN, 0}};
+                if (server_)
+                    for (const pollfd& socket : server_->descriptors()) waited.push_back(socket);
+                if (::poll(waited.data(), waited.size(), looks ? kBetweenLooks : -1) < 0) continue;
+                if (waited[0].revents != 0) return false;
+                if (server_) server_->serve(waited);
+                has_news = looks || waited[1].revents != 0;
+            }
+            // An editor writes a file, then renames it; a checkout changes many.
+            for (pollfd news{watch_.descriptor(), POLLIN, 0}; ::poll(&news, 1, kQuiet) > 0;)
+                watch_.take_news();
+            watch_.follow(questions);
+        }
+        return true;
+    }
+
+    const WatchOptions& options_;
+    const World& world_;
+    MemoryCache memory_;
+    ResultCache& cache_;
+    std::unique_ptr<ReloadServer> server_;
+    Ending ending_;
+    FileWatch watch_;
+};
+
+Result<Outcome> run(const WatchOptions& options, const World& world) {
+    if (options.folder == kStandardOutput)
+        return fail(Fault::usage, "what is printed cannot be built again", "name a folder with -o");
+    std::unique_ptr<ReloadServer> server;
+    if (!options.socket.empty()) {
+        GOBO_TRY(server, ReloadServer::open(options.socket));
+    }
+    return Watcher(options, world, std::move(server)).run();
+}
+
+}  // namespace
+
+Command watch_command() {
+    const auto options = std::make_shared<WatchOptions>();
+    Command command = {{"watch", "Build, and build again whenever a file is saved"},
+                       build_arguments(*options),
+                       build_groups(*options),
+                       "  gobo watch game.toml --keys-from game.keys -I pieces -o generated\n"
+                       "  gobo watch game.toml --keys-from game.keys -o generated --serve /tmp/game.reload",
+                       [options](const World& world) { return run(*options, world); },
+                       "It ends with control-C. After each build the errors of the last state are told, and "
+                       "nothing else; the "
+                       "header stays as it was until there are none."};
+    command.options.push_back(
+        {"--serve", "FILE",
+         "A socket at which running applications take changed programs, by <gobo/reload.hpp>",
+         &options->socket});
+    command.options.push_back(
+        {"--look", "",
+         "Look for changes five times a second, where the system tells of none: files of a "
+         "network, or of a host computer",
+         &options->looks});
+    return command;
+}
+
+}  // namespace gobo
