@@ -11,12 +11,8 @@ void cutOut() {}
 // Discard where alpha of the map times alpha of the vertices < threshold, all 0 to 1. Exactly at the threshold the surface
 // stays; a threshold of 0 cuts nothing.
 #include <vertex_color/alpha>
+#include "cutout/parameters.glsl"
 #include "surface/texture_coordinate.glsl"
-
-/// What is less opaque is cut.
-BLOCK(15, Cutout) {
-    float threshold;
-} cutout;
 
 /// How opaque the surface is, in alpha.
 SAMPLER(0, sampler2D) opacityMap;
@@ -25,3 +21,9 @@ SAMPLER(0, sampler2D) opacityMap;
 void cutOut() {
     if (texture(opacityMap, surfaceTextureCoordinate()).a * surfaceAlpha() < cutout.threshold) discard;
 }
+
+#piece parameters
+/// What is less opaque is cut.
+BLOCK(15, Cutout) {
+    float threshold;
+} cutout;

@@ -1,5 +1,5 @@
 // The fragment stage of physically based surfaces: radiance, seen through the fog, alpha and depth.
-#include <cutout>
+#include <cutout/physical>
 #include <output_range>
 #include <lighting>
 #include <fog>

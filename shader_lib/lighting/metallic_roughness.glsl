@@ -4,6 +4,7 @@
 // Source: glTF 2.0, 3.9 and appendix B.
 
 #include <directional>
+#include <occlusion_map>
 #include <point>
 #include <reflection/split_sum>
 #include <spot>
@@ -12,7 +13,7 @@
 /// The radiance that leaves the surface towards the viewer, before fog.
 vec3 litSurface() {
     beginSurface();
-    vec3 radiance = emittedRadiance() + environmentRadiance();
+    vec3 radiance = emittedRadiance() + ambientOcclusion() * environmentRadiance();
 #if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
     beginResponse();
 #endif

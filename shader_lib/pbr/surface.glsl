@@ -4,6 +4,8 @@
 // Edges:  alpha is at least 0.002, whose peak, 1 / (pi alpha^2) = 8e4, a float's directions still resolve; n.v is at least 1e-4,
 //         since interpolated normals may face away from the viewer.
 
+#include <emissive_map>
+#include <metallic_roughness_map>
 #include <sides>
 #include <viewer>
 #include "pbr/base_color.glsl"
@@ -32,8 +34,9 @@ void beginSurface() {
     surface.toViewer = towardViewer();
     surface.nv = max(dot(surface.normal, surface.toViewer), 1e-4);  // guard: normal that faces away
     surface.base = baseColor().rgb;
-    surface.metallic = material.metallic;
-    surface.roughness = material.roughness;
+    vec3 texel = metallicRoughnessTexel();
+    surface.metallic = material.metallic * texel.b;
+    surface.roughness = material.roughness * texel.g;
     surface.alpha = max(surface.roughness * surface.roughness, 0.002);  // guard: peak beyond what directions resolve
     surface.f0 = mix(material.dielectric, surface.base, surface.metallic);
     surface.f90 = mix(material.dielectricEdge, 1.0, surface.metallic);
@@ -41,4 +44,4 @@ void beginSurface() {
 }
 
 /// The radiance that the surface emits.
-vec3 emittedRadiance() { return material.emission; }
+vec3 emittedRadiance() { return material.emission * emissiveTexel(); }

@@ -67,9 +67,9 @@ Surface surface_of(const Model& model, const Scene& scene, const PhysicalPoint& 
     const Material& material = scene.material;
     Surface surface;
     const glm::dvec3 base(point.base_color);
-    surface.reflectance = {base, material.dielectric, material.dielectric_edge, material.metallic};
-    surface.diffuse = (1 - material.metallic) * base;
-    surface.roughness = material.roughness;
+    surface.reflectance = {base, material.dielectric, material.dielectric_edge, point.metallic};
+    surface.diffuse = (1 - point.metallic) * base;
+    surface.roughness = point.roughness;
     surface.alpha = r(alpha_of_roughness(surface.roughness));
     surface.nv = std::max(r(glm::dot(point.normal, point.to_viewer), 2), kLeastCosineToViewer);
     surface.brdf =
@@ -102,12 +102,12 @@ void add_environment(const Model& model, const Scene& scene, const PhysicalPoint
         const glm::dvec3 once = surface.brdf.x * surface.reflectance.f0() +
                                 glm::dvec3(surface.brdf.y * surface.reflectance.f90());
         const glm::dvec3 again = weight * environment_again(model, surface, once);
-        radiance.value += weight * once * point.reflected.value;
+        radiance.value += point.occlusion * weight * once * point.reflected.value;
         radiance.largest += weight * once * glm::abs(point.reflected.value);
         scattered = again + glm::max(1.0 - weight * once - again, glm::dvec3(0)) * surface.diffuse;
         radiance.largest += (again + surface.diffuse) * point.ambient.largest;
     }
-    radiance.value += scattered * point.ambient.value;
+    radiance.value += point.occlusion * scattered * point.ambient.value;
     radiance.largest += scattered * point.ambient.largest;
 }
 
@@ -215,7 +215,7 @@ glm::dvec2 environment_brdf(EnvironmentBrdf kind, const glm::dvec2& table, doubl
 PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const PhysicalPoint& point,
                              Roundings& r) {
     const Surface surface = surface_of(model, scene, point, r);
-    PhysicalRadiance radiance{scene.material.emission, scene.material.emission};
+    PhysicalRadiance radiance{point.emission, point.emission};
     add_environment(model, scene, point, surface, radiance);
     const glm::dvec3 scale = highlight_scale(model, surface);
     for (std::size_t i = 0; i < point.lights.size(); ++i) {

@@ -80,9 +80,14 @@ struct Reflectance {
 
 /// A surface point and all that reaches it.
 struct PhysicalPoint {
-    glm::dvec3 normal{0};     ///< unit, unless it is interpolated as it is
-    glm::dvec3 to_viewer{0};  ///< unit, or zero
+    glm::dvec3 normal{0};      ///< unit, unless it is interpolated as it is
+    glm::dvec3 to_viewer{0};   ///< unit, or zero
+    double normal_length = 1;  ///< of the normal of a picture before it is made unit
     glm::dvec4 base_color{0};
+    double metallic = 0;
+    double roughness = 0;
+    double occlusion = 1;  ///< what ambient light is multiplied by
+    glm::dvec3 emission{0};
     std::vector<IncidentLight> lights;
     std::vector<bool> has_half;  ///< per light, whether it and the viewer have a half vector
     AmbientLight ambient;

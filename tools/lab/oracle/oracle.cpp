@@ -100,19 +100,70 @@ double schlick(double cosine, double shininess) {
     return cosine / (shininess - shininess * cosine + cosine);
 }
 
+/// What a picture holds at the point; white where the key has none.
+glm::dvec4 texel_of(const Model& model, const Scene& scene, const SurfacePoint& point, MapKind map,
+                    bool is_in) {
+    const auto index = static_cast<std::size_t>(map);
+    if (!is_in) return glm::dvec4(1);
+    glm::dvec2 place = point.texture_coordinate;
+    if (model.texture_placement == Placement::placed) {
+        const TexturePlacement& at = scene.placements[index];
+        const glm::dvec2 uv = at.set == 0 ? point.texture_coordinate : point.texture_coordinate1;
+        place = {at.linear[0] * uv.x + at.linear[1] * uv.y + at.offset.x,
+                 at.linear[2] * uv.x + at.linear[3] * uv.y + at.offset.y};
+    }
+    return scene.pictures[index].at(place);
+}
+
+glm::dvec4 base_color_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
+    const glm::dvec4 texel =
+        texel_of(model, scene, point, MapKind::base_color, model.base_color_map == Picture::texture);
+    return scene.material.base_color * texel *
+           (model.vertex_color == VertexColor::modulate ? point.color : glm::dvec4(1));
+}
+
+/// The unit normal that a picture bends (glTF 2.0, 3.9.3): x T + y w (N x T) + z N of 2 texel - 1.
+glm::dvec3 bent(const Model& model, const Scene& scene, const SurfacePoint& point, const glm::dvec3& normal,
+                double& length, Decisions& decisions) {
+    if (model.normal_map == NormalMap::none) return normal;
+    const glm::dvec3 texel =
+        2.0 * glm::dvec3(texel_of(model, scene, point, MapKind::normal, true)) - glm::dvec3(1);
+    const glm::dvec3 tangent(point.tangent);
+    const glm::dvec3 bitangent = point.tangent.w * glm::cross(normal, tangent);
+    const double scale = scene.material.normal_scale;
+    const glm::dvec3 sum = scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal;
+    length = glm::length(sum);
+    if (!decisions.above(length, 1e-6)) {
+        length = 1;
+        return normal;
+    }
+    return sum / length;
+}
+
 /// Of a metallic-roughness surface.
 Radiance physical_radiance(const Model& model, const Scene& scene, const SurfacePoint& point,
                            Decisions& decisions) {
     Radiance radiance;
     PhysicalPoint physical;
-    physical.base_color = scene.material.base_color;
-    if (model.vertex_color == VertexColor::modulate) physical.base_color *= point.color;
+    const Material& material = scene.material;
+    physical.base_color = base_color_of(model, scene, point);
     if (model.lighting == Lighting::base_color) {
         radiance.value = radiance.largest = glm::dvec3(physical.base_color);
         return radiance;
     }
     const bool is_flipped = model.sides != Sides::one && point.is_back;
-    physical.normal = shading_direction(model, is_flipped ? -point.normal : point.normal);
+    const glm::dvec4 metallic_roughness = texel_of(model, scene, point, MapKind::metallic_roughness,
+                                                   model.metallic_roughness_map == Picture::texture);
+    physical.metallic = material.metallic * metallic_roughness.b;
+    physical.roughness = material.roughness * metallic_roughness.g;
+    physical.emission = material.emission * glm::dvec3(texel_of(model, scene, point, MapKind::emissive,
+                                                                model.emissive_map == Picture::texture));
+    const double occlusion =
+        texel_of(model, scene, point, MapKind::occlusion, model.occlusion_map == Picture::texture).r;
+    physical.occlusion = 1 + material.occlusion_strength * (occlusion - 1);
+    physical.normal =
+        bent(model, scene, point, shading_direction(model, point.normal), physical.normal_length, decisions);
+    if (is_flipped) physical.normal = -physical.normal;
     physical.to_viewer = to_viewer(model, point.position);
     physical.lights = incident_lights(model, scene, point.position, decisions);
     cast_shadows(model, scene, point.position, physical.lights, decisions);
@@ -187,14 +238,14 @@ Radiance lit_radiance(const Model& model, const Scene& scene, const SurfacePoint
 }
 
 double alpha_of(const Model& model, const Scene& scene, const SurfacePoint& point) {
-    const double own = model.is_physical() ? scene.material.base_color.a : 1;
-    return own * (model.vertex_color == VertexColor::modulate ? point.color.a : 1);
+    if (model.is_physical()) return base_color_of(model, scene, point).a;
+    return model.vertex_color == VertexColor::modulate ? point.color.a : 1;
 }
 
 bool is_cut_out(const Model& model, const Scene& scene, const SurfacePoint& point, Decisions& decisions) {
     return model.cutout == Cutout::threshold &&
            decisions.above(scene.cutout_threshold,
-                           point.opacity * (model.vertex_color == VertexColor::modulate ? point.color.a : 1));
+                           alpha_of(model, scene, point) * (model.is_physical() ? 1 : point.opacity));
 }
 
 double fog_distance(FogDistance kind, const glm::dvec3& position) {

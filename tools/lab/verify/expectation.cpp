@@ -67,6 +67,19 @@ struct EyeNormal {
     double error = 0;
 };
 
+/// The unit tangent in eye space and the bitangent's sign, which a mirrored model turns round.
+Expected expect_tangent(const Sample& sample) {
+    const glm::dmat3 matrix(sample.model_view);
+    const glm::dvec3 given(sample.object_tangent);
+    const glm::dvec3 tangent = matrix * given;
+    const double largest = glm::length(absolute(matrix) * glm::abs(given));
+    const double length = glm::length(tangent);
+    const double error = (length > 0 ? 3 * kUnitRoundoff * largest / length : 0) + kDirectionError;
+    const double sign = glm::determinant(matrix) < 0 ? -1 : 1;
+    return expected("eyeTangent", glm::dvec4(oracle::direction_of(tangent), sample.object_tangent.w * sign),
+                    glm::dvec4(1), glm::dvec4(glm::dvec3(error), 0));
+}
+
 EyeNormal eye_normal(const Sample& sample) {
     const glm::dvec3 normal = sample.normal_matrix * sample.object_normal;
     const glm::dvec3 largest = absolute(sample.normal_matrix) * glm::abs(sample.object_normal);
@@ -135,6 +148,7 @@ std::vector<Expected> expect_cosines(const oracle::Model& model, const oracle::S
 void add_passed_on(const Sample& sample, std::vector<Expected>& outputs) {
     outputs.push_back(expected("vertexColor", sample.surface.color));
     outputs.push_back(expected("textureCoordinate", sample.surface.texture_coordinate));
+    outputs.push_back(expected("textureCoordinate1", sample.surface.texture_coordinate1));
     outputs.push_back({"flatMaterialIndex", 1, {static_cast<double>(sample.surface.material)}, {}, {}, true});
     outputs.push_back(
         {"handedness", 1, {glm::determinant(glm::dmat3(sample.model_view)) < 0 ? -1.0 : 1.0}, {}, {}, true});
@@ -158,6 +172,7 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
     add_passed_on(sample, outputs);
+    if (model.normal_map == oracle::NormalMap::tangent) outputs.push_back(expect_tangent(sample));
     oracle::SurfacePoint point = sample.surface;
     point.position = placed.value;
     point.normal = normal.value;
@@ -204,7 +219,7 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
     // What is cut off at a range is no further off than it was before.
     const glm::dvec3 held = oracle::within_range(model.output_range, seen.value);
     // Alpha is passed on, or the product of the material's and the vertices'.
-    const double alpha_error = model.is_physical() ? 1 : 0;
+    const double alpha_error = model.is_physical() ? 8 : 0;
     return expected(
         "fragmentColor", glm::dvec4(held, oracle::alpha_of(model, sample.scene, point)),
         glm::dvec4(seen.largest, alpha_error),

@@ -181,6 +181,23 @@ double opacity_of(const evaluate::Image& image, const Sample& sample) {
     return image(request)[3];
 }
 
+template <oracle::MapKind map>
+evaluate::TextureContent picture_of(const Sample& sample) {
+    const oracle::EvenPicture& picture = sample.scene.pictures[static_cast<std::size_t>(map)];
+    const auto four = [](const glm::dvec4& color) {
+        return std::array<double, 4>{color.r, color.g, color.b, color.a};
+    };
+    return evaluate::EvenColor{four(picture.even), {four(picture.along_s), four(picture.along_t), {}}};
+}
+
+/// Of one colour, as the image is asked at one place.
+template <oracle::MapKind map>
+void set_picture(Sample& sample, const evaluate::Image& image, const evaluate::ImagePort& port) {
+    const auto even = std::get<evaluate::EvenColor>(evaluate::content_of(image, port, 0));
+    sample.scene.pictures[static_cast<std::size_t>(map)] = {
+        {even.color[0], even.color[1], even.color[2], even.color[3]}, glm::dvec4(0), glm::dvec4(0)};
+}
+
 /// What a sampler holds for a sample.
 struct SamplerField {
     std::string_view name;
@@ -204,6 +221,12 @@ constexpr SamplerField kSamplerFields[] = {
      [](Sample& s, const auto& image, const auto& port) {
          s.scene.reflection.map = cube_map_of(evaluate::content_of(image, port, 0));
      }},
+    {"baseColorMap", picture_of<oracle::MapKind::base_color>, set_picture<oracle::MapKind::base_color>},
+    {"metallicRoughnessMap", picture_of<oracle::MapKind::metallic_roughness>,
+     set_picture<oracle::MapKind::metallic_roughness>},
+    {"normalMap", picture_of<oracle::MapKind::normal>, set_picture<oracle::MapKind::normal>},
+    {"occlusionMap", picture_of<oracle::MapKind::occlusion>, set_picture<oracle::MapKind::occlusion>},
+    {"emissiveMap", picture_of<oracle::MapKind::emissive>, set_picture<oracle::MapKind::emissive>},
     {"environmentBrdfTable",
      [](const Sample& s) -> evaluate::TextureContent {
          return evaluate::EvenColor{{s.scene.environment_brdf.x, s.scene.environment_brdf.y, 0, 1}, {}};

@@ -216,12 +216,29 @@ glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene
     const glm::dvec3 ambient = ambient_error(exact.ambient, normal);
     const glm::dvec3 mirrored =
         exact.reflected.slope * (to_viewer + 4 * normal + 14 * kU) + exact.reflected.value * (5 * kU);
+    // A texel at a place that is rounded: eight roundings of what it is multiplied by. A normal of a picture
+    // is a sum of three such vectors, made unit.
+    const bool is_bent = model.normal_map == oracle::NormalMap::tangent;
+    const bool has_pictures = is_bent || model.base_color_map == oracle::Picture::texture ||
+                              model.metallic_roughness_map == oracle::Picture::texture ||
+                              model.occlusion_map == oracle::Picture::texture ||
+                              model.emissive_map == oracle::Picture::texture;
+    const double texel = has_pictures ? 8 * kU : 0;
+    const double tilt = 1 + std::abs(scene.material.normal_scale);
+    const double bent_normal =
+        is_bent ? tilt * (2 * normal + 16 * kU) / exact.normal_length + kDirectionError : normal;
     glm::dvec3 change{0};
     for (int i = 1; i <= kRoundedEvaluations; ++i) {
         Random random(static_cast<std::uint64_t>(i));
         const auto off = [&](const glm::dvec3& most) { return most * random.components(-1, 1); };
         oracle::PhysicalPoint point = exact;
-        point.normal += off(glm::dvec3(normal));
+        point.normal += off(glm::dvec3(bent_normal));
+        point.base_color += glm::dvec4(off(glm::dvec3(texel)), 0);
+        const glm::dvec3 factors = off(glm::dvec3(texel));
+        point.metallic += factors.x;
+        point.roughness += factors.y;
+        point.occlusion += factors.z;
+        point.emission += off(exact.emission * texel);
         point.to_viewer += off(glm::dvec3(to_viewer));
         for (oracle::IncidentLight& light : point.lights) {
             const IncidentErrors incident = incident_errors(model, light, errors.position);

@@ -38,6 +38,26 @@ void set_row(glm::dmat4& matrix, int row, const glm::dvec3& position, double val
     matrix[3][row] = value - glm::dot(slope, position);
 }
 
+/// Pictures of every colour, evenly changing; now and then one of the undisturbed normal, or of none at all.
+void fill_pictures(Random& random, Sample& sample) {
+    const auto even = [&](double low, double high) {
+        return glm::dvec4(random.components(low, high), random.between(low, high));
+    };
+    for (oracle::EvenPicture& picture : sample.scene.pictures)
+        picture = {even(0.2, 0.8), even(-0.02, 0.02), even(-0.02, 0.02)};
+    oracle::EvenPicture& normals = sample.scene.pictures[static_cast<std::size_t>(oracle::MapKind::normal)];
+    normals.even.z = random.between(0.6, 1);
+    if (random.one_in(8)) normals = {{0.5, 0.5, random.one_in(16) ? 0.5 : 1, 1}, glm::dvec4(0), glm::dvec4(0)};
+    for (oracle::TexturePlacement& placement : sample.scene.placements)
+        placement = {even(-2, 2), {random.between(-1, 1), random.between(-1, 1)}, random.whole(0, 1)};
+    oracle::SurfacePoint& point = sample.surface;
+    point.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
+    point.texture_coordinate1 = {random.between(-2, 2), random.between(-2, 2)};
+    const double sign = random.one_in(2) ? -1 : 1;
+    point.tangent = {random.direction() * random.between(0.3, 1), sign};
+    sample.object_tangent = {random.direction(), sign};
+}
+
 /// A light before which the point lies at `reference` depth, somewhere on the map or a little beside it; one
 /// in sixteen has the point behind it.
 void place_map(oracle::Shadow& shadow, bool is_spot, double reference, const glm::dvec3& position,
@@ -165,6 +185,9 @@ void fill_metallic_roughness(Random& random, Sample& sample) {
     material.roughness = random.one_in(4) ? random.across(0.01, 0.2) : factor();
     material.dielectric = random.one_in(2) ? glm::dvec3(0.04) : random.components(0, 1);
     material.dielectric_edge = random.one_in(2) ? 1 : factor();
+    material.normal_scale = random.one_in(2) ? 1 : random.between(-2, 2);
+    material.occlusion_strength = factor();
+    fill_pictures(random, sample);
 }
 
 void vary_surface(std::size_t vertex, Sample& sample) {
@@ -172,6 +195,11 @@ void vary_surface(std::size_t vertex, Sample& sample) {
     sample.surface.color = {random.components(0, 1), random.unit()};
     sample.surface.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
     sample.surface.material = random.whole(-2, 16);
+    if (!sample.model.is_physical()) return;
+    sample.surface.texture_coordinate1 = {random.between(-2, 2), random.between(-2, 2)};
+    // Any direction along the surface that changes little from vertex to vertex.
+    const glm::dvec3 along = glm::cross(sample.object_normal, glm::dvec3(0.3, 1, 0.2));
+    sample.object_tangent = {oracle::direction_of(along), sample.object_tangent.w};
 }
 
 void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, Random& random,
