@@ -18,6 +18,7 @@ if(GOBO_LAB)
     message(FATAL_ERROR "gobo-lab needs the header vulkan/vulkan_core.h: apt-get install libvulkan-dev, or leave gobo-lab out with -D GOBO_LAB=OFF")
   endif()
 endif()
+find_package(JPEG REQUIRED)  # libjpeg-turbo: its JCS_EXT_RGBA
 find_path(GOBO_LODEPNG_INCLUDE lodepng.h REQUIRED)
 find_library(GOBO_LODEPNG_LIBRARY lodepng REQUIRED)
 set(GOBO_SPIRV_TOOLS $<IF:$<TARGET_EXISTS:SPIRV-Tools-static>,SPIRV-Tools-static,SPIRV-Tools>)

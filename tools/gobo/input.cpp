@@ -67,7 +67,8 @@ void add_include_folders(const World& world, SearchPath& search) {
 Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& family, const std::string& path,
                                             const std::string& bucket_lights) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(bucket_lights));
-    GOBO_TRY(const scene::Scene scene, scene::read_scene(world.disk, path));
+    GOBO_TRY(const scene::Scene scene,
+             scene::read_scene(world.disk, path, scene::reading_for(family.family)));
     family.files.insert(family.files.end(), scene.files.begin(), scene.files.end());
     const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));

@@ -155,7 +155,8 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     const Family& family = loaded.family;
     const std::string_view dialect = name_of(loaded.dialect);
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
-    GOBO_TRY(const scene::Scene scene, scene::read_scene(world.disk, options.scene));
+    GOBO_TRY(const scene::Scene scene,
+             scene::read_scene(world.disk, options.scene, scene::reading_for(family)));
     GOBO_TRY(const scene::EyePlace eye, place_eye(scene, options.camera));
     const auto draws = scene::required_effects(scene, eye, options.thresholds);
     SceneReport report{family, draws, {}, {}, buckets, {}};

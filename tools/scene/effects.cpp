@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -153,7 +154,15 @@ bool is_black(const glm::dvec3& color) {
 }
 
 /// What the surface gives back of a light that arrives with radiance 1, at most (the models of `lit`).
-double response_of(const Material& material, const Overrides& overrides) {
+double response_of(const Scene& scene, const Material& material, const Overrides& overrides) {
+    if (scene.is_physical) {
+        // D is at most 1 / (pi alpha^2), V n.l at most 1 / (2 alpha), Fresnel's reflectance 1: of a picture
+        // the least roughness is not known.
+        const auto& map = material.physical.maps[static_cast<std::size_t>(MapKind::metallic_roughness)];
+        const double roughness = map ? 0 : material.physical.roughness;
+        const double alpha = std::max(roughness * roughness, 0.002);
+        return (1 + 0.5 / (alpha * alpha * alpha)) / std::numbers::pi;
+    }
     const bool has_highlight = overrides.specular != "none" && overrides.toon_levels.value_or(0) == 0;
     const glm::dvec3 most =
         material.diffuse + (has_highlight ? material.strength * material.specular : glm::dvec3(0));
@@ -162,8 +171,10 @@ double response_of(const Material& material, const Overrides& overrides) {
 
 void judge_lights(const Subject& subject, const std::vector<PlacedLight>& lights, double threshold,
                   std::vector<Effect>& effects) {
-    const bool gives_back = !is_black(subject.material.diffuse) || !is_black(subject.material.specular);
-    const double least = threshold / response_of(subject.material, subject.overrides);
+    const bool gives_back = subject.scene.is_physical
+                                ? !subject.material.unlit
+                                : !is_black(subject.material.diffuse) || !is_black(subject.material.specular);
+    const double least = threshold / response_of(subject.scene, subject.material, subject.overrides);
     for (const PlacedLight& light : lights) {
         Verdict verdict{false, "its material gives back no light"};
         if (gives_back) verdict = judge_light(light, subject, least);
@@ -191,30 +202,41 @@ Effect judge_fog(const Subject& subject, const EyePlace& eye, double threshold) 
                                      is_in ? "" : fmt::format(", below {:.2g}", threshold)));
 }
 
-/// The least and the greatest alpha that the surface may have somewhere.
-Interval alpha_range(const Primitive& primitive, const Material& material) {
-    Interval of_map{1, 1};
-    if (material.opacity) of_map = {0, 1};
-    if (material.opacity && !material.opacity->texels.empty()) {
-        const auto [low, high] = std::ranges::minmax(material.opacity->texels);
-        of_map = {low / 255.0, high / 255.0};
-    }
+/// The least and the greatest of every `step`-th number from `first` on, in 255ths.
+Interval range_of(const std::vector<std::uint8_t>& numbers, std::size_t first, std::size_t step) {
+    Interval range{1, 0};
+    for (std::size_t i = first; i < numbers.size(); i += step) range.add(numbers[i] / 255.0);
+    return numbers.empty() ? Interval{0, 1} : range;
+}
+
+/// The least and the greatest alpha that the surface may have somewhere, by what its picture has.
+Interval alpha_range(const Primitive& primitive, double alpha, const Interval& of_map) {
     Interval of_vertices{1, 1};
     if (!primitive.colors.empty()) {
         of_vertices = {1, 0};
         for (const glm::vec4& color : primitive.colors) of_vertices.add(color.a);
     }
-    return {material.alpha * of_map.low * of_vertices.low, material.alpha * of_map.high * of_vertices.high};
+    return {alpha * of_map.low * of_vertices.low, alpha * of_map.high * of_vertices.high};
 }
 
-Effect judge_vertex_color(const Primitive& primitive, const Material& material) {
+Interval alpha_range(const Scene& scene, const Primitive& primitive, const Material& material) {
+    if (scene.is_physical) {
+        const auto& use = material.physical.maps[static_cast<std::size_t>(MapKind::base_color)];
+        return alpha_range(primitive, material.physical.base_color.a,
+                           use ? range_of(scene.pictures[use->picture].texels, 3, 4) : Interval{1, 1});
+    }
+    return alpha_range(primitive, material.alpha,
+                       material.opacity ? range_of(material.opacity->texels, 0, 1) : Interval{1, 1});
+}
+
+Effect judge_vertex_color(const Primitive& primitive, const Material& material, const glm::dvec3& scattered) {
     bool is_colored = false;
     bool is_transparent = false;
     for (const glm::vec4& color : primitive.colors) {
         is_colored = is_colored || glm::vec3(color) != glm::vec3(1);
         is_transparent = is_transparent || (color.a != 1 && material.alpha_mode != AlphaMode::opaque);
     }
-    const bool is_seen = is_colored && !(is_black(material.diffuse) && is_black(material.ambient));
+    const bool is_seen = is_colored && !is_black(scattered);
     return decide("vertex_color", "vertex_color", "modulate",
                   {{primitive.colors.empty(), "it has none"},
                    {!is_seen && !is_transparent,
@@ -231,7 +253,7 @@ void judge_surface(const Subject& subject, const EyePlace& eye, double fog_thres
     const std::string specular = overrides.specular.value_or("blinn");
     const std::string probe = overrides.probe ? overrides.probe->kind : "none";
     const double reflection = overrides.reflection.value_or(0);
-    const double lowest = alpha_range(subject.primitive, material).low;
+    const double lowest = alpha_range(subject.scene, subject.primitive, material).low;
     const Objection unlit{!subject.is_lit, "no light is in"};
     const Objection dull{is_black(material.specular) || material.strength == 0,
                          "its material has no highlight"};
@@ -253,7 +275,7 @@ void judge_surface(const Subject& subject, const EyePlace& eye, double fog_thres
                  {lowest >= material.alpha_cutoff,
                   fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
                 fmt::format("its alpha falls to {:.3g}, below {:.3g}", lowest, material.alpha_cutoff)),
-         judge_vertex_color(subject.primitive, material),
+         judge_vertex_color(subject.primitive, material, material.diffuse + material.ambient),
          decide("texture", "texture", "on", {{!material.is_textured, "it has none"}},
                 "its material has textures"),
          decide("probe", "ambient", probe,
@@ -262,6 +284,110 @@ void judge_surface(const Subject& subject, const EyePlace& eye, double fog_thres
                 probe),
          decide("reflection", "reflection", "image", {{reflection == 0, "not asked for"}, dull},
                 fmt::format("a share of {:.3g}", reflection))});
+    for (const auto& [feature, value] : overrides.quality)
+        effects.push_back({feature, feature, value, true, "asked for"});
+}
+
+/// Whether a picture's texels are alike, to within a step, in the channels of the mask: then what it would
+/// say is `expected`, in 255ths.
+bool says_only(const TextureImage& picture, const std::array<int, 4>& expected, unsigned channels,
+               int slack) {
+    for (std::size_t i = 0; i < picture.texels.size(); ++i)
+        if ((channels >> (i % 4) & 1U) != 0 && std::abs(picture.texels[i] - expected[i % 4]) > slack)
+            return false;
+    return true;
+}
+
+/// A picture of a metallic-roughness material: out where it changes nothing.
+Effect judge_map(const Subject& subject, MapKind kind) {
+    const PhysicalMaterial& material = subject.material.physical;
+    const auto number = static_cast<std::size_t>(kind);
+    const std::optional<TextureUse>& use = material.maps[number];
+    const std::string feature = kMapFeatures[number];
+    const bool is_normal = kind == MapKind::normal;
+    const std::string value = is_normal ? "tangent" : "texture";
+    std::vector<Objection> objections = {{!use, "it has none"}};
+    if (use) {
+        const Primitive& primitive = subject.primitive;
+        const auto& places = use->set == 0 ? primitive.texcoords : primitive.texcoords1;
+        const TextureImage& picture = subject.scene.pictures[use->picture];
+        const bool shows_alpha = subject.material.alpha_mode != AlphaMode::opaque;
+        const std::array<unsigned, 5> channels = {shows_alpha ? 15U : 7U, 6U, 7U, 1U, 7U};
+        const std::array<int, 4> expected =
+            is_normal ? std::array{128, 128, 255, 255} : std::array{255, 255, 255, 255};
+        const bool is_lit =
+            subject.is_lit || subject.overrides.reflection.value_or(0) > 0 || subject.overrides.probe;
+        objections.insert(
+            objections.end(),
+            {{use->set > 1,
+              fmt::format("its texture coordinates are set {}, of which 0 and 1 are read", use->set)},
+             {places.empty() && use->set <= 1, "its mesh has no texture coordinates"},
+             {is_normal && primitive.tangents.empty(), "its mesh has no tangents"},
+             {is_normal && material.normal_scale == 0, "its scale is 0"},
+             {is_normal && !is_lit, "no light is in"},
+             {kind == MapKind::occlusion && material.occlusion_strength == 0, "its strength is 0"},
+             {kind == MapKind::emissive && is_black(subject.material.emission), "its material emits nothing"},
+             {kind != MapKind::base_color && subject.material.unlit, "its material is unlit"},
+             {says_only(picture, expected, channels[number], is_normal ? 1 : 0),
+              is_normal ? "it is flat" : "it is white"}});
+    }
+    return decide(feature, feature, value, objections,
+                  use ? fmt::format("{} x {} texels", subject.scene.pictures[use->picture].width,
+                                    subject.scene.pictures[use->picture].height)
+                      : "");
+}
+
+/// What a metallic-roughness material decides, once the lights are judged.
+void judge_physical_surface(const Subject& subject, const EyePlace& eye, double fog_threshold,
+                            std::vector<Effect>& effects) {
+    const Overrides& overrides = subject.overrides;
+    const Material& material = subject.material;
+    const PhysicalMaterial& physical = material.physical;
+    const std::string probe = overrides.probe ? overrides.probe->kind : "none";
+    const double reflection = overrides.reflection.value_or(0);
+    const Objection unlit{material.unlit, "its material is unlit"};
+    effects.push_back(decide("unlit", "lighting", "base_color", {{!material.unlit, "it is not asked for"}},
+                             "its material is marked unlit"));
+    bool is_placed = false;
+    for (std::size_t map = 0; map < kMapFeatures.size(); ++map) {
+        effects.push_back(judge_map(subject, static_cast<MapKind>(map)));
+        is_placed = is_placed || (effects.back().is_in && physical.maps[map]->is_placed());
+    }
+    const Interval alpha = alpha_range(subject.scene, subject.primitive, material);
+    const bool has_highlight = subject.is_lit || reflection > 0;
+    const bool reflects =
+        physical.metallic > 0 || physical.dielectric_edge > 0 || !is_black(physical.dielectric);
+    effects.insert(
+        effects.end(),
+        {decide("texture_placement", "texture_placement", "placed",
+                {{!is_placed, "all pictures lie by the first texture coordinates"}},
+                "a picture is transformed, or lies by the second texture coordinates"),
+         judge_fog(subject, eye, fog_threshold),
+         decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
+                "its material is marked doubleSided"),
+         decide("cutout", "cutout", "threshold",
+                {{material.alpha_mode != AlphaMode::mask, "alphaMode is not MASK"},
+                 {alpha.low >= material.alpha_cutoff,
+                  fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
+                fmt::format("its alpha falls to {:.3g}, below {:.3g}", alpha.low, material.alpha_cutoff)),
+         judge_vertex_color(subject.primitive, material, glm::dvec3(physical.base_color)),
+         decide("probe", "ambient", probe, {{probe == "none", "not asked for"}, unlit},
+                subject.scene.has_default_light ? "the scene states no light: the studio stands in" : probe),
+         decide("reflection", "reflection", "image",
+                {{reflection == 0, "not asked for"}, {!reflects, "its material mirrors nothing"}, unlit},
+                subject.scene.has_default_light ? "the scene states no light: the studio stands in"
+                                                : fmt::format("a share of {:.3g}", reflection)),
+         decide("clearcoat", "clearcoat", "layer",
+                {{physical.clearcoat == 0, "it has none"}, {!has_highlight, "no light is in"}, unlit},
+                fmt::format("a factor of {:.3g}", physical.clearcoat)),
+         decide("sheen", "sheen", "charlie",
+                {{is_black(physical.sheen_color), "it has none"}, {!subject.is_lit, "no light is in"}, unlit},
+                fmt::format("roughness {:.3g}", physical.sheen_roughness)),
+         decide("anisotropy", "anisotropy", "brushed",
+                {{physical.anisotropy == 0, "it has none"}, {!subject.is_lit, "no light is in"}, unlit},
+                fmt::format("a strength of {:.3g}", physical.anisotropy))});
+    for (const std::string& name : physical.not_drawn)
+        effects.push_back({name, name, "", true, "its material states it"});
     for (const auto& [feature, value] : overrides.quality)
         effects.push_back({feature, feature, value, true, "asked for"});
 }
@@ -338,12 +464,12 @@ void judge_shadows(const Subject& subject, const std::vector<PlacedLight>& light
     if (effects.size() == others) effects.push_back({"shadow", "shadow", "", false, "no light casts any"});
 }
 
-std::string why_excluded(const Primitive& primitive, const Material& material) {
+std::string why_excluded(const Scene& scene, const Primitive& primitive, const Material& material) {
     if (primitive.topology == Topology::points) return "its primitives are points";
     if (primitive.topology == Topology::lines) return "its primitives are lines";
     if (primitive.indices.empty()) return "it has no triangles";
     if (material.alpha_mode == AlphaMode::mask &&
-        alpha_range(primitive, material).high < material.alpha_cutoff)
+        alpha_range(scene, primitive, material).high < material.alpha_cutoff)
         return "all of it is more transparent than its material's alphaCutoff";
     return "";
 }
@@ -358,7 +484,7 @@ std::vector<Draw> draws_of(const Scene& scene) {
             Draw& draw = draws.emplace_back(Draw{index, i, node.name, {}, {}, {}});
             if (node.name.empty()) draw.name = fmt::format("node {}", index);
             if (primitives.size() > 1) draw.name += fmt::format(", primitive {}", i);
-            draw.excluded = why_excluded(primitives[i], scene.materials[primitives[i].material]);
+            draw.excluded = why_excluded(scene, primitives[i], scene.materials[primitives[i].material]);
             if (draw.excluded.empty()) draw.bounds = world_bounds(scene, index, primitives[i]);
         }
     }
@@ -417,7 +543,10 @@ std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, cons
         subject.normals = fixed_normals(subject);
         judge_lights(subject, lights, thresholds.light, draw.effects);
         subject.is_lit = std::ranges::any_of(draw.effects, &Effect::is_in);
-        judge_surface(subject, eye, thresholds.fog, draw.effects);
+        if (scene.is_physical)
+            judge_physical_surface(subject, eye, thresholds.fog, draw.effects);
+        else
+            judge_surface(subject, eye, thresholds.fog, draw.effects);
         judge_shadows(subject, lights, draws, draw.effects);
     }
     return draws;

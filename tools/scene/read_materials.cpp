@@ -4,16 +4,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <lodepng.h>
 
 #include "scene/read_parts.hpp"
+#include "scene/textures.hpp"
 
 namespace gobo::scene {
 namespace {
 
-/// As many numbers as all accessors together may hold: a picture of 8192 by 8192.
-constexpr std::size_t kMostTexels = 67'108'864;
-constexpr int kRepeat = 10497;  ///< GL_REPEAT, which is glTF's default
 /// The share of light that a dielectric reflects head-on, at the index of refraction 1.5 (glTF 2.0
 /// specification, B.2).
 constexpr double kDielectricReflectance = 0.04;
@@ -24,67 +21,6 @@ constexpr double kMostStrength = 1e3;
 const std::vector<std::string> kFogKinds = {"none", "linear", "exponential", "exponential_squared"};
 const std::vector<std::string> kProbeKinds = {"none", "hemisphere", "spherical_harmonics", "image"};
 const std::vector<std::string> kHighlights = {"none", "phong", "blinn"};
-
-/// The alpha of a PNG; nothing where all of it is opaque.
-std::optional<AlphaMap> decode(std::string_view bytes, const Value& image) {
-    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    unsigned width = 0;
-    unsigned height = 0;
-    lodepng::State state;
-    std::vector<unsigned char> pixels;
-    unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
-    if (error == 0 && std::size_t{width} * height > kMostTexels)
-        image.fail("is of {} x {} pixels, which is more than gobo decodes", width, height);
-    if (error == 0) error = lodepng::decode(pixels, width, height, data, bytes.size());
-    if (error != 0) image.fail("is no PNG that can be decoded: {}", lodepng_error_text(error));
-    AlphaMap map{static_cast<int>(width), static_cast<int>(height), {}};
-    for (std::size_t i = 3; i < pixels.size(); i += 4) map.texels.push_back(pixels[i]);
-    const auto is_opaque = [](std::uint8_t alpha) { return alpha == 255; };
-    return std::ranges::all_of(map.texels, is_opaque) ? std::nullopt : std::optional(std::move(map));
-}
-
-/// The textures of a document, and what reading their pictures takes.
-struct Textures {
-    Value root;
-    const Accessors& accessors;
-    const FileSystem& disk;
-    Scene& scene;
-    std::vector<Value> textures = root["textures"].objects();
-    std::vector<Value> images = root["images"].objects();
-
-    /// Checks that the texture that a material names exists. Whether it names one.
-    [[nodiscard]] bool is_named(const Value& info) const {
-        return info && info["index"].required().index(textures.size(), "textures");
-    }
-
-    /// Whether it is laid out plainly: by TEXCOORD_0, repeated, without a transform.
-    [[nodiscard]] bool is_plain(const Value& info, const Value& texture) const {
-        if (info["texCoord"].integer().value_or(0) != 0) return false;
-        if (info["extensions"]["KHR_texture_transform"].object()) return false;
-        const std::vector<Value> samplers = root["samplers"].objects();
-        const auto sampler = texture["sampler"].index(samplers.size(), "samplers");
-        return !sampler || (samplers[*sampler]["wrapS"].integer().value_or(kRepeat) == kRepeat &&
-                            samplers[*sampler]["wrapT"].integer().value_or(kRepeat) == kRepeat);
-    }
-
-    [[nodiscard]] std::string bytes_of(const Value& image) const {
-        if (const auto view = accessors.view(image["bufferView"])) return std::string(*view);
-        if (const Value uri = image["uri"]) return read_uri(disk, uri, scene);
-        image.fail("has neither uri nor bufferView");
-    }
-
-    /// The alpha of the picture that a material names; nothing where it names none, or it has none. The map
-    /// is empty where its alpha is not known: it is neither PNG nor JPEG, or is not laid out plainly.
-    [[nodiscard]] std::optional<AlphaMap> alpha(const Value& info) const {
-        const auto number = info["index"].index(textures.size(), "textures");
-        if (!number) return std::nullopt;
-        const auto source = textures[*number]["source"].index(images.size(), "images");
-        if (!source || !is_plain(info, textures[*number])) return AlphaMap();
-        const std::string bytes = bytes_of(images[*source]);
-        if (bytes.starts_with("\xff\xd8\xff")) return std::nullopt;  // JPEG has no alpha
-        return bytes.starts_with("\x89PNG\r\n\x1a\n") ? decode(bytes, images[*source]) : AlphaMap();
-    }
-};
 
 /// docs/scene_format.md, "Materials", states this rule and where it comes from.
 void read_surface(const Value& value, const Textures& textures, Material& material) {
@@ -149,7 +85,7 @@ void read_material_extras(const Value& value, Material& material) {
     model["strength"].read(material.strength, {0, kMostStrength});
 }
 
-Material read_material(const Value& value, const Textures& textures) {
+Material read_material(const Value& value, Textures& textures, bool is_physical) {
     Material material;
     value["name"].read(material.name);
     value["emissiveFactor"].read_color(material.emission);
@@ -158,6 +94,7 @@ Material read_material(const Value& value, const Textures& textures) {
     value["alphaCutoff"].read(material.alpha_cutoff, kNotNegative);
     read_surface(value, textures, material);
     read_material_extras(value, material);
+    if (is_physical) material.physical = read_physical(value, textures);
     for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"})
         material.is_textured = textures.is_named(value[texture]) || material.is_textured;
     return material;
@@ -232,12 +169,11 @@ Overrides read_overrides(const Value& extras, std::vector<std::string> others) {
 }
 
 void read_materials(const Value& root, const Accessors& accessors, const FileSystem& disk, Scene& scene) {
-    const Textures textures{root, accessors, disk, scene};
-    for (const Value& texture : textures.textures)
-        static_cast<void>(texture["source"].index(textures.images.size(), "images"));
+    Textures textures(root, accessors, disk, scene);
     for (const Value& value : root["materials"].objects())
-        scene.materials.push_back(read_material(value, textures));
-    scene.materials.push_back(read_material({}, textures));  // what stands where nothing is stated
+        scene.materials.push_back(read_material(value, textures, scene.is_physical));
+    // What stands where nothing is stated.
+    scene.materials.push_back(read_material({}, textures, scene.is_physical));
     scene.materials.back().name = "default material";
 }
 

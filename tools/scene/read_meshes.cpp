@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -104,11 +106,96 @@ void spread_with_flat_normals(Primitive& primitive) {
     spread(primitive.positions, primitive.indices);
     spread(primitive.texcoords, primitive.indices);
     spread(primitive.colors, primitive.indices);
+    spread(primitive.texcoords1, primitive.indices);
+    primitive.tangents.clear();  // they belong to normals
     spread(primitive.influences, primitive.indices);
     for (auto& target : primitive.target_positions) spread(target, primitive.indices);
     std::iota(primitive.indices.begin(), primitive.indices.end(), 0U);
     primitive.normals = flat_normals(primitive.positions);
     primitive.has_flat_normals = true;
+}
+
+/// The values of those vertices, in this order.
+void take(Primitive& primitive, const std::vector<std::uint32_t>& vertices) {
+    spread(primitive.positions, vertices);
+    spread(primitive.normals, vertices);
+    spread(primitive.texcoords, vertices);
+    spread(primitive.texcoords1, vertices);
+    spread(primitive.colors, vertices);
+    spread(primitive.influences, vertices);
+    for (auto& target : primitive.target_positions) spread(target, vertices);
+    for (auto& target : primitive.target_normals) spread(target, vertices);
+}
+
+/// Of a triangle: along which its texture's u rises, and which way its v runs.
+struct TextureSide {
+    glm::dvec3 along_u{0};
+    bool runs_down = false;  ///< v turns against u as on paper: the usual picture, whose v runs down
+};
+
+TextureSide side_of(const Primitive& primitive, const std::vector<glm::vec2>& places, std::size_t first) {
+    const auto edge = [&](std::size_t corner) {
+        const std::uint32_t from = primitive.indices[first];
+        const std::uint32_t to = primitive.indices[first + corner];
+        return std::pair(glm::dvec3(primitive.positions[to]) - glm::dvec3(primitive.positions[from]),
+                         glm::dvec2(places[to]) - glm::dvec2(places[from]));
+    };
+    const auto [p1, t1] = edge(1);
+    const auto [p2, t2] = edge(2);
+    const double area = t1.x * t2.y - t1.y * t2.x;
+    return {unit_or_zero((t2.y * p1 - t1.y * p2) * (area < 0 ? -1.0 : 1.0)), area < 0};
+}
+
+/// Tangents by the convention of MikkTSpace (Mikkelsen, Simulation of Wrinkled Surfaces Revisited, 2008, and
+/// glTF 2.0, 3.7.2.1): at each vertex the directions in which u rises on its triangles, each in the plane of
+/// the vertex' normal, their mean by the triangles' angles there; a vertex at which the texture is mirrored
+/// on some of its triangles becomes two. The bitangent w (N x T) is where v falls: up, on a picture that is
+/// not mirrored.
+void add_tangents(Primitive& primitive, int set) {
+    const std::vector<glm::vec2>& places = set == 1 ? primitive.texcoords1 : primitive.texcoords;
+    if (places.size() != primitive.positions.size() || primitive.normals.empty()) return;
+    const std::size_t vertices = primitive.positions.size();
+    std::vector<std::array<glm::dvec3, 2>> sums(vertices, {glm::dvec3(0), glm::dvec3(0)});
+    std::vector<std::array<bool, 2>> is_used(vertices, {false, false});
+    std::vector<bool> run_down(primitive.indices.size() / 3);
+    for (std::size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
+        const TextureSide side = side_of(primitive, places, first);
+        run_down[first / 3] = side.runs_down;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const auto at = [&](std::size_t step) {
+                return glm::dvec3(primitive.positions[primitive.indices[first + (corner + step) % 3]]);
+            };
+            const std::uint32_t vertex = primitive.indices[first + corner];
+            const glm::dvec3 normal(primitive.normals[vertex]);
+            const auto in_plane = [&](const glm::dvec3& vector) {
+                return unit_or_zero(vector - glm::dot(normal, vector) * normal);
+            };
+            const double cosine = glm::dot(in_plane(at(1) - at(0)), in_plane(at(2) - at(0)));
+            is_used[vertex][side.runs_down] = true;
+            sums[vertex][side.runs_down] += std::acos(std::clamp(cosine, -1.0, 1.0)) * in_plane(side.along_u);
+        }
+    }
+    std::vector<std::uint32_t> order(vertices);
+    std::iota(order.begin(), order.end(), 0U);
+    std::vector<std::uint32_t> other(
+        vertices);  // where the half of a vertex lies on whose triangles v runs down
+    std::vector<glm::dvec4> tangents(vertices);
+    const auto tangent = [&](std::size_t vertex, bool runs_down) {
+        return glm::dvec4(unit_or_zero(sums[vertex][runs_down]), runs_down ? 1 : -1);
+    };
+    for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+        const bool runs_down = is_used[vertex][1] && !is_used[vertex][0];
+        tangents[vertex] = tangent(vertex, runs_down);
+        other[vertex] = static_cast<std::uint32_t>(vertex);
+        if (!is_used[vertex][0] || !is_used[vertex][1]) continue;
+        other[vertex] = static_cast<std::uint32_t>(order.size());
+        order.push_back(static_cast<std::uint32_t>(vertex));
+        tangents.push_back(tangent(vertex, true));
+    }
+    for (std::size_t i = 0; i < primitive.indices.size(); ++i)
+        if (run_down[i / 3]) primitive.indices[i] = other[primitive.indices[i]];
+    if (order.size() > vertices) take(primitive, order);
+    for (const glm::dvec4& one : tangents) primitive.tangents.emplace_back(one);
 }
 
 Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& scene) {
@@ -126,12 +213,19 @@ Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& 
     primitive.normals = read_vectors<glm::vec3>(attributes, "NORMAL", kTriples);
     primitive.texcoords = read_vectors<glm::vec2>(attributes, "TEXCOORD_0", {{"VEC2"}, kFloatOrSmall});
     primitive.colors = read_vectors<glm::vec4>(attributes, "COLOR_0", {{"VEC3", "VEC4"}, kUnsigned});
+    if (scene.is_physical) {
+        primitive.texcoords1 = read_vectors<glm::vec2>(attributes, "TEXCOORD_1", {{"VEC2"}, kFloatOrSmall});
+        primitive.tangents = read_vectors<glm::vec4>(attributes, "TANGENT", {{"VEC4"}, kFloatOrSmall});
+    }
     read_influences(source, attributes, primitive);
     read_indices(value, accessors, primitive);
     read_targets(value, accessors, primitive);
     if (primitive.topology != Topology::triangles) return primitive;
     primitive.indices = listed(primitive.indices, static_cast<int>(mode));
     if (primitive.normals.empty() && !primitive.indices.empty()) spread_with_flat_normals(primitive);
+    const auto& normals =
+        scene.materials[primitive.material].physical.maps[static_cast<std::size_t>(MapKind::normal)];
+    if (normals && primitive.tangents.empty()) add_tangents(primitive, normals->set);
     return primitive;
 }
 

@@ -19,6 +19,25 @@ const std::vector<std::string> kKnownExtensions = {
     "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
+/// A scene without any light would be black: an environment stands in for it.
+void add_default_light(Scene& scene) {
+    const bool is_lit = std::ranges::any_of(scene.order, [&](std::size_t index) {
+        const Overrides& overrides = scene.nodes[index].overrides;
+        return scene.nodes[index].light || overrides.probe || overrides.reflection;
+    });
+    const bool is_lit_by_material = std::ranges::any_of(scene.materials, [](const Material& material) {
+        return material.overrides.probe || material.overrides.reflection;
+    });
+    if (is_lit || is_lit_by_material || scene.ambient != glm::dvec3(0)) return;
+    scene.has_default_light = true;
+    Probe probe;
+    probe.kind = "image";
+    for (const std::size_t index : scene.order) {
+        scene.nodes[index].overrides.probe = probe;
+        scene.nodes[index].overrides.reflection = 1;
+    }
+}
+
 void read_asset(const Value& root) {
     const Value asset = root["asset"].object();
     if (!asset) asset.fail_with("a glTF file begins with {\"asset\": {\"version\": \"2.0\"}}", "is missing");
@@ -186,11 +205,12 @@ Result<void> check_size(const Scene& scene) {
 
 }  // namespace
 
-Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
+Result<Scene> read_scene(const FileSystem& files, const std::string& path, Reading reading) {
     GOBO_TRY(const std::string content, files.read(path));
     Scene scene;
     scene.path = path;
     scene.files = {path};
+    scene.is_physical = reading == Reading::physical;
     try {
         const Container container = open_container(content);
         const nlohmann::json document = parse_document(container.json);
@@ -206,6 +226,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path) {
         read_meshes(root, accessors, scene);
         read_nodes(root, accessors, scene);
         place_nodes(root, scene);
+        if (scene.is_physical) add_default_light(scene);
     } catch (Diagnostics& wrong) {
         if (wrong.front().place.file.empty()) wrong.front().place.file = path;
         return tl::unexpected(std::move(wrong));

@@ -17,6 +17,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "scene/picture.hpp"
+
 namespace gobo::scene {
 
 /// All points between two corners, both included, in double precision. Empty until a point is added.
@@ -76,6 +78,47 @@ struct AlphaMap {
     std::vector<std::uint8_t> texels;
 };
 
+/// The pictures of a metallic-roughness material, in the order in which shaders number them.
+inline constexpr std::array kMapFeatures = {"base_color_map", "metallic_roughness_map", "normal_map",
+                                            "occlusion_map", "emissive_map"};
+enum class MapKind { base_color, metallic_roughness, normal, occlusion, emissive };
+
+/// A texture as a material uses it: (a u + b v + x, c u + d v + y) of the texture coordinates (u, v) of
+/// `set`, where `linear` is (a, b, c, d) and `offset` (x, y).
+struct TextureUse {
+    std::size_t picture = 0;  ///< of the scene
+    int set = 0;
+    glm::dvec4 linear{1, 0, 0, 1};
+    glm::dvec2 offset{0};
+    int wrap_s = 10497;  ///< OpenGL's numbers
+    int wrap_t = 10497;
+    bool is_nearest = false;  ///< magnified without interpolation
+
+    [[nodiscard]] bool is_placed() const {
+        return set != 0 || linear != glm::dvec4(1, 0, 0, 1) || offset != glm::dvec2(0);
+    }
+};
+
+/// A material in the terms of glTF and of the family `pbr`: as Material of templates/pbr.toml. Emission is
+/// the material's own.
+struct PhysicalMaterial {
+    glm::dvec4 base_color{1};
+    double metallic = 1;
+    double roughness = 1;
+    glm::dvec3 dielectric{0.04};
+    double dielectric_edge = 1;
+    glm::dvec3 sheen_color{0};
+    double sheen_roughness = 0;
+    glm::dvec2 anisotropy_direction{1, 0};
+    double anisotropy = 0;
+    double clearcoat = 0;
+    double clearcoat_roughness = 0;
+    double normal_scale = 1;
+    double occlusion_strength = 1;
+    std::array<std::optional<TextureUse>, kMapFeatures.size()> maps;
+    std::vector<std::string> not_drawn;  ///< extensions and their pictures that no family has
+};
+
 /// A material in the terms of the family `lit`. docs/scene_format.md states how it follows from glTF's.
 struct Material {
     std::string name;
@@ -94,6 +137,7 @@ struct Material {
     std::optional<AlphaMap>
         opacity;  ///< of the base colour's picture where alpha_mode is mask and it has any
     Overrides overrides;
+    PhysicalMaterial physical;  ///< where the scene is read for a family of such materials
 };
 
 enum class LightKind { directional, point, spot };
@@ -137,10 +181,12 @@ struct Influence {
 struct Primitive {
     Topology topology = Topology::triangles;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;                        ///< one per position
-    std::vector<glm::vec2> texcoords;                      ///< one per position, or none
-    std::vector<glm::vec4> colors;                         ///< one per position, or none; RGBA
-    std::vector<std::uint32_t> indices;                    ///< three per triangle
+    std::vector<glm::vec3> normals;          ///< one per position
+    std::vector<glm::vec2> texcoords;        ///< one per position, or none
+    std::vector<glm::vec4> colors;           ///< one per position, or none; RGBA
+    std::vector<glm::vec2> texcoords1 = {};  ///< the second set: one per position, or none
+    std::vector<glm::vec4> tangents = {};    ///< one per position, or none; the bitangent's sign in w
+    std::vector<std::uint32_t> indices;      ///< three per triangle
     std::vector<std::vector<glm::vec3>> target_positions;  ///< per morph target, one per position
     std::vector<std::vector<glm::vec3>> target_normals;    ///< per morph target, one per position, or none
     std::vector<std::vector<Influence>> influences;        ///< one list per position, or none
@@ -210,6 +256,9 @@ struct Scene {
     std::vector<std::size_t> order;  ///< the nodes of the scene, parents before children
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
+    bool is_physical = false;            ///< read for a family of metallic-roughness materials
+    bool has_default_light = false;      ///< it states no light: an environment stands in
+    std::vector<TextureImage> pictures;  ///< that such materials use
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Skin> skins;

@@ -72,6 +72,11 @@ DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, s
 
 }  // namespace
 
+Reading reading_for(const Family& family) {
+    const bool is_physical = family.index_of(kMapFeatures.front()).has_value();
+    return is_physical ? Reading::physical : Reading::classic;
+}
+
 Result<Buckets> parse_buckets(std::string_view text) {
     Buckets buckets;
     for (const std::string& part : split(text, ',')) {

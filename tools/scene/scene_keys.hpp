@@ -11,6 +11,7 @@
 #include "core/whole_number.hpp"
 #include "family/family.hpp"
 #include "scene/effects.hpp"
+#include "scene/read_scene.hpp"
 
 namespace gobo::scene {
 
@@ -22,6 +23,9 @@ using Buckets = std::vector<int>;
 [[nodiscard]] Result<Buckets> parse_buckets(std::string_view text);
 /// "0,1,2,4,8", or "every count".
 [[nodiscard]] std::string buckets_text(const Buckets& buckets);
+
+/// How a scene is read for a family: by the pictures that its materials have.
+[[nodiscard]] Reading reading_for(const Family& family);
 
 /// The permutation that a draw needs.
 struct DrawKey {

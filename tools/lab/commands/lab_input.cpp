@@ -32,6 +32,13 @@ bool looks_up_environment(const Interface& interface) {
 
 }  // namespace
 
+Result<std::vector<Image>> load_roughness_levels(const World& world, int levels) {
+    const std::string path = "data/environments/studio.exr";
+    GOBO_TRY(const Image image, read_image(world.shipped, path));
+    GOBO_TRY(const auto environment, probe::environment_of(image, path));
+    return probe::roughness_maps(environment, 64, levels, world.jobs());
+}
+
 Result<Mesh> load_mesh(const World& world, const std::string& name) {
     if (name == "teapot") return read_obj(world.shipped, "data/meshes/teapot.obj");
     if (name == "sphere") return make_sphere(64, 32);

@@ -32,6 +32,9 @@ inline Result<std::pair<int, int>> read_size(const std::string& text) {
                      "write width x height, such as 640x480, each at most 16384");
 }
 
+/// The shipped environment `studio` as a metallic-roughness surface mirrors it, level by level of a cube map.
+[[nodiscard]] Result<std::vector<Image>> load_roughness_levels(const World& world, int levels);
+
 /// Cube maps by the name of their sampler.
 using CubeImages = std::map<std::string, Image>;
 /// The environment that pictures are lit by: `folder`/diffuse.exr and `folder`/specular.exr as diffuseMap and

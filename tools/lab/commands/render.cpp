@@ -74,6 +74,17 @@ Result<void> add_environment(const World& world, const std::string& folder,
     return {};
 }
 
+/// Whether some permutation mirrors an environment that is blurred by roughness.
+bool mirrors_by_roughness(const std::vector<Interface>& interfaces) {
+    return std::ranges::any_of(interfaces, [](const Interface& interface) {
+        return std::ranges::any_of(interface.blocks, [](const Block& block) {
+            return std::ranges::any_of(block.members, [&](const Member& member) {
+                return block.name == "Reflection" && member.name == "roughestLevel";
+            });
+        });
+    });
+}
+
 /// The pictures of all permutations with errors and costs, on one page.
 Result<RenderedSelection> render_page(const RenderOptions& options, const World& world,
                                       const LoadedFamily& family, const Composition& composition,
@@ -148,7 +159,8 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
                           const LoadedFamily& family, const Context& context, const PictureOptions& pictures,
                           RenderedSelection& rendered) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
-    GOBO_TRY(const scene::Scene scene, scene::read_scene(world.disk, path));
+    GOBO_TRY(const scene::Scene scene,
+             scene::read_scene(world.disk, path, scene::reading_for(family.family)));
     auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const scene::SceneView view, view_of(scene, draws, options.camera, pictures.view));
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
@@ -158,6 +170,10 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
     CubeMaps cubes(context);
     GOBO_TRY_DO(add_environment(world, options.environment, shaders.interfaces, cubes));
+    if (options.environment.empty() && mirrors_by_roughness(shaders.interfaces)) {
+        GOBO_TRY(const auto levels, load_roughness_levels(world, kRoughnessLevels));
+        GOBO_TRY_DO(cubes.add("specularMap", levels));
+    }
     textures.given = cubes.textures();
     GOBO_TRY(const Picture picture,
              scene::draw_scene(context, scene, shaders, family.family.render, view, textures));

@@ -164,10 +164,21 @@ Lobe::Lobe(const Environment& environment, double exponent)
     : environment_(environment),
       exponent_(exponent),
       least_cosine_(exponent > 1 ? std::pow(kLeastWeight, 1 / exponent) : 0) {
+    tabulate(kRowsToLobe * std::numbers::pi * std::sqrt(exponent),
+             [=](double cosine) { return std::pow(cosine, exponent); });
+}
+
+Lobe::Lobe(const Environment& environment, double width, double least_cosine,
+           const std::function<double(double)>& shape)
+    : environment_(environment), exponent_(0), least_cosine_(least_cosine) {
+    tabulate(kRowsToLobe * std::numbers::pi / width, shape);
+}
+
+void Lobe::tabulate(double needed_rows, const std::function<double(double)>& shape) {
     for (int i = 0; i <= kPowers; ++i)
-        powers_.push_back(std::pow(least_cosine_ + (1 - least_cosine_) * i / kPowers, exponent));
+        powers_.push_back(shape(least_cosine_ + (1 - least_cosine_) * i / kPowers));
     powers_.push_back(powers_.back());  // a cosine may be a rounding above 1
-    const double needed = std::max<double>(kFewestRows, kRowsToLobe * std::numbers::pi * std::sqrt(exponent));
+    const double needed = std::max<double>(kFewestRows, needed_rows);
     while (environment_.height >= 2 * needed && environment_.height % 2 == 0)
         environment_ = halved(environment_);
     for (int row = 0; row < environment_.height; ++row) {
@@ -206,6 +217,26 @@ glm::dvec3 Lobe::around(const glm::dvec3& direction) const {
         }
     }
     return weights > 0 ? sum / weights : sum;
+}
+
+std::vector<Image> roughness_maps(const Environment& environment, int side, int levels, int jobs) {
+    std::vector<Image> maps;
+    for (int level = 0; level < levels; ++level, side /= 2) {
+        const double roughness = levels > 1 ? static_cast<double>(level) / (levels - 1) : 0;
+        // A lobe narrower than the first level's texels shows one of them.
+        const double alpha = std::max(roughness * roughness, 1.0 / side);
+        const auto shape = [=](double cosine) {
+            const double half_cosine_squared = (1 + cosine) / 2;
+            const double spread = (alpha * alpha - 1) * half_cosine_squared + 1;
+            return cosine / (spread * spread);
+        };
+        double least = 1;  // up to where the lobe has fallen to 1e-4 of its peak
+        while (least > 0 && shape(least) > 1e-4 * shape(1)) least -= 1e-3;
+        const Lobe lobe(environment, alpha, std::max(least, 0.0), shape);
+        maps.push_back(make_cube_map(std::max(side, 1), jobs,
+                                     [&](const glm::dvec3& direction) { return lobe.around(direction); }));
+    }
+    return maps;
 }
 
 Image lobe_map(const Environment& environment, double exponent, int side, int jobs) {

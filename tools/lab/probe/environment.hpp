@@ -92,6 +92,13 @@ class Lobe {
         double cosine = 0;
     };
 
+    friend std::vector<Image> roughness_maps(const Environment&, int, int, int);
+    /// A lobe of any shape, given at cosines from `least_cosine` to 1; `width` is its angle, about, in
+    /// radians.
+    Lobe(const Environment& environment, double width, double least_cosine,
+         const std::function<double(double)>& shape);
+    void tabulate(double needed_rows, const std::function<double(double)>& shape);
+
     [[nodiscard]] double weight(double cosine) const;
 
     Environment environment_;
@@ -101,6 +108,13 @@ class Lobe {
     std::vector<Row> rows_;
     std::vector<double> sines_, cosines_;  ///< of the longitude of each column
 };
+
+/// What a metallic-roughness surface mirrors of the environment, as the split sum has it: level by level of a
+/// cube map, `levels` of them from roughness 0 to 1 evenly, `side` texels wide and each half of that before.
+/// The mean of the radiance around a direction, weighted by n.l D(h) with the normal along it (Karis, Real
+/// Shading in Unreal Engine 4, SIGGRAPH 2013 course notes).
+[[nodiscard]] std::vector<Image> roughness_maps(const Environment& environment, int side, int levels,
+                                                int jobs);
 
 /// The cube map of what a lobe shows of the environment.
 [[nodiscard]] Image lobe_map(const Environment& environment, double exponent, int side, int jobs);

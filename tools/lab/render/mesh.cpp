@@ -268,8 +268,8 @@ Bounds bounds_of(const Mesh& mesh) {
 }
 
 const std::vector<std::string>& attribute_sources() {
-    static const std::vector<std::string> sources = {"position", "normal",          "texcoord", "color",
-                                                     "tint",     "material_number", "tile"};
+    static const std::vector<std::string> sources = {
+        "position", "normal", "texcoord", "color", "tint", "material_number", "tile", "texcoord1", "tangent"};
     return sources;
 }
 
@@ -278,6 +278,8 @@ std::optional<AttributeValues> attribute_values(const Mesh& mesh, std::string_vi
     if (source == "normal") return flattened(mesh.normals);
     if (source == "texcoord") return flattened(mesh.texcoords);
     if (source == "color" && !mesh.colors.empty()) return flattened(mesh.colors);
+    if (source == "texcoord1" && !mesh.texcoords1.empty()) return flattened(mesh.texcoords1);
+    if (source == "tangent" && !mesh.tangents.empty()) return flattened(mesh.tangents);
     const Places places(mesh);
     if (source == "material_number") return material_numbers(mesh, places);
     const auto each = [&](const auto& value, auto of_flat) {

@@ -19,10 +19,12 @@ namespace gobo {
 /// An indexed triangle mesh in object space. Front faces run counter-clockwise. Normals have unit length.
 struct Mesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;      ///< one per position
-    std::vector<glm::vec2> texcoords;    ///< one per position
-    std::vector<std::uint32_t> indices;  ///< three per triangle
-    std::vector<glm::vec4> colors = {};  ///< RGBA, one per position, or none: white
+    std::vector<glm::vec3> normals;          ///< one per position
+    std::vector<glm::vec2> texcoords;        ///< one per position
+    std::vector<std::uint32_t> indices;      ///< three per triangle
+    std::vector<glm::vec4> colors = {};      ///< RGBA, one per position, or none: white
+    std::vector<glm::vec2> texcoords1 = {};  ///< the second set: one per position, or none
+    std::vector<glm::vec4> tangents = {};    ///< one per position, or none; the bitangent's sign in w
 };
 
 /// A sphere of radius 1 about the origin, its poles on the y axis. At least 3 slices and 2 stacks.

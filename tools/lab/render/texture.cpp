@@ -150,27 +150,34 @@ std::optional<Texture> make_texture(const Context& context, const std::string& s
     return texture;
 }
 
-Result<void> CubeMaps::add(const std::string& sampler, const Image& faces) {
-    if (faces.height != 6 * faces.width || faces.width < 1 || faces.channels < 3) {
-        return fail(Fault::input,
-                    fmt::format("a picture of {} x {} texels in {} channels is not a cube map for '{}'",
-                                faces.width, faces.height, faces.channels, sampler),
-                    "give six square faces in colour, one below the other, as gobo probe writes them");
-    }
+Result<void> CubeMaps::add(const std::string& sampler, const std::vector<Image>& levels) {
+    for (const Image& faces : levels)
+        if (faces.height != 6 * faces.width || faces.width < 1 || faces.channels < 3) {
+            return fail(Fault::input,
+                        fmt::format("a picture of {} x {} texels in {} channels is not a cube map for '{}'",
+                                    faces.width, faces.height, faces.channels, sampler),
+                        "give six square faces in colour, one below the other, as gobo probe writes them");
+        }
     const Context& context = resources_.context();
     context.make_current();
     const GladGLContext& gl = context.gl();
     const Texture texture{resources_.make(&GladGLContext::GenTextures, &GladGLContext::DeleteTextures),
                           GL_TEXTURE_CUBE_MAP};
     gl.BindTexture(texture.target, texture.name);
-    const auto face_size = static_cast<std::size_t>(faces.width) * static_cast<std::size_t>(faces.width) *
-                           static_cast<std::size_t>(faces.channels);
-    const GLenum format = faces.channels == 4 ? GL_RGBA : GL_RGB;
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    for (GLenum face = 0; face < 6; ++face)
-        gl.TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA32F, faces.width, faces.width, 0,
-                      format, GL_FLOAT, faces.values.data() + face * face_size);
-    gl.TexParameteri(texture.target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        const Image& faces = levels[level];
+        const auto face_size = static_cast<std::size_t>(faces.width) * static_cast<std::size_t>(faces.width) *
+                               static_cast<std::size_t>(faces.channels);
+        const GLenum format = faces.channels == 4 ? GL_RGBA : GL_RGB;
+        for (GLenum face = 0; face < 6; ++face)
+            gl.TexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, static_cast<GLint>(level), GL_RGBA32F,
+                          faces.width, faces.width, 0, format, GL_FLOAT,
+                          faces.values.data() + face * face_size);
+    }
+    const bool has_levels = levels.size() > 1;
+    gl.TexParameteri(texture.target, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels.size()) - 1);
+    gl.TexParameteri(texture.target, GL_TEXTURE_MIN_FILTER, has_levels ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     gl.TexParameteri(texture.target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     textures_[sampler] = texture;

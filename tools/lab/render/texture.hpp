@@ -47,6 +47,9 @@ enum class TextureLevels { all, one };
                                                   const TextureSource& source,
                                                   TextureLevels levels = TextureLevels::all);
 
+/// Levels of an environment that is blurred by roughness, which rises evenly from 0 to 1.
+inline constexpr int kRoughnessLevels = 7;
+
 /// Cube maps made from pictures, deleted together: for pictures lit by an environment.
 class CubeMaps {
   public:
@@ -54,7 +57,11 @@ class CubeMaps {
 
     /// A picture of side x 6 side texels, the faces +x -x +y -y +z -z one below the other, as the texture of
     /// a samplerCube of that name; its alpha is 1. Fault::input where the picture has another shape.
-    [[nodiscard]] Result<void> add(const std::string& sampler, const Image& faces);
+    [[nodiscard]] Result<void> add(const std::string& sampler, const Image& faces) {
+        return add(sampler, std::vector{faces});
+    }
+    /// The same level by level, each half as wide as the one before; lookups between two blend them.
+    [[nodiscard]] Result<void> add(const std::string& sampler, const std::vector<Image>& levels);
     [[nodiscard]] const GivenTextures& textures() const { return textures_; }
 
   private:

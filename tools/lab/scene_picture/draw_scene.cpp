@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -39,6 +40,22 @@ Texture make_alpha_map(const Context& context, const SceneImages& images, std::s
 bool reads(const Interface& interface, std::string_view sampler) {
     return std::any_of(interface.samplers.begin(), interface.samplers.end(),
                        [&](const Sampler& own) { return own.name == sampler; });
+}
+
+/// The scene's order, and behind all others what is blended: by the distance of the middle of its bounds, the
+/// farthest first.
+std::vector<std::size_t> drawing_order(const std::vector<Draw>& draws, const SceneImages& images,
+                                       const SceneView& view) {
+    std::vector<std::size_t> order(draws.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto rank = [&](std::size_t i) {
+        const bool is_blended = i < images.are_blended.size() && images.are_blended[i];
+        if (!is_blended) return std::pair(0, 0.0);
+        const Box bounds = draws[i].bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
+        return std::pair(1, (view.view * glm::dvec4((bounds.low + bounds.high) / 2.0, 1)).z);
+    };
+    std::ranges::stable_sort(order, {}, rank);
+    return order;
 }
 
 constexpr double usual_angle = 0.7;
@@ -107,8 +124,40 @@ std::vector<Object> objects_of(const Scene& scene, const SceneShaders& shaders) 
     return objects;
 }
 
+/// Four channels of 8 bits, of which the colours of an sRGB picture are decoded before they are filtered,
+/// with all smaller levels.
+Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) {
+    const auto key =
+        std::tuple(use.picture, use.is_srgb, use.use->wrap_s, use.use->wrap_t, use.use->is_nearest);
+    if (const auto found = pictures_.find(key); found != pictures_.end()) return found->second;
+    const GladGLContext& gl = context.gl();
+    context.make_current();
+    Texture texture;
+    gl.GenTextures(1, &texture.name);
+    gl.BindTexture(GL_TEXTURE_2D, texture.name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, use.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, use.picture->width,
+                  use.picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, use.picture->texels.data());
+    gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, use.use->is_nearest ? GL_NEAREST : GL_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, use.use->wrap_s);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, use.use->wrap_t);
+    alpha_maps_.adopt(texture);
+    pictures_.emplace(key, texture);
+    return texture;
+}
+
 void SceneDrawing::draw() const {
     for (const DrawList& list : lists_) list.draw();
+    if (blended_.empty()) return;
+    const GladGLContext& gl = alpha_maps_.context().gl();
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl.DepthMask(GL_FALSE);
+    for (const DrawList& list : blended_) list.draw();
+    gl.DepthMask(GL_TRUE);
+    gl.Disable(GL_BLEND);
 }
 
 Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShaders& shaders,
@@ -130,7 +179,7 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
         drawing.programs_.push_back(std::make_unique<Program>(std::move(program)));
     }
     // In the scene's order, whatever their permutations: surfaces in one place are drawn alike by any keys.
-    for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const std::size_t i : drawing_order(shaders.draws, images, view)) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
         Object object = objects[i];
@@ -142,12 +191,16 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
             given["opacityMap"] = make_alpha_map(context, images, i);
             drawing.alpha_maps_.adopt(given["opacityMap"]);
         }
+        if (i < images.pictures.size())
+            for (const auto& [sampler, use] : images.pictures[i])
+                if (reads(interface, sampler)) given[sampler] = drawing.texture_of(context, use);
         GOBO_TRY(auto list, make_draw_list(context, *drawing.programs_[*permutation], interface, {object},
                                            values, view, given));
         Diagnostics& warnings = drawing.warnings_;
         for (const Diagnostic& warning : list.warnings())
             if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
-        drawing.lists_.push_back(std::move(list));
+        const bool is_blended = i < images.are_blended.size() && images.are_blended[i];
+        (is_blended ? drawing.blended_ : drawing.lists_).push_back(std::move(list));
     }
     return drawing;
 }

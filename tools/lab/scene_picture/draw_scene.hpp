@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "compose/search_path.hpp"
@@ -93,10 +95,15 @@ class SceneDrawing {
   private:
     explicit SceneDrawing(const Context& context) : alpha_maps_(context) {}
 
+    /// The texture of a picture, made once for each way to look it up.
+    [[nodiscard]] Texture texture_of(const Context& context, const PictureUse& use);
+
     std::vector<std::unique_ptr<Program>> programs_;  ///< draw lists point at them
     GlResources alpha_maps_;
+    std::map<std::tuple<const TextureImage*, bool, int, int, bool>, Texture> pictures_;
     std::unique_ptr<ShadowMaps> shadow_maps_;
     std::vector<DrawList> lists_;
+    std::vector<DrawList> blended_;  ///< behind the others, the farthest from the viewer first
     Diagnostics warnings_;
 };
 

@@ -13,6 +13,13 @@ glm::vec3 unit_or_zero(const glm::dvec3& vector) {
     return length > 0 ? glm::vec3(vector / length) : glm::vec3(0);
 }
 
+/// A tangent as the matrix moves the surface; one that mirrors turns the bitangent round.
+glm::vec4 turned(const glm::vec4& tangent, const glm::dmat4& matrix) {
+    const glm::dmat3 linear(matrix);
+    const float sign = glm::determinant(linear) < 0 ? -1.0F : 1.0F;
+    return {unit_or_zero(linear * glm::dvec3(tangent)), sign * tangent.w};
+}
+
 /// Adds a morph target's displacements; one without any has none.
 void add(float weight, const std::vector<glm::vec3>& target, std::vector<glm::vec3>& to) {
     for (std::size_t i = 0; i < target.size(); ++i) to[i] += weight * target[i];
@@ -49,6 +56,7 @@ void bend(const Scene& scene, const Skin& skin, const Primitive& primitive, gobo
         const glm::dmat4 matrix = sum / weights;
         mesh.positions[i] = glm::vec3(matrix * glm::dvec4(mesh.positions[i], 1));
         mesh.normals[i] = unit_or_zero(normal_matrix(matrix) * glm::dvec3(mesh.normals[i]));
+        if (!mesh.tangents.empty()) mesh.tangents[i] = turned(mesh.tangents[i], matrix);
     }
 }
 
@@ -62,8 +70,10 @@ gobo::Mesh laid_out(const gobo::Mesh& mesh, const std::vector<glm::dmat4>& insta
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             all.positions.emplace_back(instance * glm::dvec4(mesh.positions[i], 1));
             all.normals.push_back(unit_or_zero(for_normals * glm::dvec3(mesh.normals[i])));
+            if (!mesh.tangents.empty()) all.tangents.push_back(turned(mesh.tangents[i], instance));
         }
         all.texcoords.insert(all.texcoords.end(), mesh.texcoords.begin(), mesh.texcoords.end());
+        all.texcoords1.insert(all.texcoords1.end(), mesh.texcoords1.begin(), mesh.texcoords1.end());
         all.colors.insert(all.colors.end(), mesh.colors.begin(), mesh.colors.end());
         const bool is_mirrored = glm::determinant(glm::dmat3(instance)) < 0;
         for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -93,6 +103,8 @@ PosedMesh posed_mesh(const Scene& scene, std::size_t node, const Primitive& prim
     posed.mesh.texcoords.resize(primitive.positions.size());
     posed.mesh.colors = seen_colors(primitive, scene.materials[primitive.material].alpha_mode);
     posed.mesh.indices = primitive.indices;
+    posed.mesh.texcoords1 = primitive.texcoords1;
+    posed.mesh.tangents = primitive.tangents;
     morph(scene, here, primitive, posed.mesh);
     if (!here.instances.empty()) posed.mesh = laid_out(posed.mesh, here.instances);
     if (here.skin && !primitive.influences.empty()) {

@@ -13,8 +13,20 @@ namespace {
 
 /// The blocks that a scene fills.
 constexpr std::array kSceneBlocks = {
-    "Material", "Ambient", "DirectionalLights", "PointLights", "SpotLights", "Toon",       "Fog",
-    "Cutout",   "Shadows", "Hemisphere",        "Harmonics",   "ImageLight", "Reflection",
+    "Material",
+    "Ambient",
+    "DirectionalLights",
+    "PointLights",
+    "SpotLights",
+    "Toon",
+    "Fog",
+    "Cutout",
+    "Shadows",
+    "Hemisphere",
+    "Harmonics",
+    "ImageLight",
+    "Reflection",
+    "TexturePlacements",
 };
 
 /// The values of an object, as they are added.
@@ -103,6 +115,39 @@ void add_material(const Material& material, Values& values) {
     values.set("Cutout.threshold", std::min(material.alpha_cutoff / material.alpha, 1.0));
 }
 
+/// The block of templates/pbr.toml, from glTF's factors.
+void add_physical_material(const Material& material, Values& values) {
+    const PhysicalMaterial& physical = material.physical;
+    const glm::dvec4& base = physical.base_color;
+    const bool has_alpha = material.alpha_mode != AlphaMode::opaque;
+    values.set("Material.baseColor", std::vector{base.r, base.g, base.b, has_alpha ? base.a : 1});
+    values.set("Material.emission", material.emission);
+    values.set("Material.metallic", physical.metallic);
+    values.set("Material.roughness", physical.roughness);
+    values.set("Material.dielectric", physical.dielectric);
+    values.set("Material.dielectricEdge", physical.dielectric_edge);
+    values.set("Material.sheenColor", physical.sheen_color);
+    values.set("Material.sheenRoughness", physical.sheen_roughness);
+    values.set("Material.anisotropy", physical.anisotropy);
+    values.set("Material.anisotropyDirection",
+               std::vector{physical.anisotropy_direction.x, physical.anisotropy_direction.y});
+    values.set("Material.clearcoat", physical.clearcoat);
+    values.set("Material.clearcoatRoughness", physical.clearcoat_roughness);
+    values.set("Material.normalScale", physical.normal_scale);
+    values.set("Material.occlusionStrength", physical.occlusion_strength);
+    values.set("Cutout.threshold", std::min(material.alpha_cutoff, 1.0));
+    for (std::size_t map = 0; map < physical.maps.size(); ++map) {
+        const TextureUse use = physical.maps[map].value_or(TextureUse());
+        const std::string name = fmt::format("TexturePlacements.maps[{}]", map);
+        values.set(name + ".linear", std::vector{use.linear[0], use.linear[1], use.linear[2], use.linear[3]});
+        values.set(name + ".offset", std::vector{use.offset.x, use.offset.y});
+        values.set(name + ".set", static_cast<double>(use.set));
+    }
+    values.set("Reflection.roughestLevel", static_cast<double>(kRoughnessLevels - 1));
+    values.set_source("texcoord1", "texcoord1");
+    values.set_source("tangent", "tangent");
+}
+
 void add_overrides(const Scene& scene, const Overrides& overrides, Values& values) {
     values.set("Toon.levels", static_cast<double>(std::max(overrides.toon_levels.value_or(1), 1)));
     if (overrides.fog) {
@@ -154,13 +199,18 @@ std::vector<std::size_t> shadowing(const Draw& draw, const std::vector<PlacedLig
 Object object_of(const Scene& scene, const Draw& draw) {
     const Material& material = material_of(scene, draw);
     Values values;
-    add_material(material, values);
+    if (scene.is_physical)
+        add_physical_material(material, values);
+    else
+        add_material(material, values);
     add_overrides(scene, overrides_of(scene, draw), values);
     values.set_source("color", "color");
     values.set_source("texcoord", "texcoord");
     values.set("Ambient.color", scene.ambient);
     add_lights(scene, draw, values);
     PosedMesh posed = posed_mesh(scene, draw.node, primitive_of(scene, draw));
+    if (posed.mesh.texcoords1.empty()) posed.mesh.texcoords1.resize(posed.mesh.positions.size());
+    if (posed.mesh.tangents.empty()) posed.mesh.tangents.resize(posed.mesh.positions.size());
     Object object{std::move(posed.mesh), posed.model, std::move(values.list)};
     object.culls_back_faces = !material.double_sided;
     return object;
@@ -190,7 +240,18 @@ SceneImages images_of(const Scene& scene, const std::vector<Draw>& draws) {
     for (const Draw& draw : draws) {
         images.opacity.emplace_back();
         std::vector<std::size_t>& own = images.shadows.emplace_back();
+        auto& pictures = images.pictures.emplace_back();
+        images.are_blended.push_back(false);
         if (!draw.excluded.empty()) continue;
+        if (scene.is_physical) {
+            constexpr std::array samplers = {"baseColorMap", "metallicRoughnessMap", "normalMap",
+                                             "occlusionMap", "emissiveMap"};
+            const Material& material = material_of(scene, draw);
+            images.are_blended.back() = material.alpha_mode == AlphaMode::blend;
+            for (std::size_t map = 0; map < samplers.size(); ++map)
+                if (const auto& use = material.physical.maps[map])
+                    pictures[samplers[map]] = {&scene.pictures[use->picture], &*use, map == 0 || map == 4};
+        }
         images.opacity.back() = material_of(scene, draw).opacity.value_or(AlphaMap());
         for (const std::size_t light : shadowing(draw, lights)) own.push_back(number[light]);
     }

@@ -2,6 +2,8 @@
 // what they look up in images: the holes of cut surfaces, and shadow maps.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "lab/render/draw_list.hpp"
@@ -21,6 +23,13 @@ namespace gobo::scene {
 /// by the family's demonstration.
 [[nodiscard]] std::vector<RenderValue> values_beside_scene(const std::vector<RenderValue>& family_values);
 
+/// A picture as a sampler looks it up.
+struct PictureUse {
+    const TextureImage* picture = nullptr;
+    const TextureUse* use = nullptr;
+    bool is_srgb = false;
+};
+
 /// Which images each draw looks up.
 struct SceneImages {
     std::vector<AlphaMap> opacity;    ///< one per draw; without texels: opaque all over
@@ -28,6 +37,10 @@ struct SceneImages {
     /// One list per draw: the lights whose shadows it receives, by number, in the order of lit's block
     /// `Shadows`: directional ones, spots, points.
     std::vector<std::vector<std::size_t>> shadows;
+    /// One per draw: the pictures of its metallic-roughness material, by the names of their samplers. They
+    /// point into the scene.
+    std::vector<std::map<std::string, PictureUse>> pictures = {};
+    std::vector<bool> are_blended = {};  ///< one per draw: alphaMode BLEND
 };
 
 [[nodiscard]] SceneImages images_of(const Scene& scene, const std::vector<Draw>& draws);

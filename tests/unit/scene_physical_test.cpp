@@ -1,0 +1,224 @@
+// Scenes read for metallic-roughness materials: factors, pictures, tangents, the light that stands in.
+#include <cstdio>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <jpeglib.h>
+#include <lodepng.h>
+
+#include "scene/effects.hpp"
+#include "scene/read_scene.hpp"
+#include "scene_support.hpp"
+
+namespace gobo::scene {
+namespace {
+
+using testing::ElementsAre;
+
+std::string png(const std::vector<unsigned char>& rgba, unsigned width, unsigned height) {
+    std::vector<unsigned char> bytes;
+    EXPECT_EQ(lodepng::encode(bytes, rgba, width, height), 0U);
+    return "data:image/png;base64," + base64(std::string(bytes.begin(), bytes.end()));
+}
+
+/// 8 x 8 texels of one grey.
+std::string jpeg(unsigned char grey) {
+    jpeg_compress_struct info{};
+    jpeg_error_mgr errors{};
+    info.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&info);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&info, &bytes, &size);
+    info.image_width = info.image_height = 8;
+    info.input_components = 1;
+    info.in_color_space = JCS_GRAYSCALE;
+    jpeg_set_defaults(&info);
+    jpeg_start_compress(&info, TRUE);
+    std::vector<unsigned char> row(8, grey);
+    JSAMPROW rows[] = {row.data()};
+    for (int i = 0; i < 8; ++i) jpeg_write_scanlines(&info, rows, 1);
+    jpeg_finish_compress(&info);
+    std::string text(reinterpret_cast<char*>(bytes), size);
+    free(bytes);
+    jpeg_destroy_compress(&info);
+    return text;
+}
+
+Result<Scene> read_physical_scene(const nlohmann::json& json) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"quad.gltf", json.dump()}, {"quad.bin", quad_buffer()}, {"grey.jpg", jpeg(100)}});
+    return read_scene(files, "quad.gltf", Reading::physical);
+}
+
+/// The quad's scene with this material and picture.
+nlohmann::json scene_with(const std::string& material, const std::string& image) {
+    nlohmann::json scene = quad_scene();
+    scene["materials"] = nlohmann::json::array({nlohmann::json::parse(material)});
+    scene["images"] = {{{"uri", image}}};
+    scene["textures"] = {{{"source", 0}}};
+    scene["meshes"][0]["primitives"][0]["material"] = 0;
+    // Texture coordinates of the usual picture, v running down.
+    const std::string places = float_bytes({0, 1, 1, 1, 1, 0, 0, 0});
+    scene["buffers"].push_back(
+        {{"byteLength", places.size()}, {"uri", "data:application/octet-stream;base64," + base64(places)}});
+    scene["bufferViews"].push_back({{"buffer", 1}, {"byteLength", places.size()}});
+    scene["accessors"].push_back({{"bufferView", scene["bufferViews"].size() - 1},
+                                  {"componentType", 5126},
+                                  {"count", 4},
+                                  {"type", "VEC2"}});
+    scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = scene["accessors"].size() - 1;
+    return scene;
+}
+
+TEST(PhysicalScene, ReadsFactorsAndExtensions) {
+    const Result<Scene> scene = read_physical_scene(scene_with(R"({"pbrMetallicRoughness":
+        {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.25},
+        "extensions": {"KHR_materials_ior": {"ior": 2}, "KHR_materials_specular": {"specularFactor": 0.5},
+                       "KHR_materials_clearcoat": {"clearcoatFactor": 0.75},
+                       "KHR_materials_transmission": {"transmissionFactor": 1}}})",
+                                                               png({255, 255, 255, 255}, 1, 1)));
+    ASSERT_TRUE(scene) << to_text(scene.error().front());
+    const PhysicalMaterial& material = scene->materials[0].physical;
+    EXPECT_EQ(material.base_color, glm::dvec4(0.1, 0.2, 0.3, 0.4));
+    EXPECT_EQ(material.metallic, 0.5);
+    EXPECT_EQ(material.roughness, 0.25);
+    EXPECT_DOUBLE_EQ(material.dielectric.g, 0.5 / 9);  // ((2 - 1) / (2 + 1))^2
+    EXPECT_EQ(material.dielectric_edge, 0.5);
+    EXPECT_EQ(material.clearcoat, 0.75);
+    EXPECT_THAT(material.not_drawn, ElementsAre("KHR_materials_transmission"));
+}
+
+/// Of the first draw: the effect's reason, and "in: " before it where it is in.
+std::string verdict(const Scene& scene, const std::string& name) {
+    const std::vector<Draw> draws = required_effects(scene, {}, {});
+    for (const Effect& effect : draws.front().effects)
+        if (effect.name == name) return (effect.is_in ? "in: " : "") + effect.reason;
+    return "not judged";
+}
+
+TEST(PhysicalScene, LeavesOutPicturesThatChangeNothing) {
+    struct Row {
+        const char* name;
+        std::vector<unsigned char> texel;
+        const char* material;
+        const char* effect;
+        const char* verdict;
+    };
+    const Row rows[] = {
+        {"white",
+         {255, 255, 255, 255},
+         R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+         "base_color_map",
+         "it is white"},
+        {"grey",
+         {255, 254, 255, 255},
+         R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+         "base_color_map",
+         "in: 1 x 1 texels"},
+        {"alpha of an opaque one",
+         {255, 255, 255, 9},
+         R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+         "base_color_map",
+         "it is white"},
+        {"alpha of a blended one",
+         {255, 255, 255, 9},
+         R"({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+         "base_color_map",
+         "in: 1 x 1 texels"},
+        {"flat, one way",
+         {127, 128, 255, 255},
+         R"({"normalTexture": {"index": 0}})",
+         "normal_map",
+         "it is flat"},
+        {"bent",
+         {130, 128, 255, 255},
+         R"({"normalTexture": {"index": 0}})",
+         "normal_map",
+         "in: 1 x 1 texels"},
+        {"scale 0",
+         {130, 128, 255, 255},
+         R"({"normalTexture": {"index": 0, "scale": 0}})",
+         "normal_map",
+         "its scale is 0"},
+        {"red alone occludes",
+         {255, 1, 2, 255},
+         R"({"occlusionTexture": {"index": 0}})",
+         "occlusion_map",
+         "it is white"},
+        {"no emission",
+         {9, 9, 9, 255},
+         R"({"emissiveTexture": {"index": 0}})",
+         "emissive_map",
+         "its material emits nothing"},
+        {"the third set",
+         {9, 9, 9, 255},
+         R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 2}}})",
+         "base_color_map",
+         "its texture coordinates are set 2, of which 0 and 1 are read"}};
+    for (const Row& row : rows) {
+        const Result<Scene> scene = read_physical_scene(scene_with(row.material, png(row.texel, 1, 1)));
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        EXPECT_EQ(verdict(*scene, row.effect), row.verdict) << row.name;
+    }
+}
+
+TEST(PhysicalScene, ReadsJpegAndSaysWhatIsNone) {
+    nlohmann::json json =
+        scene_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", "grey.jpg");
+    const Result<Scene> scene = read_physical_scene(json);
+    ASSERT_TRUE(scene) << to_text(scene.error().front());
+    ASSERT_EQ(scene->pictures.size(), 1U);
+    EXPECT_EQ(scene->pictures[0].width, 8);
+    EXPECT_THAT(std::vector(scene->pictures[0].texels.begin(), scene->pictures[0].texels.begin() + 4),
+                ElementsAre(100, 100, 100, 255));
+    json["images"][0]["uri"] = "data:image/jpeg;base64," + base64("\xff\xd8\xff");
+    EXPECT_EQ(read_physical_scene(json).error().front().message,
+              "images[0] is no JPEG that can be decoded: JPEG datastream contains no image");
+    json["images"][0]["uri"] = "data:image/gif;base64," + base64("GIF89a");
+    EXPECT_EQ(read_physical_scene(json).error().front().message, "images[0] is neither PNG nor JPEG");
+}
+
+// Of the usual picture T runs to the right and N x T, for w = 1, up.
+TEST(PhysicalScene, MakesTangentsAsMikkTSpaceHasThem) {
+    const std::string bent = png({130, 128, 255, 255}, 1, 1);
+    nlohmann::json json = scene_with(R"({"normalTexture": {"index": 0}})", bent);
+    const auto tangents = [&] {
+        const Result<Scene> scene = read_physical_scene(json);
+        EXPECT_TRUE(scene) << to_text(scene.error().front());
+        return scene->meshes[0].primitives[0].tangents;
+    };
+    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json["accessors"].size();
+    const std::string normals = float_bytes({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+    json["buffers"].push_back(
+        {{"byteLength", normals.size()}, {"uri", "data:application/octet-stream;base64," + base64(normals)}});
+    json["bufferViews"].push_back({{"buffer", 2}, {"byteLength", normals.size()}});
+    json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                 {"componentType", 5126},
+                                 {"count", 4},
+                                 {"type", "VEC3"}});
+    ASSERT_EQ(tangents().size(), 4U);
+    for (const glm::vec4& tangent : tangents()) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
+    const std::string mirrored = float_bytes({1, 1, 0, 1, 0, 0, 1, 0});
+    json["buffers"][1]["uri"] = "data:application/octet-stream;base64," + base64(mirrored);
+    for (const glm::vec4& tangent : tangents()) EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
+    // One triangle of each: the two vertices that they share become four.
+    const std::string half = float_bytes({0, 1, 1, 1, 1, 0, 2, 0});
+    json["buffers"][1]["uri"] = "data:application/octet-stream;base64," + base64(half);
+    EXPECT_EQ(tangents().size(), 6U);
+}
+
+TEST(PhysicalScene, PutsAnEnvironmentWhereNoLightIsStated) {
+    nlohmann::json json = scene_with("{}", png({9, 9, 9, 255}, 1, 1));
+    EXPECT_FALSE(read_physical_scene(json)->has_default_light);
+    for (nlohmann::json& node : json["nodes"]) node.erase("extensions");
+    const Result<Scene> dark = read_physical_scene(json);
+    ASSERT_TRUE(dark) << to_text(dark.error().front());
+    EXPECT_TRUE(dark->has_default_light);
+    EXPECT_EQ(verdict(*dark, "reflection"), "in: the scene states no light: the studio stands in");
+    json["scenes"][0]["extras"]["gobo"]["ambient"] = {0.1, 0.1, 0.1};
+    EXPECT_FALSE(read_physical_scene(json)->has_default_light);
+}
+
+}  // namespace
+}  // namespace gobo::scene

@@ -1,0 +1,107 @@
+#include "scene/picture.hpp"
+
+#include <csetjmp>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <jpeglib.h>
+#include <lodepng.h>
+
+namespace gobo::scene {
+namespace {
+
+tl::unexpected<std::string> too_large(std::size_t width, std::size_t height) {
+    return tl::unexpected(
+        fmt::format("is of {} x {} pixels, which is more than gobo decodes", width, height));
+}
+
+tl::expected<TextureImage, std::string> decode_png(std::string_view bytes) {
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    unsigned width = 0;
+    unsigned height = 0;
+    lodepng::State state;
+    TextureImage picture;
+    unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
+    if (error == 0 && std::size_t{width} * height > kMostTexels) return too_large(width, height);
+    if (error == 0) error = lodepng::decode(picture.texels, width, height, data, bytes.size());
+    if (error != 0)
+        return tl::unexpected(fmt::format("is no PNG that can be decoded: {}", lodepng_error_text(error)));
+    picture.width = static_cast<int>(width);
+    picture.height = static_cast<int>(height);
+    return picture;
+}
+
+/// libjpeg's errors do not return: they leap back to where the decoding began.
+struct JpegErrors {
+    jpeg_error_mgr manager;  // first, so that libjpeg's pointer to it is one to this
+    std::jmp_buf back;
+    char message[JMSG_LENGTH_MAX];
+};
+
+void leap_back(j_common_ptr info) {
+    auto* errors = reinterpret_cast<JpegErrors*>(info->err);
+    errors->manager.format_message(info, errors->message);
+    std::longjmp(errors->back, 1);
+}
+
+void say_nothing(j_common_ptr) {}
+
+/// Nothing with a destructor lives between setjmp() and what leaps.
+bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_view bytes,
+                 TextureImage& picture, bool& is_too_large) {
+    if (setjmp(errors.back) != 0) return false;
+    jpeg_create_decompress(&info);
+    jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    jpeg_read_header(&info, TRUE);
+    picture.width = static_cast<int>(info.image_width);
+    picture.height = static_cast<int>(info.image_height);
+    is_too_large = std::size_t{info.image_width} * info.image_height > kMostTexels;
+    if (is_too_large) return true;
+    info.out_color_space = JCS_EXT_RGBA;
+    jpeg_start_decompress(&info);
+    const std::size_t stride = std::size_t{4} * info.output_width;
+    picture.texels.resize(stride * info.output_height);
+    while (info.output_scanline < info.output_height) {
+        JSAMPROW row = picture.texels.data() + stride * info.output_scanline;
+        jpeg_read_scanlines(&info, &row, 1);
+    }
+    jpeg_finish_decompress(&info);
+    return true;
+}
+
+tl::expected<TextureImage, std::string> decode_jpeg(std::string_view bytes) {
+    jpeg_decompress_struct info{};
+    JpegErrors errors{};
+    info.err = jpeg_std_error(&errors.manager);
+    errors.manager.error_exit = leap_back;
+    errors.manager.output_message = say_nothing;
+    TextureImage picture;
+    bool is_too_large = false;
+    const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large);
+    jpeg_destroy_decompress(&info);
+    if (!is_decoded) return tl::unexpected(fmt::format("is no JPEG that can be decoded: {}", errors.message));
+    if (is_too_large)
+        return too_large(static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height));
+    return picture;
+}
+
+}  // namespace
+
+PictureFormat format_of_picture(std::string_view bytes) {
+    if (bytes.starts_with("\xff\xd8\xff")) return PictureFormat::jpeg;
+    return bytes.starts_with("\x89PNG\r\n\x1a\n") ? PictureFormat::png : PictureFormat::unknown;
+}
+
+tl::expected<TextureImage, std::string> decode_picture(std::string_view bytes) {
+    switch (format_of_picture(bytes)) {
+        case PictureFormat::png:
+            return decode_png(bytes);
+        case PictureFormat::jpeg:
+            return decode_jpeg(bytes);
+        case PictureFormat::unknown:
+            break;
+    }
+    return tl::unexpected(std::string("is neither PNG nor JPEG"));
+}
+
+}  // namespace gobo::scene
