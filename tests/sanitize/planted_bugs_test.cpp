@@ -2,6 +2,7 @@
 // many points that does not.
 #include <gtest/gtest.h>
 
+#include "core/file_system.hpp"
 #include "sanitize_support.hpp"
 
 namespace gobo {
@@ -18,6 +19,7 @@ TEST_P(PlantedBug, IsFoundByTheGuidedSearch) {
     options.machines = {sanitize::Machine::ieee};
     const sanitize::SanitizeReport report = sanitized_file(GetParam(), options);
     EXPECT_EQ(found_lines(report), marked_lines(GetParam()));
+    EXPECT_EQ(not_replayed(GetParam(), *DiskFileSystem().read(GetParam()), report), Lines{});
 }
 
 TEST_P(PlantedBug, IsMissedByASearchThatDoesNotLearn) {

@@ -10,7 +10,9 @@
 #include "compose/search_path.hpp"
 #include "core/file_system.hpp"
 #include "core/text.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/program.hpp"
+#include "lab/sanitize/bounds.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -104,6 +106,38 @@ sanitize::SanitizeReport sanitized_text(const std::string& name, const std::stri
     Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
     loaded.family.domains = domains;
     return sanitized(loaded, options);
+}
+
+Lines not_replayed(const std::string& name, const std::string& text, const sanitize::SanitizeReport& report) {
+    const Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
+    const SpirvModule& spirv = loaded.validated.stages.front().spirv;
+    const Result<evaluate::Program> program = evaluate::decode(spirv);
+    EXPECT_TRUE(program);
+    const sanitize::InputSpace space = sanitize::input_space_of(*program, {}, true);
+    sanitize::OutputBounds bounds(loaded.family, Key{}, loaded.composition.stages.front().kind, *program,
+                                  space, sanitize::depth_promise_of(spirv));
+    Lines missing;
+    for (const sanitize::SharedFinding& shared : report.findings) {
+        const sanitize::Finding& wanted = shared.finding;
+        if (wanted.is_of_constants) continue;
+        const auto inputs = evaluate::read_eval_inputs(eval_input(wanted, "an input"), "found.toml");
+        EXPECT_TRUE(inputs) << to_text(inputs.error().front());
+        const auto invocations = evaluate::invocations_of(*inputs, *program);
+        EXPECT_TRUE(invocations) << to_text(invocations.error().front());
+        const std::string& machine = inputs->machine.text;
+        std::vector<sanitize::Interval> allowed = bounds.at(sanitize::point_set(space, wanted.point));
+        allowed.resize(allowed.size() / space.pixels * invocations->count);
+        const auto again =
+            sanitize::find_traps(*program, *invocations,
+                                 sanitize::machine_named(machine).value_or(sanitize::Machine::ieee), allowed);
+        EXPECT_TRUE(again);
+        const bool is_there = std::ranges::any_of(*again, [&](const sanitize::Finding& found) {
+            return found.message == wanted.message && found.place == wanted.place &&
+                   found.operation == wanted.operation;
+        });
+        if (!is_there) missing.insert(fmt::format("{}: {}", wanted.place.line, to_text(wanted)));
+    }
+    return missing;
 }
 
 evaluate::Program program_of(const std::string& name, const std::string& text) {

@@ -34,6 +34,10 @@ using Lines = std::set<std::string>;
 [[nodiscard]] sanitize::SanitizeReport sanitized_text(const std::string& name, const std::string& text,
                                                       const sanitize::SanitizeOptions& options,
                                                       const std::vector<Domain>& domains = {});
+/// The findings whose input, written as a file and read back, does not show the same operation with the same
+/// values at the same place. The shader is that of sanitized_text().
+[[nodiscard]] Lines not_replayed(const std::string& name, const std::string& text,
+                                 const sanitize::SanitizeReport& report);
 /// The stage of that text, decoded.
 [[nodiscard]] evaluate::Program program_of(const std::string& name, const std::string& text);
 

@@ -131,8 +131,10 @@ std::string shader_with(const std::string& statement) {
 class Trap : public testing::TestWithParam<Row> {};
 
 TEST_P(Trap, IsFlaggedAtItsLine) {
-    const sanitize::SanitizeReport report = sanitized_text("trap.frag", shader_with(GetParam().trapping), {});
+    const std::string text = shader_with(GetParam().trapping);
+    const sanitize::SanitizeReport report = sanitized_text("trap.frag", text, {});
     EXPECT_EQ(found_lines(report), Lines{"14: " + GetParam().message});
+    EXPECT_EQ(not_replayed("trap.frag", text, report), Lines{});
 }
 
 TEST_P(Trap, IsNotSeenWhereItCannotHappen) {

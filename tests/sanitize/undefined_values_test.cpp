@@ -78,6 +78,10 @@ const Row kRows[] = {
      "vec3 tone(float v) { if (v > 0.0) return vec3(v); }",
      "color.rgb = tone(x);",
      {kNoReturn}},
+    {"two_causes",
+     "float half_of(float v) { if (v > 0.0) return v * 0.5; }",
+     "float w; if (x <= 0.0) w = x; color.x = half_of(x) + w;",
+     {kNoReturn, kUnwritten}},
     // What must stay silent.
     {"harmless_written_on_both_paths",
      "",
@@ -118,9 +122,11 @@ std::string shader_with(const Row& row) {
 class Undefined : public testing::TestWithParam<Row> {};
 
 TEST_P(Undefined, IsFoundWhereItMatters) {
-    const sanitize::SanitizeReport report = sanitized_text("undefined.frag", shader_with(GetParam()), {});
+    const std::string text = shader_with(GetParam());
+    const sanitize::SanitizeReport report = sanitized_text("undefined.frag", text, {});
     EXPECT_EQ(found_lines(report), GetParam().found);
     EXPECT_EQ(consequences(report), GetParam().following);
+    EXPECT_EQ(not_replayed("undefined.frag", text, report), Lines{});
 }
 
 std::string row_name(const testing::TestParamInfo<Row>& info) {

@@ -96,7 +96,7 @@ EvalReport report_of(const Program& program, bool with_trace) {
     EXPECT_TRUE(inputs) << all_of(inputs.error());
     const Result<Invocations> invocations = invocations_of(*inputs, program);
     EXPECT_TRUE(invocations) << all_of(invocations.error());
-    Result<EvalReport> report = evaluate_once(program, *invocations, with_trace);
+    Result<EvalReport> report = evaluate_once(program, *invocations, {with_trace, {}, 0});
     EXPECT_TRUE(report) << all_of(report.error());
     return *report;
 }

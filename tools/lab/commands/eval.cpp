@@ -5,6 +5,7 @@
 #include "lab/commands/lab_input.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
+#include "lab/sanitize/machine.hpp"
 #include "lab/verify/expectation.hpp"
 
 namespace gobo {
@@ -31,6 +32,12 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
     return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv);
 }
 
+std::vector<std::string> machine_names() {
+    std::vector<std::string> names;
+    for (const sanitize::MachineRow& row : sanitize::kMachineRows) names.emplace_back(row.name);
+    return names;
+}
+
 Result<Outcome> run(const EvalOptions& options, const World& world) {
     GOBO_TRY(const Subject subject, load_subject(world, options.names, options.stages, options.dialect));
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
@@ -38,10 +45,22 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
     const StageKind stage = inputs.stage == "vertex" ? StageKind::vertex : StageKind::fragment;
     GOBO_TRY(const evaluate::Program program, program_of(world, subject, stage));
     GOBO_TRY(const evaluate::Invocations invocations, evaluate::invocations_of(inputs, program));
-    GOBO_TRY(const auto report, evaluate::evaluate_once(program, invocations, options.trace));
+    evaluate::EvalOptions how{options.trace, {}, inputs.pixel};
+    if (const std::string& name = inputs.machine.text; !name.empty()) {
+        const auto machine = sanitize::machine_named(name);
+        if (!machine)
+            return fail(inputs.machine.place, inputs.machine.quoted_line,
+                        fmt::format("there is no arithmetic '{}'", name), suggestion(name, machine_names()));
+        how.arithmetic = sanitize::options_of(*machine);
+    }
+    if (inputs.pixel >= invocations.count) how.invocation = 0;  // the quad's pixels are all alike
+    GOBO_TRY(const auto report, evaluate::evaluate_once(program, invocations, how));
     // Of the lighting models, where the family is ours and reads nothing new.
     std::vector<verify::Answer> answers;
-    if (!subject.are_files)
+    // They know textures of one colour.
+    const bool has_patterns = std::ranges::any_of(
+        inputs.samplers, [](const auto& sampler) { return sampler.first.ends_with(".texels"); });
+    if (!subject.are_files && invocations.count == 1 && !has_patterns)
         answers = verify::ask_oracle(subject.family.family, subject.composition.permutations.front().key,
                                      stage, program, invocations)
                       .value_or(answers);
@@ -61,26 +80,29 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
 
 Command eval_command() {
     const auto options = std::make_shared<EvalOptions>();
-    return {titles::kEval,
-            {subject_argument(options->names),
-             stages_option(options->stages),
-             {"--inputs", "FILE.toml", "The stage, its inputs, uniforms and samplers", &options->inputs,
-              kRequired},
-             {"--trace", "", "Print every operation with its place and values", &options->trace},
-             {"--json", "", "Print JSON", &options->json},
-             dialect_option(options->dialect)},
-            {},
-            "  gobo eval lit 'fog=linear point=3' --inputs point.toml\n"
-            "  gobo eval game.frag --inputs point.toml --trace",
-            [options](const World& world) { return run(*options, world); },
-            "An input file:\n"
-            "  stage = \"fragment\"\n"
-            "  [inputs]\n"
-            "  normal = [0, 0, 1]\n"
-            "  [uniforms]\n"
-            "  \"PointLights.lights[0].position\" = [0, 1, 2, 1]\n"
-            "  [samplers]\n"
-            "  albedo = [1, 1, 1, 1]   # the colour that every texture function answers"};
+    return {
+        titles::kEval,
+        {subject_argument(options->names),
+         stages_option(options->stages),
+         {"--inputs", "FILE.toml", "The stage, its inputs, uniforms and samplers", &options->inputs,
+          kRequired},
+         {"--trace", "", "Print every operation with its place and values", &options->trace},
+         {"--json", "", "Print JSON", &options->json},
+         dialect_option(options->dialect)},
+        {},
+        "  gobo eval lit 'fog=linear point=3' --inputs point.toml\n"
+        "  gobo eval game.frag --inputs point.toml --trace",
+        [options](const World& world) { return run(*options, world); },
+        "An input file:\n"
+        "  stage = \"fragment\"\n"
+        "  [inputs]\n"
+        "  normal = [0, 0, 1]\n"
+        "  [uniforms]\n"
+        "  \"PointLights.lights[0].position\" = [0, 1, 2, 1]\n"
+        "  [samplers]\n"
+        "  albedo = [1, 1, 1, 1]   # the colour that every texture function answers\n"
+        "An input with four values is of the four pixels of a quad, and 'pixel = 2' says which is printed; "
+        "'machine = \"flushed\"' evaluates as gobo sanitize --machine does."};
 }
 
 }  // namespace gobo

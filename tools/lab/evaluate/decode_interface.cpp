@@ -162,7 +162,8 @@ void Decoder::add_leaf(std::vector<Port>& ports, const std::string& name, Id id,
     const Type& of = type(id);
     if (of.is_image()) {
         program_.constants.push_back({at.slot, of.value.scalar, length_of(program_.images)});
-        program_.images.push_back({name, of.image, at.slot});
+        const Type& image = of.opcode == spv::OpTypeSampledImage ? type(of.element) : of;
+        program_.images.push_back({name, of.image, at.slot, type(image.element).value.scalar});
         return;
     }
     Port port{name, of.value.name(), number, at.slot, of.scalars, of.value.scalar, at.block, {}};

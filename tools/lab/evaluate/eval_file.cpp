@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "core/toml_depth.hpp"
 #include "lab/evaluate/functions.hpp"
+#include "lab/evaluate/image_call.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -37,9 +38,14 @@ class FileReader {
                 read_section(node, "", *section->second);
             else if (key == "stage")
                 read_stage(node);
+            else if (key == "pixel")
+                read_pixel(node);
+            else if (key == "machine")
+                read_machine(key.source(), node);
             else
-                report(key.source(), fmt::format("'{}' means nothing here", key.str()),
-                       suggestion(key.str(), {"stage", "inputs", "uniforms", "samplers"}));
+                report(
+                    key.source(), fmt::format("'{}' means nothing here", key.str()),
+                    suggestion(key.str(), {"stage", "machine", "pixel", "inputs", "uniforms", "samplers"}));
         }
         if (!diagnostics_.empty()) return tl::unexpected(diagnostics_);
         return std::move(inputs_);
@@ -59,6 +65,21 @@ class FileReader {
         inputs_.stage = node.value_or(std::string());
         if (inputs_.stage != "vertex" && inputs_.stage != "fragment")
             report(node.source(), "'stage' is neither \"vertex\" nor \"fragment\"");
+    }
+
+    void read_pixel(const toml::node& node) {
+        const std::int64_t pixel = node.value_or(std::int64_t{-1});
+        if (!node.is_integer() || pixel < 0 || pixel > 3)
+            return report(node.source(), "'pixel' is not one of the quad's: 0, 1, 2 or 3");
+        inputs_.pixel = static_cast<std::size_t>(pixel);
+    }
+
+    void read_machine(const toml::source_region& source, const toml::node& node) {
+        inputs_.machine = {{}, place_of(source), {}};
+        inputs_.machine.quoted_line = line_of(text_, inputs_.machine.place.line);
+        inputs_.machine.text = node.value_or(std::string());
+        if (!node.is_string())
+            report(node.source(), "'machine' names a variant of arithmetic: machine = \"flushed\"");
     }
 
     void read_section(const toml::node& section, const std::string& prefix,
@@ -109,13 +130,24 @@ Diagnostic fault(const EvalValue& value, std::string message, std::string help =
     return diagnostic;
 }
 
+/// Whether the value is one for each pixel of a quad.
+bool is_of_quad(const EvalValue& value, const Port& port) {
+    return value.numbers.size() == 4 * port.components;
+}
+
 void match(const std::map<std::string, EvalValue>& values, const std::vector<Port>& ports, const char* what,
-           Invocations& invocations, Diagnostics& diagnostics) {
+           bool may_be_quad, Invocations& invocations, Diagnostics& diagnostics) {
     for (const auto& [name, value] : values) {
         const Port* const port = find_port(ports, name);
         if (port == nullptr) {
             diagnostics.push_back(fault(value, fmt::format("the stage has no {} '{}'", what, name),
                                         ports.empty() ? std::string() : suggestion(name, names_of(ports))));
+        } else if (may_be_quad && is_of_quad(value, *port)) {
+            std::vector<double>& numbers = invocations.values[name];
+            for (std::uint32_t component = 0; component < port->components; ++component)
+                for (std::size_t pixel = 0; pixel < 4; ++pixel)
+                    numbers.push_back(value.numbers[pixel * port->components + component]);
+            invocations.count = 4;
         } else if (value.numbers.size() != port->components) {
             diagnostics.push_back(
                 fault(value, fmt::format("'{}' is a {}: it takes {} numbers, not {}", name, port->type,
@@ -137,7 +169,12 @@ class SamplerMatcher {
         if (diagnostics_.empty())
             for (const auto& [name, texels] : texels_) check(name, texels);
         for (const ImagePort& port : program_.images) {
-            if (const auto depth = texels_.find(port.name); depth != texels_.end())
+            if (const auto pattern = patterns_.find(port.name);
+                pattern != patterns_.end() && !pattern->second.colors.empty())
+                invocations.images[port.name] =
+                    PatternImage{std::make_shared<std::vector<TexelPattern>>(1, pattern->second), 4,
+                                 port.type.dimension == spv::DimCube};
+            else if (const auto depth = texels_.find(port.name); depth != texels_.end())
                 invocations.images[port.name] = image_of(depth->second, port.type);
             else if (const auto color = colors_.find(port.name); color != colors_.end())
                 invocations.images[port.name] = image_of(color->second, port.type);
@@ -159,12 +196,21 @@ class SamplerMatcher {
             read_size(name, value, texels_[port->name]);
         else if (member == "depths")
             texels_[port->name].depths = value.numbers;
+        else if (member == "texels")
+            read_texels(name, value, patterns_[port->name]);
+        else if (member == "seed")
+            read_whole(name, value, patterns_[port->name].seed);
+        else if (member == "side")
+            read_whole(name, value, patterns_[port->name].side);
+        else if (member == "levels")
+            read_whole(name, value, patterns_[port->name].levels);
         else if (axis != kAlong.end())
             read_texel(name, value,
                        colors_[port->name].along[static_cast<std::size_t>(axis - kAlong.begin())]);
         else
             report(value, fmt::format("a sampler has no '{}'", member),
-                   suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths"}));
+                   suggestion(member, {"color", "along_x", "along_y", "along_z", "size", "depths", "texels",
+                                       "seed", "side", "levels"}));
     }
 
     void report(const EvalValue& value, std::string message, std::string help = {}) {
@@ -175,6 +221,21 @@ class SamplerMatcher {
         if (value.numbers.empty() || value.numbers.size() > 4)
             report(value, fmt::format("'{}' takes one to four numbers", name));
         std::copy_n(value.numbers.begin(), std::min<std::size_t>(value.numbers.size(), 4), texel.begin());
+    }
+
+    void read_texels(const std::string& name, const EvalValue& value, TexelPattern& pattern) {
+        if (value.numbers.empty() || value.numbers.size() % 4 != 0)
+            return report(value, fmt::format("'{}' takes four numbers for each colour", name));
+        for (std::size_t at = 0; at < value.numbers.size(); at += 4)
+            std::copy_n(value.numbers.begin() + static_cast<std::ptrdiff_t>(at), 4,
+                        pattern.colors.emplace_back().begin());
+    }
+
+    void read_whole(const std::string& name, const EvalValue& value, int& number) {
+        if (value.numbers.size() != 1 || !(value.numbers[0] >= 0) || value.numbers[0] > kMostTexels ||
+            value.numbers[0] != std::floor(value.numbers[0]))
+            return report(value, fmt::format("'{}' takes a whole number from 0 to {}", name, kMostTexels));
+        number = static_cast<int>(value.numbers[0]);
     }
 
     void read_size(const std::string& name, const EvalValue& value, DepthTexels& texels) {
@@ -208,6 +269,7 @@ class SamplerMatcher {
     Diagnostics& diagnostics_;
     std::map<std::string, EvenColor> colors_;
     std::map<std::string, DepthTexels> texels_;
+    std::map<std::string, TexelPattern> patterns_;
 };
 
 using Numbers = std::map<std::string, std::vector<double>>;
@@ -221,6 +283,24 @@ Numbers values_of(const std::vector<Port>& ports, const Invocations& invocations
         for (std::size_t component = 0; component < port.components; ++component)
             result[port.name].push_back(
                 found->second[is_common ? component : component * invocations.count + index]);
+    }
+    return result;
+}
+
+/// Inputs of the four pixels of the quad around `index`; those that are the same in all of them once.
+Numbers values_of_quad(const std::vector<Port>& ports, const Invocations& invocations, std::size_t index) {
+    Numbers result;
+    const std::size_t first = index - index % 4;
+    for (std::size_t pixel = first; pixel < first + 4; ++pixel)
+        for (const auto& [name, numbers] : values_of(ports, invocations, pixel))
+            result[name].insert(result[name].end(), numbers.begin(), numbers.end());
+    for (auto& [name, numbers] : result) {
+        const std::size_t components = numbers.size() / 4;
+        bool is_common = true;
+        for (std::size_t i = components; i < numbers.size(); ++i)
+            is_common = is_common && numbers[i] == numbers[i - components] &&
+                        std::signbit(numbers[i]) == std::signbit(numbers[i - components]);
+        if (is_common) numbers.resize(components);
     }
     return result;
 }
@@ -254,8 +334,8 @@ Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& pa
 Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& program) {
     Invocations invocations;
     Diagnostics diagnostics;
-    match(inputs.inputs, program.inputs, "input", invocations, diagnostics);
-    match(inputs.uniforms, program.uniforms, "uniform", invocations, diagnostics);
+    match(inputs.inputs, program.inputs, "input", program.is_fragment, invocations, diagnostics);
+    match(inputs.uniforms, program.uniforms, "uniform", false, invocations, diagnostics);
     SamplerMatcher(inputs, program, diagnostics).add_to(invocations);
     if (!diagnostics.empty()) return tl::unexpected(diagnostics);
     return invocations;
@@ -273,11 +353,20 @@ Diagnostics inputs_left_out(const EvalInputs& inputs, const Program& program) {
 }
 
 EvalPoint point_of(const Program& program, const Invocations& invocations, std::size_t index) {
-    EvalPoint point{
-        values_of(program.inputs, invocations, index), values_of(program.uniforms, invocations, index), {}};
-    for (const ImagePort& port : program.images)
-        if (const auto given = invocations.images.find(port.name); given != invocations.images.end())
+    EvalPoint point;
+    const bool in_quads = needs_quads(program) && invocations.count % 4 == 0;
+    point.inputs = in_quads ? values_of_quad(program.inputs, invocations, index)
+                            : values_of(program.inputs, invocations, index);
+    point.pixel = in_quads ? index % 4 : 0;
+    point.uniforms = values_of(program.uniforms, invocations, index);
+    for (const ImagePort& port : program.images) {
+        const auto given = invocations.images.find(port.name);
+        if (given == invocations.images.end()) continue;
+        if (const TexelPattern* const pattern = pattern_of(given->second, index))
+            add_numbers(port.name, *pattern, point.samplers);
+        else
             add_numbers(port.name, content_of(given->second, port, index), point.samplers);
+    }
     return point;
 }
 
@@ -285,7 +374,10 @@ std::string eval_file(std::string_view stage, const EvalPoint& point, const std:
                       Digits digits) {
     std::string text;
     for (const std::string& line : comment) text += fmt::format("# {}\n", one_line(line));
-    return text + fmt::format("stage = \"{}\"\n{}{}{}", stage, table_text("inputs", point.inputs, digits),
+    text += fmt::format("stage = \"{}\"\n", stage);
+    if (!point.machine.empty()) text += fmt::format("machine = \"{}\"\n", point.machine);
+    if (point.pixel != 0) text += fmt::format("pixel = {}  # of the quad's four\n", point.pixel);
+    return text + fmt::format("{}{}{}", table_text("inputs", point.inputs, digits),
                               table_text("uniforms", point.uniforms, digits),
                               table_text("samplers", point.samplers, digits));
 }

@@ -16,12 +16,15 @@ struct EvalValue {
     std::vector<double> numbers;  ///< component by component; matrices column by column
     Place place;
     std::string quoted_line;
+    std::string text = {};  ///< where it is a name
 };
 
 /// What the file says. Names are those of reflection.
 struct EvalInputs {
-    std::string stage = "fragment";             ///< or "vertex"
-    std::map<std::string, EvalValue> inputs;    ///< [inputs]
+    std::string stage = "fragment";           ///< or "vertex"
+    EvalValue machine;                        ///< `text` names the arithmetic; where empty, as the stage says
+    std::size_t pixel = 0;                    ///< of the quad's four: which is told of
+    std::map<std::string, EvalValue> inputs;  ///< [inputs]
     std::map<std::string, EvalValue> uniforms;  ///< [uniforms]
     std::map<std::string, EvalValue> samplers;  ///< [samplers], as SamplerNumbers
 };
@@ -36,12 +39,14 @@ struct EvalInputs {
 ///     [samplers]
 ///     shadowMap = [1, 1, 1, 1]
 ///
-/// Numbers, booleans and (nested) arrays of them are values; a table inside a section adds to the name.
-/// Errors stand at their line of `path`.
+/// Numbers, booleans and (nested) arrays of them are values; a table inside a section adds to the name. An
+/// input of a fragment stage with four times its components has a value for each pixel of a quad, in the
+/// order of Invocations; `pixel = 0` to 3 says which is meant. `machine = "flushed"` names a variant of
+/// arithmetic. Errors stand at their line of `path`.
 [[nodiscard]] Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path);
 
-/// The one invocation that the file describes. Every name that the stage does not have and every wrong number
-/// of components is an error at its line.
+/// The invocation that the file describes, or the four of its quad. Every name that the stage does not have
+/// and every wrong number of components is an error at its line.
 [[nodiscard]] Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& program);
 
 /// A note for each input variable that the file does not name: it is 0.
@@ -52,9 +57,12 @@ struct EvalPoint {
     std::map<std::string, std::vector<double>> inputs;
     std::map<std::string, std::vector<double>> uniforms;
     SamplerNumbers samplers;
+    std::size_t pixel = 0;  ///< of the quad, where inputs have a value for each
+    std::string machine;    ///< empty: as written
 };
 
-/// Invocation `index` of a stage's inputs. What the invocations do not name is left out.
+/// Invocation `index` of a stage's inputs, where the stage needs quads with the other three. What the
+/// invocations do not name is left out.
 [[nodiscard]] EvalPoint point_of(const Program& program, const Invocations& invocations, std::size_t index);
 
 /// How numbers are written.

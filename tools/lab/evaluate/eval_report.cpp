@@ -161,18 +161,35 @@ std::string to_text(const std::vector<TraceStep>& steps, const SourceLine& sourc
     return text;
 }
 
-Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations, bool with_trace) {
-    Trace<float> trace;
-    GOBO_TRY(Outputs in_float,
-             run<float>(program, invocations, {.count = true}, with_trace ? &trace : nullptr));
-    GOBO_TRY(Outputs in_double, run<double>(program, invocations));
+namespace {
+
+/// What one invocation gives.
+std::vector<double> numbers_of(const Outputs& outputs, const Port& port, std::size_t invocation) {
+    const std::vector<double>& all = outputs.values.at(port.name);
+    std::vector<double> numbers;
+    for (std::size_t component = 0; component < port.components; ++component)
+        numbers.push_back(all[component * outputs.count + invocation]);
+    return numbers;
+}
+
+}  // namespace
+
+Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations,
+                                 const EvalOptions& options) {
+    Trace<float> trace(options.invocation);
+    Options in_floats = options.arithmetic;
+    in_floats.count = true;
+    GOBO_TRY(const Outputs in_float,
+             run<float>(program, invocations, in_floats, options.with_trace ? &trace : nullptr));
+    GOBO_TRY(const Outputs in_double, run<double>(program, invocations));
     EvalReport report;
+    const std::size_t at = std::min(options.invocation, invocations.count - 1);
     for (const Port& port : program.outputs)
         report.outputs.push_back(
-            {port.name, port.type, in_float.values[port.name], in_double.values[port.name]});
-    report.is_discarded_in_float = in_float.discarded.front();
-    report.is_discarded_in_double = in_double.discarded.front();
-    report.counts = in_float.counts.front();
+            {port.name, port.type, numbers_of(in_float, port, at), numbers_of(in_double, port, at)});
+    report.is_discarded_in_float = in_float.discarded[at];
+    report.is_discarded_in_double = in_double.discarded[at];
+    report.counts = in_float.counts[at];
     report.trace = trace.steps();
     return report;
 }

@@ -70,9 +70,16 @@ struct EvalReport {
     std::vector<TraceStep> trace;  ///< in fp32; empty unless asked for
 };
 
-/// Runs one invocation in both arithmetics.
+/// How one invocation is run.
+struct EvalOptions {
+    bool with_trace = false;
+    Options arithmetic = {};     ///< of fp32
+    std::size_t invocation = 0;  ///< the one that is told of
+};
+
+/// Runs the invocations in both arithmetics, and tells of one.
 [[nodiscard]] Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations,
-                                               bool with_trace);
+                                               const EvalOptions& options);
 
 /// The trace (with the source line above the operations it consists of), outputs, differences and counts.
 [[nodiscard]] std::string to_text(const EvalReport& report, const SourceLine& source_line);

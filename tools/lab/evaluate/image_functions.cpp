@@ -4,36 +4,12 @@
 #include <bit>
 
 #include "lab/evaluate/decoder.hpp"
+#include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/rows.hpp"
 
 namespace gobo::evaluate {
 
 using What = ImageRequest::What;
-
-/// What the decoder tells the row of an image operation, as its words. Slots are stored plus 1; 0 where the
-/// call has no such operand.
-struct ImageCall {
-    std::uint32_t what = 0;           ///< ImageRequest::What
-    std::uint32_t dimensions = 0;     ///< number of coordinates that are differentiated
-    std::uint32_t is_arrayed = 0;     ///< the layer follows
-    std::uint32_t is_implicit = 0;    ///< the gradients come from the quad
-    std::uint32_t has_int_level = 0;  ///< the level is an integer (fetch, size)
-    std::uint32_t has_int_result = 0;
-    std::uint32_t has_int_coordinates = 0;
-    // Slots.
-    std::uint32_t image = 0;  ///< of the image's index
-    std::uint32_t coordinates = 0;
-    std::uint32_t divisor = 0;
-    std::uint32_t reference = 0;
-    std::uint32_t lod = 0;
-    std::uint32_t bias = 0;
-    std::uint32_t gradient_x = 0;
-    std::uint32_t gradient_y = 0;
-    std::uint32_t offset = 0;
-    std::uint32_t sample = 0;
-    std::uint32_t component = 0;  ///< of a gather
-};
-using ImageWords = std::array<std::uint32_t, sizeof(ImageCall) / sizeof(std::uint32_t)>;
 
 namespace {
 
@@ -223,5 +199,13 @@ constexpr auto kRows = [] {
 }  // namespace
 
 constinit const std::span<const Row> kImageRows = kRows;
+
+bool needs_quads(const Program& program) {
+    return program.is_fragment && std::ranges::any_of(program.operations, [&](const Operation& operation) {
+               const Kind kind = row_of(operation).kind;
+               return kind == Kind::derivative ||
+                      (kind == Kind::image && image_call_of(program, operation).is_implicit != 0);
+           });
+}
 
 }  // namespace gobo::evaluate

@@ -1,7 +1,9 @@
 #include "lab/evaluate/images.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace gobo::evaluate {
@@ -241,6 +243,91 @@ Color answer(const CubeTexels& texels, const ImageRequest& request) {
         blend.add(texels.colors[index], weight);
     });
     return blend.color();
+}
+
+int TexelPattern::known_levels() const {
+    return levels > 0 ? levels : std::bit_width(static_cast<unsigned>(known_side()));
+}
+
+namespace {
+
+/// Mixes a whole number into a hash (splitmix64).
+std::uint64_t mixed(std::uint64_t hash, std::int64_t number) {
+    hash += static_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15U;
+    hash = (hash ^ (hash >> 30U)) * 0xbf58476d1ce4e5b9U;
+    hash = (hash ^ (hash >> 27U)) * 0x94d049bb133111ebU;
+    return hash ^ (hash >> 31U);
+}
+
+/// The texel that holds a place, 0 where that is no number.
+std::int64_t texel_at(double place, int side) {
+    if (!(std::fabs(place) < 1e15)) return 0;
+    return static_cast<std::int64_t>(place - std::floor(place / side) * side);
+}
+
+const Color& texel_of(const TexelPattern& pattern, const std::array<std::int64_t, 4>& place) {
+    std::uint64_t hash = static_cast<std::uint64_t>(pattern.seed);
+    for (const std::int64_t number : place) hash = mixed(hash, number);
+    return pattern.colors[hash % pattern.colors.size()];
+}
+
+}  // namespace
+
+Color answer(const TexelPattern& pattern, const ImageRequest& request, bool is_cube) {
+    const bool has_level = request.has_lod && std::isfinite(request.lod);
+    const double last = pattern.known_levels() - 1.0;
+    const auto level = has_level ? static_cast<int>(std::clamp(std::round(request.lod), 0.0, last)) : 0;
+    const int side = std::max(pattern.known_side() >> level, 1);
+    if (request.what == What::size) return all_of(side);
+    if (request.what == What::levels) return all_of(pattern.known_levels());
+    if (request.what == What::lod) return {};
+    std::array<double, 3> place{};
+    for (std::size_t axis = 0; axis < place.size(); ++axis) {
+        const double given = request.coordinates[axis];
+        const bool is_layer = axis >= static_cast<std::size_t>(request.dimensions);
+        place[axis] = is_layer || request.what == What::fetch ? std::round(given) : given * side;
+        if (!is_layer) place[axis] += request.offset[axis];
+    }
+    std::int64_t face = 0;
+    if (is_cube) {
+        const auto& to = request.coordinates;
+        const OnCube on = on_cube({to[0], to[1], to[2]}, side);
+        place = {on.x, on.y, to[3]};
+        face = static_cast<std::int64_t>(on.face) + 1;
+    }
+    const auto at = [&](double right, double up) -> const Color& {
+        return texel_of(pattern, {texel_at(place[0] + right, side), texel_at(place[1] + up, side),
+                                  texel_at(place[2], std::max(side, 4096)), face * 64 + level});
+    };
+    if (request.compares && request.what != What::gather)
+        return all_of(request.reference <= at(0, 0)[0] ? 1 : 0);
+    if (request.what != What::gather) return at(0, 0);
+    constexpr std::array<std::array<double, 2>, 4> kAround = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+    Color gathered{};
+    for (std::size_t i = 0; i < kAround.size(); ++i) {
+        const Color& texel = at(kAround[i][0], kAround[i][1]);
+        gathered[i] = request.compares ? static_cast<double>(request.reference <= texel[0])
+                                       : texel[static_cast<std::size_t>(request.component)];
+    }
+    return gathered;
+}
+
+const TexelPattern* pattern_of(const Image& image, std::size_t invocation) {
+    const auto* const patterns = image.target<PatternImage>();
+    return patterns == nullptr ? nullptr : &patterns->at(invocation);
+}
+
+void add_numbers(const std::string& sampler, const TexelPattern& pattern, SamplerNumbers& numbers) {
+    const bool is_plain = std::ranges::all_of(
+        pattern.colors, [&](const Color& color) { return color == pattern.colors.front(); });
+    std::vector<double>& texels = numbers[sampler + ".texels"];
+    for (const Color& color : pattern.colors) {
+        texels.insert(texels.end(), color.begin(), color.end());
+        if (is_plain) break;
+    }
+    if (!is_plain) numbers[sampler + ".seed"] = {static_cast<double>(pattern.seed)};
+    if (pattern.side > 0) numbers[sampler + ".side"] = {static_cast<double>(pattern.side)};
+    if (pattern.levels > 0) numbers[sampler + ".levels"] = {static_cast<double>(pattern.levels)};
 }
 
 Image image_of(TextureContent content, const spirv::Image& type) {

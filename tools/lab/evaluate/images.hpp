@@ -1,8 +1,10 @@
 // Textures that answer from data: what a caller may give for the samplers of a stage.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,6 +56,40 @@ struct EvenColor {
     std::array<std::array<double, 4>, 3> along{};
 };
 
+/// Texels of a few colours: which of them one has follows from where it lies, by `seed`, as if drawn at
+/// random. Nothing is filtered. A stage can tell it from a large picture only by texels that happen to be the
+/// same.
+struct TexelPattern {
+    std::vector<std::array<double, 4>> colors;  ///< at least one
+    int seed = 0;
+    int side = 0;    ///< texels along each; 0: nobody says, and 64 are answered
+    int levels = 0;  ///< 0: as many as the side allows
+
+    [[nodiscard]] int known_side() const { return side > 0 ? side : 64; }
+    [[nodiscard]] int known_levels() const;
+};
+
+/// Coordinates of a cube map are directions. Beyond an edge the texture repeats.
+[[nodiscard]] std::array<double, 4> answer(const TexelPattern& pattern, const ImageRequest& request,
+                                           bool is_cube);
+
+/// An image of one pattern for each point, which has so many invocations.
+struct PatternImage {
+    std::shared_ptr<const std::vector<TexelPattern>> of_points;
+    std::size_t invocations_of_point = 1;
+    bool is_cube = false;
+
+    [[nodiscard]] const TexelPattern& at(std::size_t invocation) const {
+        return (*of_points)[std::min(invocation / invocations_of_point, of_points->size() - 1)];
+    }
+    std::array<double, 4> operator()(const ImageRequest& request) const {
+        return answer(at(request.invocation), request, is_cube);
+    }
+};
+
+/// The pattern that an invocation is given; nullptr where the image is another one.
+[[nodiscard]] const TexelPattern* pattern_of(const Image& image, std::size_t invocation);
+
 using TextureContent = std::variant<EvenColor, DepthTexels>;
 
 /// The image that answers from the content, as a sampler of that type.
@@ -66,9 +102,11 @@ using TextureContent = std::variant<EvenColor, DepthTexels>;
 
 /// Numbers by the sampler's name, and those that one list does not hold by the name and a member:
 /// "map" for one colour; "map.color", "map.along_x", "map.along_y", "map.along_z" for one that changes;
-/// "map.size" (columns, rows, layers) and "map.depths" (layer by layer, row by row from the lowest).
+/// "map.size" (columns, rows, layers) and "map.depths" (layer by layer, row by row from the lowest);
+/// "map.texels" (colour after colour), "map.seed", "map.side" and "map.levels" for a pattern.
 using SamplerNumbers = std::map<std::string, std::vector<double>>;
 
 void add_numbers(const std::string& sampler, const TextureContent& content, SamplerNumbers& numbers);
+void add_numbers(const std::string& sampler, const TexelPattern& pattern, SamplerNumbers& numbers);
 
 }  // namespace gobo::evaluate

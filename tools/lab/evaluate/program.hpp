@@ -152,7 +152,8 @@ struct UniformBlock {
 struct ImagePort {
     std::string name;  ///< "tex", "maps[2]"
     spirv::Image type;
-    std::uint32_t slot = 0;  ///< holds the index of this ImagePort
+    std::uint32_t slot = 0;           ///< holds the index of this ImagePort
+    Scalar scalar = Scalar::float32;  ///< of a texel's channels
 };
 
 /// A decoded stage. A value: owns all it needs, may be run by many threads at once.

@@ -69,13 +69,14 @@ class LitBounds {
     [[nodiscard]] bool add(const InputField& field) {
         if (field.is_texture) return field.name == "shadowMaps" || field.name == "opacityMap";
         const auto known = verify::field_of(field.name);
-        if (known) fields_.push_back({*known, field.first, field.components});
+        if (known) fields_.push_back({*known, field.first, field.components, field.pixel});
         return known.has_value() || field.name.starts_with("gl_");
     }
 
-    /// Narrows the intervals, one of each component of each output in the program's order.
-    void narrow(std::span<const double> point, std::span<Interval> intervals) {
+    /// Narrows a pixel's intervals, one of each component of each output in the program's order.
+    void narrow(std::span<const double> point, int pixel, std::span<Interval> intervals) {
         for (const Known& field : fields_) {
+            if (field.pixel >= 0 && field.pixel != pixel) continue;
             const auto numbers = point.subspan(field.first, field.components);
             scratch_.assign(numbers.begin(), numbers.end());
             field.access.set(sample_, scratch_);
@@ -98,6 +99,7 @@ class LitBounds {
         verify::Field access;
         std::size_t first;
         std::size_t components;
+        int pixel;
     };
 
     void bring_lights_nearer() {
@@ -162,7 +164,7 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
                            const evaluate::Program& program, const InputSpace& space, DepthPromise promise)
     : promise_(promise) {
     if (auto model = lit_bounds(family, key, stage, program, space))
-        narrow_ = [model](auto point, auto intervals) { model->narrow(point, intervals); };
+        narrow_ = [model](auto point, int pixel, auto intervals) { model->narrow(point, pixel, intervals); };
     for (const evaluate::Port& output : program.outputs) {
         Interval interval;
         if (output.name == "gl_FragDepth") {
@@ -175,8 +177,9 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
         if (stage == StageKind::fragment && domain != nullptr) interval = interval_of(*domain);
         declared_.insert(declared_.end(), output.components, interval);
     }
+    pixels_ = space.pixels;
     for (const InputField& field : space.fields)
-        if (field.name == "gl_FragCoord") own_depth_ = field.first + 2;
+        if (field.name == "gl_FragCoord") own_depths_.push_back(field.first + 2);
 }
 
 void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
@@ -188,12 +191,15 @@ void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
 
 std::vector<Interval> OutputBounds::at(const PointSet& points) {
     std::vector<Interval> intervals;
-    intervals.reserve(points.count * declared_.size());
-    for (std::size_t i = 0; i < points.count; ++i) {
+    intervals.reserve(points.count * pixels_ * declared_.size());
+    for (std::size_t i = 0; i < points.count * pixels_; ++i) {
+        const std::span<const double> point = points[i / pixels_];
+        const std::size_t pixel = i % pixels_;
         intervals.insert(intervals.end(), declared_.begin(), declared_.end());
         const auto here = std::span(intervals).last(declared_.size());
-        if (narrow_) narrow_(points[i], here);
-        if (depth_ && own_depth_) keep_promise(points[i][*own_depth_], here[*depth_]);
+        if (narrow_) narrow_(point, static_cast<int>(pixel), here);
+        if (depth_ && !own_depths_.empty())
+            keep_promise(point[own_depths_[std::min(pixel, own_depths_.size() - 1)]], here[*depth_]);
     }
     return intervals;
 }

@@ -39,20 +39,21 @@ class OutputBounds {
     OutputBounds(const Family& family, const Key& key, StageKind stage, const evaluate::Program& program,
                  const InputSpace& space, DepthPromise promise);
 
-    /// One interval of each component of each output, for each point, one point after the other.
+    /// One interval of each component of each output, for each invocation of each point, one after the other.
     [[nodiscard]] std::vector<Interval> at(const PointSet& points);
 
   private:
     void keep_promise(double own_depth, Interval& depth) const;
 
     std::vector<Interval> declared_;
-    /// Narrows a point's intervals to what its model allows; nothing where there are no equations.
-    std::function<void(std::span<const double> point, std::span<Interval>)> narrow_;
+    /// Narrows a pixel's intervals to what its model allows; nothing where there are no equations.
+    std::function<void(std::span<const double> point, int pixel, std::span<Interval>)> narrow_;
+    std::size_t pixels_ = 1;  ///< of a point
     DepthPromise promise_;
     /// Index of gl_FragDepth's interval; nothing where the stage writes none.
     std::optional<std::size_t> depth_;
-    /// Index of gl_FragCoord.z in a point; nothing where the stage does not read it.
-    std::optional<std::size_t> own_depth_;
+    /// Indices of each pixel's gl_FragCoord.z in a point; none where the stage does not read it.
+    std::vector<std::size_t> own_depths_;
 };
 
 }  // namespace gobo::sanitize

@@ -10,6 +10,7 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/instruction_table.hpp"
+#include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/rules.hpp"
 #include "lab/sanitize/taint.hpp"
 
@@ -70,6 +71,7 @@ struct Run {
         finding.machine = machine;
         if (at) finding.place = program.place_of(*at);
         finding.point = point_of(program, invocations, invocation);
+        if (machine != Machine::ieee) finding.point.machine = name_of(machine);
     }
 };
 
@@ -120,6 +122,7 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.makes_floats =
                 row.kind <= Kind::matrix && run.program.infos[at].result.scalar == evaluate::Scalar::float32;
             watch.first_decider = first_decider(row);
+            watch.is_of_image = row.kind == Kind::image || row.kind == Kind::derivative;
         }
     }
 
@@ -128,6 +131,9 @@ class TrapObserver final : public evaluate::Observer<float> {
         const Watch& watch = watches_[step.operation];
         hits_.clear();
         if (watch.has_silent || watch.makes_floats) judge(step, watch);
+        if (watch.is_of_image)
+            for (const ImageFault& fault : image_faults(step, run_.invocations, callers_lanes_))
+                hits_.push_back({fault.message, fault.lanes});
         tell_hits(step);
         if (watch.first_decider) reach_by_operand(step, *watch.first_decider);
         taint_.after(step);
@@ -195,6 +201,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         std::span<const TrapRule> rules;
         bool has_silent = false;
         bool makes_floats = false;  ///< the result must be finite
+        bool is_of_image = false;   ///< a texture function, or a derivative
         /// The first operand that decides what is read, so that it must be defined; nothing where none does.
         std::optional<std::size_t> first_decider;
     };
@@ -221,6 +228,9 @@ class TrapObserver final : public evaluate::Observer<float> {
         finish();
         is_in_batch_ = true;
         batch_ = first_invocation;
+        callers_lanes_ = 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (batch_ + lane < run_.invocations.count) callers_lanes_ |= Lanes{1} << lane;
         taint_.begin();
     }
 
@@ -326,11 +336,8 @@ class TrapObserver final : public evaluate::Observer<float> {
         }
         const std::size_t batch = invocation / kLanes;
         const Lanes lane = Lanes{1} << invocation % kLanes;
-        auto& [counted_batch, lanes] = counted_[trap];
-        if (counted_batch != batch) lanes = 0;
-        counted_batch = batch;
-        if ((lanes & lane) == 0) ++traps_[trap].points;
-        lanes |= lane;
+        if (!is_marked(counted_[trap], invocation)) ++traps_[trap].points;
+        mark(counted_[trap], batch, lane);
         mark(trapped_, batch, lane);
         return trap;
     }
@@ -400,14 +407,14 @@ class TrapObserver final : public evaluate::Observer<float> {
     evaluate::Observer<float>* also_;
     bool is_in_batch_ = false;
     std::size_t batch_ = 0;       ///< its first invocation
+    Lanes callers_lanes_ = 0;     ///< of the batch: those that are invocations at all
     std::vector<Hit> hits_;       ///< of the step at hand
     std::vector<Hit> clamped_;    ///< indices of the step at hand
     std::vector<Finding> traps_;  ///< in the order in which they first happened
     std::map<std::pair<std::uint32_t, std::string_view>, std::size_t>
-        trap_index_;  ///< by operation and message
-    std::map<std::size_t, std::pair<std::size_t, Lanes>>
-        counted_;                                 ///< of a trap: batch and lanes it was last counted in
-    std::map<std::uint32_t, std::string> texts_;  ///< of operations that first used what nobody wrote
+        trap_index_;                                     ///< by operation and message
+    std::map<std::size_t, std::vector<Lanes>> counted_;  ///< of a trap: lanes of each batch it was counted in
+    std::map<std::uint32_t, std::string> texts_;         ///< of operations that first used what nobody wrote
     std::vector<UndefinedOutput> undefined_;
     std::vector<Lanes> trapped_;       ///< of each batch up to the last in which anything trapped
     std::vector<Lanes> of_constants_;  ///< likewise

@@ -63,10 +63,11 @@ void Guide::learn(const PointSet& points) {
         Goal& goal = goals_[index];
         if (goal.run != run_) continue;
         if (goal.point.empty()) known_.push_back(index);
-        const std::span<const double> point = points[goal.invocation];
+        const std::size_t index_of_point = goal.invocation / space_.pixels;
+        const std::span<const double> point = points[index_of_point];
         goal.point.assign(point.begin(), point.end());
         goal.failures = 0;
-        if (goal.invocation < last_changed_.size()) goal.changed = last_changed_[goal.invocation];
+        if (index_of_point < last_changed_.size()) goal.changed = last_changed_[index_of_point];
     }
     ++run_;
 }

@@ -42,6 +42,7 @@ class PointMaker {
         point_ = point;
         hardness_ = random_.unit();
         for (const InputField& field : space_.fields) draw(field);
+        if (space_.pixels > 1 && random_.one_in(2)) share_in_quad();
         for (std::size_t relations = random_.index(4); relations > 0; --relations) relate();
         for (const InputField& field : space_.fields)
             if (field.is_float())
@@ -49,6 +50,24 @@ class PointMaker {
     }
 
   private:
+    /// Some inputs are the same in all pixels, or nearly so, as they are where pictures change little.
+    void share_in_quad() {
+        const InputField* first = nullptr;
+        double change = 0;
+        bool is_shared = false;
+        for (const InputField& field : space_.fields) {
+            if (field.pixel == 0) {
+                first = &field;
+                is_shared = random_.one_in(2);
+                change = random_.one_in(2) ? 0 : std::exp2(random_.between(-24, 0));
+            } else if (field.pixel > 0 && is_shared) {
+                for (std::size_t i = 0; i < field.components; ++i)
+                    value(field)[i] = value(*first)[i] * (1 + change * random_.between(-1, 1));
+                bring_into_domain(field, value(field));
+            }
+        }
+    }
+
     [[nodiscard]] std::span<double> value(const InputField& field) const {
         return point_.subspan(field.first, field.components);
     }
@@ -60,8 +79,12 @@ class PointMaker {
     }
 
     void draw(const InputField& field) {
+        if (field.is_texture) {
+            for (std::size_t i = 0; i < field.components; ++i)
+                value(field)[i] = drawn_texture_number(field, i, hardness_, random_);
+            return;
+        }
         const std::span<double> numbers = value(field).first(field.ranged());
-        if (field.is_texture) return draw_texel(numbers);
         if (field.ranged() < field.components) draw_last(field);
         if (field.domain.of_length) {
             hard_direction(numbers, random_);
@@ -80,12 +103,6 @@ class PointMaker {
         const Domain last = field.last_domain();
         value(field).back() =
             random_.unit() < hardness_ ? random_.pick(hard_numbers(last)) : ordinary_number(last, random_);
-    }
-
-    void draw_texel(std::span<double> texel) {
-        for (double& channel : texel)
-            channel = random_.one_in(2) ? static_cast<double>(random_.index(2))
-                                        : static_cast<double>(random_.index(257)) / 256.0;
     }
 
     /// Any numbers, the identity, or one that maps a plane or everything to nothing.
@@ -193,8 +210,9 @@ class PointMaker {
 void place_pixels(const InputField& field, PointSet& points) {
     for (std::size_t i = 0; i < points.count; ++i) {
         const std::span<double> coordinate = points[i].subspan(field.first, field.components);
-        coordinate[0] = static_cast<double>(i / 4 % 32 * 2 + i % 2) + 0.5;
-        coordinate[1] = static_cast<double>(i / 128 % 32 * 2 + i / 2 % 2) + 0.5;
+        const std::size_t pixel = field.pixel < 0 ? i : i * 4 + static_cast<std::size_t>(field.pixel);
+        coordinate[0] = static_cast<double>(pixel / 4 % 32 * 2 + pixel % 2) + 0.5;
+        coordinate[1] = static_cast<double>(pixel / 128 % 32 * 2 + pixel / 2 % 2) + 0.5;
         coordinate[3] = 1;
     }
 }
@@ -233,7 +251,9 @@ PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t s
 void change(const InputSpace& space, std::span<double> point, std::size_t number, Random& random) {
     const InputField& field = space.fields[space.field_of[number]];
     const std::span<double> numbers = point.subspan(field.first, field.components);
-    if (field.components > 1 && random.one_in(8)) {
+    if (field.is_texture && random.one_in(2)) {
+        point[number] = drawn_texture_number(field, number - field.first, 0.5, random);
+    } else if (field.components > 1 && random.one_in(8)) {
         const double factor = random.one_in(4) ? -1 : std::exp2(random.between(-8, 8));
         for (double& component : numbers) component *= factor;
     } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/images.hpp"
 #include "lab/verify/random_points.hpp"
 
@@ -52,15 +53,55 @@ double nearest_allowed(const Domain& domain, double number) {
     return nearest;
 }
 
-/// The colour of each point, whatever is asked; sizes and levels are those of a small texture.
-evaluate::Image one_colour_at_each_point(std::size_t first, const PointSet& points) {
-    using Texel = std::array<double, 4>;
-    auto texels = std::make_shared<std::vector<Texel>>(points.count);
-    for (std::size_t i = 0; i < texels->size(); ++i)
-        std::copy_n(points[i].begin() + static_cast<std::ptrdiff_t>(first), 4, (*texels)[i].begin());
-    return [texels](const evaluate::ImageRequest& request) {
-        return evaluate::answer((*texels)[request.invocation], request);
+/// The texels of each point.
+evaluate::Image texels_of(const InputSpace& space, const InputField& field, const PointSet& points) {
+    auto patterns = std::make_shared<std::vector<evaluate::TexelPattern>>(points.count);
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const std::span<const double> numbers = points[i].subspan(field.first, field.components);
+        evaluate::TexelPattern& pattern = (*patterns)[i];
+        pattern.colors.resize(kTexelColors);
+        for (std::size_t number = 0; number < 4 * kTexelColors; ++number)
+            pattern.colors[number / 4][number % 4] = numbers[number];
+        const auto last = numbers.last(3);
+        pattern.seed = static_cast<int>(last[0]);
+        pattern.side = static_cast<int>(last[1]);
+        pattern.levels = static_cast<int>(last[2]);
+    }
+    return evaluate::PatternImage{std::move(patterns), space.pixels, field.type == "cube"};
+}
+
+/// What a texture's texels may hold: as stated, else what its kind of sampler gives of a usual format.
+Domain texel_domain(const evaluate::ImagePort& image, const std::vector<Domain>& domains) {
+    if (const Domain* declared = verify::domain_of(domains, image.name)) return *declared;
+    if (image.type.depth || image.scalar == evaluate::Scalar::float32) return plain_domain(image.name, 0, 1);
+    return plain_domain(image.name, image.scalar == evaluate::Scalar::uint32 ? 0 : -100, 100);
+}
+
+InputField texture_field(const evaluate::ImagePort& image, const std::vector<Domain>& domains) {
+    InputField field;
+    field.name = image.name;
+    field.type = image.type.dimension == spv::DimCube ? "cube" : "vec4";
+    field.scalar = image.scalar;
+    field.is_texture = true;
+    field.domain = texel_domain(image, domains);
+    field.hard = hard_numbers(field.domain);
+    field.components = kTextureNumbers;
+    const auto declared = [&](const std::string& part) {
+        return verify::domain_of(domains, image.name + part);
     };
+    for (const char* channel : {".r", ".g", ".b", ".a"})
+        field.channels.push_back(declared(channel) != nullptr ? *declared(channel) : field.domain);
+    for (const char* extent : {".side", ".levels"})
+        field.channels.push_back(declared(extent) != nullptr ? *declared(extent)
+                                                             : plain_domain(image.name, 0, 0));
+    return field;
+}
+
+/// The domain of a texture's number: of a channel, its seed, its side or its levels.
+Domain domain_of_number(const InputField& texture, std::size_t number) {
+    if (number < 4 * kTexelColors) return texture.channels[number % 4];
+    if (number == 4 * kTexelColors) return plain_domain(texture.name, 0, 255);
+    return texture.channels[number - 4 * kTexelColors + 3];
 }
 
 }  // namespace
@@ -105,8 +146,10 @@ Domain InputField::last_domain() const {
     return plain_domain(name, domain.last.at(0), domain.last.at(1));
 }
 
-InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains) {
+InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains,
+                          bool in_quads) {
     InputSpace space;
+    if (in_quads && evaluate::needs_quads(program)) space.pixels = 4;
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports) {
             InputField field;
@@ -116,22 +159,35 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
             field.domain = range_of(port, domains);
             field.hard = hard_numbers(field.domain);
             field.components = port.components;
-            add_field(space, std::move(field));
+            const bool is_of_pixel = space.pixels > 1 && ports == &program.inputs && field.is_float();
+            for (int pixel = 0; is_of_pixel && pixel < static_cast<int>(space.pixels); ++pixel) {
+                field.pixel = pixel;
+                add_field(space, field);
+            }
+            if (!is_of_pixel) add_field(space, std::move(field));
         }
-    for (const evaluate::ImagePort& image : program.images) {
-        InputField field;
-        field.name = image.name;
-        field.type = "vec4";
-        field.is_texture = true;
-        field.domain = plain_domain(image.name, 0, 1);
-        field.hard = {0, 1};
-        field.components = 4;
-        add_field(space, std::move(field));
-    }
+    for (const evaluate::ImagePort& image : program.images) add_field(space, texture_field(image, domains));
     return space;
 }
 
+double drawn_texture_number(const InputField& field, std::size_t number, double hardness, Random& random) {
+    const Domain domain = domain_of_number(field, number);
+    if (domain.low == domain.high) return domain.low;
+    const bool is_color = number < 4 * kTexelColors;
+    const bool is_hard = random.unit() < hardness && is_color;
+    const double drawn = is_hard ? random.pick(hard_numbers(domain)) : ordinary_number(domain, random);
+    return is_color && field.is_float() ? static_cast<double>(static_cast<float>(drawn)) : std::round(drawn);
+}
+
 void bring_into_domain(const InputField& field, std::span<double> all) {
+    if (field.is_texture) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double allowed = nearest_allowed(domain_of_number(field, i), all[i]);
+            const bool is_whole = i >= 4 * kTexelColors || !field.is_float();
+            all[i] = is_whole ? std::round(allowed) : static_cast<double>(static_cast<float>(allowed));
+        }
+        return;
+    }
     if (field.ranged() < all.size())
         all.back() =
             static_cast<double>(static_cast<float>(nearest_allowed(field.last_domain(), all.back())));
@@ -151,30 +207,63 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
 
 evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points) {
     evaluate::Invocations invocations;
-    const std::size_t count = points.count;
+    const std::size_t count = points.count * space.pixels;
     invocations.count = count;
     for (const InputField& field : space.fields) {
         if (field.is_texture) {
-            invocations.images[field.name] = one_colour_at_each_point(field.first, points);
+            invocations.images[field.name] = texels_of(space, field, points);
             continue;
         }
         std::vector<double>& values = invocations.values[field.name];
         values.resize(field.components * count);
+        const auto first = static_cast<std::size_t>(std::max(field.pixel, 0));
+        const std::size_t step = field.pixel < 0 ? 1 : space.pixels;
         for (std::size_t c = 0; c < field.components; ++c) {
             const double* from = points.values.data() + field.first + c;
-            for (std::size_t i = 0; i < count; ++i) values[c * count + i] = from[i * space.numbers];
+            for (std::size_t i = first; i < count; i += step)
+                values[c * count + i] = from[i / space.pixels * space.numbers];
         }
     }
     return invocations;
 }
 
+namespace {
+
+/// What a file says of a texture.
+void set_texture(const InputField& field, const evaluate::EvalPoint& point, std::span<double> numbers) {
+    const auto given = [&](const std::string& part) -> const std::vector<double>* {
+        const auto found = point.samplers.find(field.name + part);
+        return found == point.samplers.end() || found->second.empty() ? nullptr : &found->second;
+    };
+    const std::vector<double>* const texels = given(".texels") != nullptr ? given(".texels") : given("");
+    for (std::size_t i = 0; texels != nullptr && i < 4 * kTexelColors; ++i)
+        numbers[i] = (*texels)[i % texels->size()];
+    const std::span<double> last = numbers.last(3);
+    if (const auto* seed = given(".seed")) last[0] = seed->front();
+    if (const auto* side = given(".side")) last[1] = side->front();
+    if (const auto* levels = given(".levels")) last[2] = levels->front();
+}
+
+}  // namespace
+
 PointSet point_set(const InputSpace& space, const evaluate::EvalPoint& point) {
     PointSet points(space.numbers, 1);
-    for (const InputField& field : space.fields)
-        for (const auto* values : {&point.inputs, &point.uniforms, &point.samplers})
-            if (const auto given = values->find(field.name); given != values->end())
-                std::copy_n(given->second.begin(), std::min(given->second.size(), field.components),
-                            points[0].begin() + static_cast<std::ptrdiff_t>(field.first));
+    for (const InputField& field : space.fields) {
+        const std::span<double> numbers = points[0].subspan(field.first, field.components);
+        if (field.is_texture) {
+            set_texture(field, point, numbers);
+            continue;
+        }
+        for (const auto* values : {&point.inputs, &point.uniforms}) {
+            const auto given = values->find(field.name);
+            if (given == values->end()) continue;
+            const std::size_t of_pixel =
+                field.components * static_cast<std::size_t>(std::max(field.pixel, 0));
+            const bool is_of_quad = given->second.size() >= of_pixel + field.components;
+            std::copy_n(given->second.begin() + static_cast<std::ptrdiff_t>(is_of_quad ? of_pixel : 0),
+                        std::min(given->second.size(), field.components), numbers.begin());
+        }
+    }
     return points;
 }
 

@@ -38,13 +38,21 @@ inline constexpr double kSmallest = 1e-6;
 
 [[nodiscard]] double length_of(std::span<const double> vector);
 
-/// An input, a uniform, or the colour that a texture answers with.
+/// Colours of a texture's texels.
+inline constexpr std::size_t kTexelColors = 4;
+/// The numbers of a texture in a point: its colours, then its seed, its side and its levels.
+inline constexpr std::size_t kTextureNumbers = 4 * kTexelColors + 3;
+
+/// An input, a uniform, or what a texture holds.
 struct InputField {
     std::string name;  ///< reflected
     std::string type;  ///< GLSL name; "vec4" of a texture
     evaluate::Scalar scalar = evaluate::Scalar::float32;
     bool is_texture = false;
+    int pixel = -1;  ///< of a quad, where each has its own; -1: all share it
     Domain domain;
+    std::vector<Domain>
+        channels;              ///< of a texture: r, g, b, a, then its side and its levels, 0 where unknown
     std::vector<double> hard;  ///< hard numbers of the domain
     std::size_t first = 0;     ///< of its numbers in a point
     std::size_t components = 1;
@@ -62,6 +70,7 @@ struct InputField {
 struct InputSpace {
     std::vector<InputField> fields;
     std::size_t numbers = 0;            ///< of a point
+    std::size_t pixels = 1;             ///< invocations of a point: 4 where each point is a quad
     std::vector<std::size_t> vectors;   ///< fields that are vectors of floats
     std::vector<std::size_t> floats;    ///< fields that are single floats
     std::vector<std::size_t> field_of;  ///< of each number of a point
@@ -84,12 +93,21 @@ struct PointSet {
     }
 };
 
-[[nodiscard]] InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains);
+/// With `in_quads` a point of a stage that needs quads is one: its pixels share uniforms, textures and whole
+/// numbers, and have inputs of their own. A texture's domain is that of its name, of "map.r" and so on for
+/// one channel; "map.side" and "map.levels" state its size.
+[[nodiscard]] InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains,
+                                        bool in_quads = false);
+
+/// A number of a texture's field; `hardness` is the share of hard ones.
+[[nodiscard]] double drawn_texture_number(const InputField& field, std::size_t number, double hardness,
+                                          Random& random);
 
 /// The nearest numbers that the field's domain allows, as floats or whole numbers.
 void bring_into_domain(const InputField& field, std::span<double> numbers);
 
-/// The points as invocations of the stage. Each texture is of one colour, its own at every point.
+/// The points as invocations of the stage, those of a quad one after the other. Each texture has its own
+/// texels at every point.
 [[nodiscard]] evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points);
 
 /// One point; what it does not name is 0.

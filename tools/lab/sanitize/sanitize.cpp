@@ -54,7 +54,7 @@ class StageSearch {
             return;
         }
         program_ = std::move(*program);
-        space_ = input_space_of(program_, family.domains);
+        space_ = input_space_of(program_, family.domains, true);
         bounds_.emplace(family, key, kind, program_, space_, promise);
         if (options.guided > 0 || options.minutes > 0) guide_.emplace(program_, space_, options.seed);
     }
@@ -87,9 +87,12 @@ class StageSearch {
   private:
     template <class Make>
     void run(std::size_t count, const Make& make) {
-        for (std::size_t done = 0; done < count && diagnostics_.empty(); done += kPortion)
-            if (const auto ran = run(make(done, std::min(kPortion, count - done))); !ran)
+        const std::size_t pixels = space_.pixels;
+        for (std::size_t done = 0; done < count && diagnostics_.empty(); done += kPortion) {
+            const std::size_t portion = std::min(kPortion, count - done);
+            if (const auto ran = run(make(done, (portion + pixels - 1) / pixels)); !ran)
                 diagnostics_ = ran.error();
+        }
     }
 
     /// Runs the points on every machine, and keeps what is found.
@@ -120,7 +123,7 @@ class StageSearch {
             known->second.points += finding.points;
             add_consequences(known->second, finding);
         }
-        points_ += points.count;
+        points_ += invocations.count;
         return {};
     }
 
@@ -245,6 +248,11 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validat
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
                 for (const evaluate::Port& port : *ports) names.insert(verify::without_subscripts(port.name));
+    for (const ValidatedStage& stage : validated.stages)
+        if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
+            for (const evaluate::ImagePort& image : program->images)
+                for (const char* part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
+                    names.insert(verify::without_subscripts(image.name + part));
     Diagnostics errors;
     for (const Domain& domain : domains)
         if (!names.contains(domain.name))

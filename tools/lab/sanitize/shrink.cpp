@@ -51,7 +51,11 @@ class Shrinking {
         bool is_simpler = true;
         for (int round = 0; round < kMostRounds && is_simpler; ++round) {
             is_simpler = false;
-            for (const InputField& field : space_.fields) is_simpler |= simplify(field);
+            for (const InputField& field : space_.fields) {
+                if (field.pixel >= 0 && field.name == "gl_FragCoord")
+                    continue;  // the quad lies where it lies
+                is_simpler |= simplify(field);
+            }
             is_simpler |= simplify_equal_numbers();
         }
         shown_.stage = wanted_.stage;
@@ -109,6 +113,7 @@ class Shrinking {
 
     bool simplify(const InputField& field) {
         const std::size_t count = field.components;
+        if (field.pixel > 0 && attempt_first_pixels(field)) return true;
         const auto attempt_all = [&](const std::vector<double>& simple) {
             return attempt(
                 [&](std::span<double> numbers) { std::copy(simple.begin(), simple.end(), numbers.begin()); },
@@ -124,6 +129,20 @@ class Shrinking {
         }
         for (std::size_t c = 0; c < count; ++c) is_simpler |= simplify_component(field, c);
         return is_simpler;
+    }
+
+    /// A pixel that is like the first is simpler than any other.
+    bool attempt_first_pixels(const InputField& field) {
+        const auto first = std::ranges::find_if(space_.fields, [&](const InputField& other) {
+            return other.name == field.name && other.pixel == 0;
+        });
+        const std::span<double> numbers = numbers_of(field);
+        const std::vector<double> before(numbers.begin(), numbers.end());
+        std::ranges::copy(numbers_of(*first), numbers.begin());
+        if (std::ranges::equal(numbers, before)) return false;
+        if (shows()) return true;
+        std::ranges::copy(before, numbers.begin());
+        return false;
     }
 
     bool simplify_component(const InputField& field, std::size_t component) {

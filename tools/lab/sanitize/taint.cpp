@@ -69,7 +69,7 @@ void Taint::begin() {
     for (auto& uses : first_uses_) uses.clear();
     CauseId id = 1;
     const auto fill = [&](std::uint32_t slot, std::uint32_t count) {
-        std::fill_n(states_.begin() + slot, count, State{kAll, id});
+        std::fill_n(states_.begin() + slot, count, State{kAll, 0, id, 0});
         ++id;
     };
     for (const auto& [slot, count] : program_.variables) fill(slot, count);
@@ -77,7 +77,7 @@ void Taint::begin() {
     for (const evaluate::ConstantSlot& constant : program_.constants)
         if (constant.scalar == evaluate::Scalar::float32 &&
             !std::isfinite(std::bit_cast<float>(constant.bits)))
-            states_[constant.slot] = {kAll, id};
+            states_[constant.slot] = {kAll, 0, id, 0};
 }
 
 Lanes Taint::lanes_of(std::uint32_t slot, std::uint32_t count) const {
@@ -88,7 +88,7 @@ Lanes Taint::lanes_of(std::uint32_t slot, std::uint32_t count) const {
 
 const Cause& Taint::cause_of(std::uint32_t slot, std::uint32_t count, std::size_t lane) const {
     for (std::uint32_t at = slot; at < slot + count; ++at)
-        if (has(states_[at].lanes, lane)) return causes_[states_[at].cause];
+        if (has(states_[at].lanes, lane)) return causes_[states_[at].cause_in(lane)];
     return causes_.front();
 }
 
@@ -128,7 +128,11 @@ void Taint::mark(const Step& step, Lanes lanes, const Cause& cause) {
     const Slice& result = step.info().result;
     const std::uint32_t first = is_address ? operation.result : result.slot;
     const std::uint32_t count = is_address ? 1 : result.count;
-    for (std::uint32_t at = first; at < first + count; ++at) set(at, lanes, id);
+    for (std::uint32_t at = first; at < first + count; ++at) {
+        State state{lanes, 0, id, 0};
+        state.add(states_[at]);
+        states_[at] = state;
+    }
 }
 
 Taint::CauseId Taint::id_of(const Cause& cause) {
@@ -138,9 +142,21 @@ Taint::CauseId Taint::id_of(const Cause& cause) {
     return static_cast<CauseId>(causes_.size() - 1);
 }
 
-void Taint::set(std::uint32_t slot, Lanes lanes, CauseId cause) {
-    states_[slot].lanes |= lanes;
-    states_[slot].cause = cause;
+void Taint::State::add(const State& more) {
+    if (lanes == 0) {
+        *this = more;
+        return;
+    }
+    const Lanes fresh = more.lanes & ~lanes;
+    if (fresh == 0) return;
+    lanes |= fresh;
+    const auto join = [&](Lanes some, CauseId id) {
+        if (some == 0 || id == cause) return;
+        others |= some;
+        other_cause = id;
+    };
+    join(fresh & ~more.others, more.cause);
+    join(fresh & more.others, more.other_cause);
 }
 
 void Taint::move(const Step& step, const Operation& operation) {
@@ -186,25 +202,23 @@ void Taint::move(const Step& step, const Operation& operation) {
 void Taint::copy(std::uint32_t to, std::uint32_t from, std::uint32_t count, Lanes lanes) {
     if (to == from) return;
     for (std::uint32_t i = 0; i < count; ++i) {
-        State& state = states_[to + i];
-        const State& source = states_[from + i];
-        state.lanes = (state.lanes & ~lanes) | (source.lanes & lanes);
-        if ((source.lanes & lanes) != 0) state.cause = source.cause;
+        State state = states_[from + i].within(lanes);
+        state.add(states_[to + i].within(~lanes));
+        states_[to + i] = state;
     }
 }
 
 void Taint::gather(const Step& step, const Operation& operation) {
     const State offset = states_[operation.operands[1]];
     for (std::uint32_t component = 0; component < operation.count; ++component) {
-        State result{offset.lanes & step.lanes, offset.cause};
+        State result;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if (!has(step.lanes, lane)) continue;
             const State& from =
                 states_[address(step, operation.operands[0], operation.operands[1], lane) + component];
-            if (!has(from.lanes, lane)) continue;
-            result.lanes |= Lanes{1} << lane;
-            result.cause = from.cause;
+            result.add(from.within(Lanes{1} << lane));
         }
+        result.add(offset.within(step.lanes));
         scratch_.push_back(result);
     }
     std::copy(scratch_.begin(), scratch_.end(), states_.begin() + operation.result);
@@ -229,9 +243,9 @@ void Taint::select(const Step& step, const Operation& operation) {
         const State& asked = states_[condition.slot + component];
         const State& first = states_[operation.operands[1] + i];
         const State& second = states_[operation.operands[2] + i];
-        State result{(first.lanes & holds) | (second.lanes & ~holds) | asked.lanes, asked.cause};
-        if ((first.lanes & holds) != 0) result.cause = first.cause;
-        if ((second.lanes & ~holds) != 0) result.cause = second.cause;
+        State result = first.within(holds);
+        result.add(second.within(~holds));
+        result.add(asked);
         used |= asked.lanes;
         scratch_.push_back(result);
     }
@@ -244,9 +258,7 @@ void Taint::compute_address(const Operation& operation, const Step& step) {
     const std::uint32_t before = program_.words[operation.extra];
     State result = before == 0 ? State{} : states_[before - 1];
     for (const Slice& operand : step.info().operands) {
-        const State& index = states_[operand.slot];
-        if (index.lanes != 0 && result.lanes == 0) result.cause = index.cause;
-        result.lanes |= index.lanes;
+        result.add(states_[operand.slot]);
     }
     if ((result.lanes & step.lanes) != 0) note_use(step, result.lanes & step.lanes);
     states_[operation.result] = result;
@@ -272,10 +284,7 @@ void Taint::compute(const Step& step) {
             const bool is_single = is_by_component && (operand.count == count || has_two_results);
             const std::uint32_t first = is_single ? i % operand.count : 0;
             for (std::uint32_t c = first; c < (is_single ? first + 1 : operand.count); ++c) {
-                const State& from = states_[operand.slot + c];
-                if (from.lanes == 0) continue;
-                if (result.lanes == 0) result.cause = from.cause;
-                result.lanes |= from.lanes;
+                result.add(states_[operand.slot + c]);
             }
         }
         scratch_.push_back(result);
@@ -289,11 +298,14 @@ void Taint::note_use(const Step& step, Lanes lanes) {
     for (const Slice& operand : step.info().operands)
         for (std::uint32_t at = operand.slot; at < operand.slot + operand.count; ++at) {
             const State& state = states_[at];
-            if (state.cause >= fixed_causes_ || (state.lanes & lanes) == 0) continue;
-            std::vector<std::uint32_t>& uses = first_uses_[state.cause];
-            uses.resize(kLanes);
-            for (std::size_t lane = first_lane(state.lanes & lanes); lane < kLanes; ++lane)
-                if (has(state.lanes & lanes, lane) && uses[lane] == 0) uses[lane] = step.operation + 1;
+            const Lanes undefined = state.lanes & lanes;
+            for (std::size_t lane = first_lane(undefined | Lanes{1} << (kLanes - 1)); lane < kLanes; ++lane) {
+                const CauseId cause = state.cause_in(lane);
+                if (!has(undefined, lane) || cause >= fixed_causes_) continue;
+                std::vector<std::uint32_t>& uses = first_uses_[cause];
+                uses.resize(kLanes);
+                if (uses[lane] == 0) uses[lane] = step.operation + 1;
+            }
         }
 }
 

@@ -65,16 +65,27 @@ class Taint {
     void select(const evaluate::Step<float>& step, const evaluate::Operation& operation);
     void compute(const evaluate::Step<float>& step);
     void note_use(const evaluate::Step<float>& step, Lanes lanes);
-    void set(std::uint32_t slot, Lanes lanes, CauseId cause);
     void compute_address(const evaluate::Operation& operation, const evaluate::Step<float>& step);
     [[nodiscard]] CauseId id_of(const Cause& cause);
     [[nodiscard]] Lanes conditions(const evaluate::Step<float>& step, const evaluate::Slice& condition,
                                    std::uint32_t component) const;
 
-    /// What is known of a slot.
+    /// What is known of a slot: lanes of one cause, and others of a second. A third counts as the second.
     struct State {
         Lanes lanes = 0;
-        CauseId cause = 0;  ///< of all these lanes: the last that came
+        Lanes others = 0;  ///< of `lanes`, those of the other cause
+        CauseId cause = 0;
+        CauseId other_cause = 0;
+
+        [[nodiscard]] CauseId cause_in(std::size_t lane) const {
+            return (others >> lane & 1U) != 0 ? other_cause : cause;
+        }
+        [[nodiscard]] State within(Lanes some) const {
+            if ((lanes & some & ~others) == 0) return {lanes & some, 0, other_cause, 0};  // room for another
+            return {lanes & some, others & some, cause, other_cause};
+        }
+        /// Adds the lanes that are not known yet.
+        void add(const State& more);
     };
     const evaluate::Program& program_;
     std::vector<State> states_;   ///< of each slot

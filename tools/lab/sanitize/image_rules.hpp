@@ -1,0 +1,22 @@
+// What texture functions and derivatives must not be given.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "lab/sanitize/rules.hpp"
+
+namespace gobo::sanitize {
+
+struct ImageFault {
+    std::string_view message;
+    Lanes lanes = 0;
+};
+
+/// Those of a step that is a texture function or takes a derivative. Operands stand ready. What depends on a
+/// texture's size is judged where that is stated. `callers` are the lanes that are invocations at all; those
+/// that have been discarded count as running on, as drivers let them.
+[[nodiscard]] std::vector<ImageFault> image_faults(const evaluate::Step<float>& step,
+                                                   const evaluate::Invocations& invocations, Lanes callers);
+
+}  // namespace gobo::sanitize
