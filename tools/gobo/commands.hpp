@@ -20,6 +20,7 @@ inline const Title kEval = {"eval", "Evaluate one invocation of a stage, in fp32
 inline const Title kTest = {"test", "Evaluate every permutation and compare it with the oracle"};
 inline const Title kSanitize = {"sanitize",
                                 "Watch every operation on hard inputs for what GLSL leaves undefined"};
+inline const Title kProve = {"prove", "Prove over the whole domain that no operation is undefined"};
 inline const Title kProbe = {"probe", "Light-probe maps and harmonics from an HDR map of an environment"};
 inline const Title kRender = {"render", "A picture of every key of a selection, or of scenes"};
 inline const Title kLink = {"link", "Whether OpenGL's driver links what gobo takes, key by key"};

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
           {titles::kEval},
           {titles::kTest},
           {titles::kSanitize},
+          {titles::kProve},
           {titles::kProbe},
           {titles::kRender},
           {titles::kLink},

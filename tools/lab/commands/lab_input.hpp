@@ -103,6 +103,7 @@ using CubeImages = std::map<std::string, Image>;
 [[nodiscard]] Command eval_command();
 [[nodiscard]] Command test_command();
 [[nodiscard]] Command sanitize_command();
+[[nodiscard]] Command prove_command();
 [[nodiscard]] Command probe_command();
 [[nodiscard]] Command render_command();
 [[nodiscard]] Command link_command();

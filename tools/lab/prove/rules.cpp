@@ -1,0 +1,307 @@
+#include "lab/prove/rules.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <spirv/unified1/GLSL.std.450.h>
+#include <spirv/unified1/spirv.hpp>
+
+#include "lab/sanitize/rules.hpp"
+
+namespace gobo::prove {
+namespace {
+
+using evaluate::Kind;
+
+Range below(double limit) {
+    return {-kInfinity, limit, 0, kFinestGrid, true, false};
+}
+Range above(double limit) {
+    return {limit, kInfinity, 0, kFinestGrid, true, false};
+}
+/// Floats beyond, and not equal to, a limit.
+Range less_than(double limit) {
+    return below(float_below(limit));
+}
+Range more_than(double limit) {
+    return above(float_above(limit));
+}
+
+/// For each component the operands of those numbers as expressions: false as soon as one test is.
+template <class Test>
+bool each(View& view, std::size_t operands, const Test& test) {
+    std::uint32_t components = 0;
+    for (std::size_t i = 0; i < operands; ++i)
+        components = std::max(components, view.info().operands[i].count);
+    for (std::uint32_t c = 0; c < components; ++c)
+        if (!test(c)) return false;
+    return true;
+}
+
+/// That operand never lies in the range.
+template <std::size_t operand>
+bool never(View& view, const Range& range) {
+    return each(view, operand + 1, [&](std::uint32_t c) {
+        const std::uint32_t one = view.operand(operand, c);
+        Range numbers = view.ranges.range(one);
+        numbers.nan = false;
+        return both(numbers, range).is_empty() || view.ranges.excludes({{one, range}});
+    });
+}
+
+bool divisor_is_not_zero(View& view) {
+    return never<1>(view, exactly(0));
+}
+bool is_not_negative(View& view) {
+    return never<0>(view, less_than(0));
+}
+bool is_positive(View& view) {
+    return never<0>(view, below(0));
+}
+bool is_within_one(View& view) {
+    return never<0>(view, less_than(-1)) && never<0>(view, more_than(1));
+}
+bool is_below_one(View& view) {
+    return never<0>(view, below(-1)) && never<0>(view, above(1));
+}
+bool is_at_least_one(View& view) {
+    return never<0>(view, less_than(1));
+}
+bool are_not_negative(View& view) {
+    return never<0>(view, below(-1)) && never<1>(view, below(-1));
+}
+bool shifts_within_word(View& view) {
+    return never<1>(view, below(-1)) && never<1>(view, above(32));
+}
+bool fits_int(View& view) {
+    return each(view, 1, [&](std::uint32_t c) {
+        const Range& range = view.range(0, c);
+        return !range.nan && range.low > -2147483904.0 && range.high < 2147483648.0;
+    });
+}
+bool fits_uint(View& view) {
+    return each(view, 1, [&](std::uint32_t c) {
+        const Range& range = view.range(0, c);
+        return !range.nan && range.low > -1 && range.high < 4294967296.0;
+    });
+}
+bool field_within_word(View& view) {
+    const std::size_t count = view.info().operands.size();
+    const Range& offset = view.range(count - 2, 0);
+    const Range& bits = view.range(count - 1, 0);
+    return offset.low >= 0 && bits.low >= 0 && offset.high + bits.high <= 32;
+}
+bool power_is_defined_at_zero(View& view) {
+    return each(view, 2, [&](std::uint32_t c) {
+        return view.ranges.excludes({{view.operand(0, c), exactly(0)}, {view.operand(1, c), below(0)}});
+    });
+}
+bool angle_is_defined(View& view) {
+    return each(view, 2, [&](std::uint32_t c) {
+        return view.ranges.excludes({{view.operand(0, c), exactly(0)}, {view.operand(1, c), exactly(0)}});
+    });
+}
+bool edges_differ(View& view) {
+    return each(view, 2, [&](std::uint32_t c) {
+        Range low = view.range(0, c);
+        Range high = view.range(1, c);
+        low.nan = high.nan = false;
+        return both(low, high).is_empty();
+    });
+}
+template <std::size_t low, std::size_t high>
+bool is_in_order(View& view) {
+    return each(view, 3, [&](std::uint32_t c) {
+        return view.range(low, c).high <= view.range(high, c).low ||
+               view.ranges.is_at_most(view.operand(low, c), view.operand(high, c));
+    });
+}
+template <std::size_t operands>
+bool has_no_nan(View& view) {
+    for (std::size_t i = 0; i < operands; ++i)
+        for (std::uint32_t c = 0; c < view.info().operands[i].count; ++c)
+            if (view.range(i, c).nan) return false;
+    return true;
+}
+
+bool vector_is_not_zero(View& view) {
+    const std::uint32_t count = view.info().operands[0].count;
+    const Range of_squares = view.ranges.sum_of_products(view.vector(0), view.vector(0), count);
+    if (!of_squares.holds_zero()) return true;
+    std::vector<Cut> all;
+    for (std::uint32_t c = 0; c < count; ++c) all.push_back({view.operand(0, c), exactly(0)});
+    return view.ranges.excludes(all);
+}
+
+/// The components of a vector, or of the difference of two.
+std::vector<Range> components_of(View& view) {
+    std::vector<Range> components;
+    for (std::uint32_t c = 0; c < view.info().operands[0].count; ++c)
+        components.push_back(view.info().operands.size() == 1
+                                 ? view.range(0, c)
+                                 : rounded(sum(view.range(0, c), negated(view.range(1, c)))));
+    return components;
+}
+
+/// No vector but the zero vector has a square below the smallest normal number.
+bool square_does_not_underflow(View& view) {
+    constexpr double kEnough = kSmallestNormal * 1.0001;
+    const std::vector<Range> components = components_of(view);
+    const auto has_large_square = [](const Range& r) { return r.smallest() * r.smallest() >= kEnough; };
+    if (std::ranges::any_of(components, has_large_square)) return true;
+    // Each is 0 or large enough.
+    const auto is_zero_or_large = [](const Range& r) {
+        return !r.nan && ((r.low == 0 && r.high == 0) || r.least * r.least >= kEnough);
+    };
+    if (std::ranges::all_of(components, is_zero_or_large)) return true;
+    if (view.info().operands.size() != 1) return false;
+    const auto declared = view.ranges.declared_length(view.vector(0), view.info().operands[0].count);
+    return declared && declared->least * declared->least >= kEnough;
+}
+
+bool square_does_not_overflow(View& view) {
+    double square = 0;
+    for (const Range& component : components_of(view)) square += component.size() * component.size();
+    if (view.info().operands.size() == 1) {
+        const double limit = view.ranges.length_limit(view.vector(0), view.info().operands[0].count);
+        square = std::min(square, limit * limit);
+    }
+    return square < kLargestFloat * 0.9999;
+}
+
+bool makes_no_infinity(View& view) {
+    for (std::uint32_t i = 0; i < view.site.results; ++i)
+        if (view.ranges[view.expressions.site_operands[view.site.first_result + i]].makes_infinity)
+            return false;
+    return true;
+}
+bool makes_no_nan(View& view) {
+    for (std::uint32_t i = 0; i < view.site.results; ++i)
+        if (view.ranges[view.expressions.site_operands[view.site.first_result + i]].makes_nan) return false;
+    return true;
+}
+
+bool index_is_within(View& view) {
+    const evaluate::Operation& operation = view.program.operations[view.site.operation];
+    const std::uint32_t code = evaluate::row_of(operation).code;
+    const std::uint32_t* words = view.program.words.data() + operation.extra;
+    const auto holds = [&](std::size_t operand, double extent) {
+        const std::uint32_t index = view.operand(operand, 0);
+        const Range& range = view.ranges.range(index);
+        if (range.low >= 0 && range.high < extent) return true;
+        return view.ranges.excludes({{index, below(-1)}}) && view.ranges.excludes({{index, above(extent)}});
+    };
+    if (code == spv::OpVectorExtractDynamic) return holds(1, words[0]);
+    if (code == spv::OpVectorInsertDynamic) return holds(2, words[0]);
+    std::size_t operand = 0;
+    for (std::uint32_t word = 1; word < operation.extras; word += 3, ++operand)
+        if (!holds(operand, words[word + 1])) return false;
+    return true;
+}
+
+#define GOBO_STD450(name) evaluate::kExtended + GLSLstd450##name
+
+/// By code and by the beginning of the sanitizer's message, since an operation may have several.
+struct Proof {
+    std::uint32_t code;
+    std::string_view message;
+    bool (*is_impossible)(View&);
+    std::uint32_t deciding;
+};
+
+constexpr Proof kProofs[] = {
+    {spv::OpFDiv, "division by zero", divisor_is_not_zero, 2},
+    {spv::OpFMod, "mod() by zero", divisor_is_not_zero, 2},
+    {spv::OpFRem, "remainder of a division by zero", divisor_is_not_zero, 2},
+    {spv::OpSDiv, "integer division by zero", divisor_is_not_zero, 2},
+    {spv::OpUDiv, "integer division by zero", divisor_is_not_zero, 2},
+    {spv::OpSMod, "integer remainder by zero", divisor_is_not_zero, 2},
+    {spv::OpSMod, "integer remainder of a negative number", are_not_negative, 3},
+    {spv::OpSRem, "integer remainder by zero", divisor_is_not_zero, 2},
+    {spv::OpUMod, "integer remainder by zero", divisor_is_not_zero, 2},
+    {spv::OpShiftLeftLogical, "shift by more than 31 bits", shifts_within_word, 2},
+    {spv::OpShiftRightLogical, "shift by more than 31 bits", shifts_within_word, 2},
+    {spv::OpShiftRightArithmetic, "shift by more than 31 bits", shifts_within_word, 2},
+    {spv::OpBitFieldInsert, "bit field beyond 32 bits", field_within_word, 12},
+    {spv::OpBitFieldSExtract, "bit field beyond 32 bits", field_within_word, 6},
+    {spv::OpBitFieldUExtract, "bit field beyond 32 bits", field_within_word, 6},
+    {GOBO_STD450(Pow), "pow() of a negative number", is_not_negative, 1},
+    {GOBO_STD450(Pow), "pow(0, y) with y not above 0", power_is_defined_at_zero, 3},
+    {GOBO_STD450(Sqrt), "sqrt() of a negative number", is_not_negative, 1},
+    {GOBO_STD450(InverseSqrt), "inversesqrt() of a number not above 0", is_positive, 1},
+    {GOBO_STD450(Log), "log() of a number not above 0", is_positive, 1},
+    {GOBO_STD450(Log2), "log2() of a number not above 0", is_positive, 1},
+    {GOBO_STD450(Acos), "acos() of a number beyond [-1, 1]", is_within_one, 1},
+    {GOBO_STD450(Asin), "asin() of a number beyond [-1, 1]", is_within_one, 1},
+    {GOBO_STD450(Acosh), "acosh() of a number below 1", is_at_least_one, 1},
+    {GOBO_STD450(Atanh), "atanh() of a number not within (-1, 1)", is_below_one, 1},
+    {GOBO_STD450(Atan2), "atan(0, 0)", angle_is_defined, 3},
+    {GOBO_STD450(SmoothStep), "smoothstep() with equal edges", edges_differ, 3},
+    {GOBO_STD450(SmoothStep), "smoothstep() with its first edge above its second", is_in_order<0, 1>, 3},
+    {GOBO_STD450(FMin), "min() fed a NaN", has_no_nan<2>, 3},
+    {GOBO_STD450(FMax), "max() fed a NaN", has_no_nan<2>, 3},
+    {GOBO_STD450(FClamp), "clamp() fed a NaN", has_no_nan<3>, 7},
+    {GOBO_STD450(FClamp), "clamp() with its minimum above its maximum", is_in_order<1, 2>, 6},
+    {GOBO_STD450(Normalize), "normalize() of a zero vector", vector_is_not_zero, 1},
+    {GOBO_STD450(Normalize), "normalize() underflows: the square of the length is too small",
+     square_does_not_underflow, 1},
+    {GOBO_STD450(Normalize), "normalize() overflows: the square of the length is too large",
+     square_does_not_overflow, 1},
+    {GOBO_STD450(Length), "length() underflows: its square is too small", square_does_not_underflow, 1},
+    {GOBO_STD450(Length), "length() overflows: its square is too large", square_does_not_overflow, 1},
+    {GOBO_STD450(Distance), "distance() underflows: its square is too small", square_does_not_underflow, 3},
+    {GOBO_STD450(Distance), "distance() overflows: its square is too large", square_does_not_overflow, 3},
+    {spv::OpConvertFToS, "conversion to int out of range", fits_int, 1},
+    {spv::OpConvertFToU, "conversion to uint out of range", fits_uint, 1},
+};
+
+const Proof* proof_of(std::uint32_t code, std::string_view message) {
+    const auto* found = std::ranges::find_if(
+        kProofs, [&](const Proof& proof) { return proof.code == code && proof.message == message; });
+    return found == std::end(kProofs) ? nullptr : found;
+}
+
+}  // namespace
+
+std::uint32_t View::operand(std::size_t index, std::uint32_t component) const {
+    return vector(index)[info().operands[index].count == 1 ? 0 : component];
+}
+
+const std::uint32_t* View::vector(std::size_t index) const {
+    std::uint32_t first = site.first_operand;
+    for (std::size_t i = 0; i < index; ++i) first += info().operands[i].count;
+    return expressions.site_operands.data() + first;
+}
+
+std::vector<std::vector<Rule>> rules_of(const evaluate::Program& program) {
+    std::vector<std::vector<Rule>> all(program.operations.size());
+    for (std::size_t at = 0; at < program.operations.size(); ++at) {
+        const evaluate::Row& row = evaluate::row_of(program.operations[at]);
+        if (row.is_bookkeeping) continue;
+        for (const sanitize::TrapRule& rule : sanitize::rules_of(sanitize::trap_rules(), row.code)) {
+            const Proof* proof = proof_of(row.code, rule.message);
+            all[at].push_back({rule.message, proof == nullptr ? nullptr : proof->is_impossible,
+                               proof == nullptr ? ~0U : proof->deciding});
+        }
+        if (row.code == spv::OpAccessChain || row.code == spv::OpVectorExtractDynamic ||
+            row.code == spv::OpVectorInsertDynamic)
+            all[at].push_back({kOutOfBounds, index_is_within,
+                               row.code == spv::OpAccessChain            ? ~0U
+                               : row.code == spv::OpVectorExtractDynamic ? 2U
+                                                                         : 4U});
+        if (row.kind <= Kind::matrix && program.infos[at].result.scalar == Scalar::float32) {
+            all[at].push_back({kMakesInfinity, makes_no_infinity, ~0U, true});
+            all[at].push_back({kMakesNaN, makes_no_nan, ~0U, true});
+        }
+    }
+    return all;
+}
+
+std::vector<std::string_view> rules_without_proof() {
+    std::vector<std::string_view> without;
+    for (const sanitize::TrapRule& rule : sanitize::trap_rules())
+        if (proof_of(rule.code, rule.message) == nullptr) without.push_back(rule.message);
+    return without;
+}
+
+}  // namespace gobo::prove
