@@ -98,6 +98,10 @@ Command prove_command() {
              {"--points", "N",
               "How many inputs a stage gets in search of an example where something is undecided",
               &wanted.points, between(0, 1e12)},
+             {"--check", "N",
+              "Evaluate so many hard inputs over all stages, on each variant of arithmetic in turn, and hold "
+              "the proofs to them",
+              &wanted.check, between(0, 1e12)},
              {"--seed", "N", "Another seed tries other inputs", &wanted.seed, between(0, 1e15)},
              {"--inputs", "FILE",
               "A file whose [domain] says what inputs and uniforms hold, beside the family's or instead",

@@ -51,33 +51,73 @@ bool is_infinite(const Range& range) {
     return !range.has_no_number() && (range.low < -kLargestFloat || range.high > kLargestFloat);
 }
 
+/// The real numbers that are rounded to floats of the range.
+Range before_rounding(Range range) {
+    if (range.has_no_number()) return range;
+    const auto halfway = [](double end, double next) {
+        return std::isfinite(next) && std::isfinite(end) ? (end + next) / 2 : next;
+    };
+    range.low = std::min(halfway(range.low, float_below(range.low)),
+                         std::fabs(range.low) < 2 * kSmallestNormal ? -2 * kSmallestNormal : range.low);
+    range.high = std::max(halfway(range.high, float_above(range.high)),
+                          std::fabs(range.high) < 2 * kSmallestNormal ? 2 * kSmallestNormal : range.high);
+    range.least = 0;
+    range.zero = range.low <= 0 && range.high >= 0;
+    range.grid = 2 * kFinestGrid;
+    return range;
+}
+
 /// With the largest error that the specification allows, in both directions.
 Range with_error(Range result, std::uint32_t code, const Range& x, const Range& y) {
     const auto row = evaluate::find_row(code);
-    if (!row || result.has_no_number()) return result;
+    if (!row || result.has_no_number() || x.has_no_number()) return result;
     const evaluate::Row& known = evaluate::instruction_table()[*row];
     const auto largest_error = known.liberties.largest_error;
     if (largest_error == nullptr) return result;
     double below = 0;
     double above = 0;
-    for (const double a : {x.low, x.high})
-        for (const double b : {y.low, y.high}) {
+    // Largest at an end or where the specification's formulas change.
+    const auto in = [](const Range& range, double number) {
+        return std::clamp(number, range.low, range.high);
+    };
+    constexpr double kPi = 3.14159;
+    for (const double a : {x.low, x.high, in(x, 0), in(x, -1), in(x, 1), in(x, -kPi), in(x, kPi)})
+        for (const double b : {y.low, y.high, in(y, -1), in(y, 1)}) {
             below = std::max(below, largest_error(a, b, result.low));
             above = std::max(above, largest_error(a, b, result.high));
         }
-    const bool is_positive = result.low >= 0;
+    // Functions that are not negative stay so; angles need not.
+    const bool is_positive =
+        result.low >= 0 && known.kind != evaluate::Kind::log && known.kind != evaluate::Kind::trig;
     // An error makes no infinity.
     if (std::isfinite(result.high)) result.high = std::min(kLargestFloat, result.high + 2 * above);
     if (std::isfinite(result.low)) result.low = std::max(-kLargestFloat, result.low - 2 * below);
-    if (is_positive && known.kind != evaluate::Kind::log) result.low = std::max(result.low, 0.0);
+    if (is_positive) result.low = std::max(result.low, 0.0);
     result.low = float_below(result.low);
     result.high =
         std::isfinite(result.high) && result.high < kLargestFloat ? float_above(result.high) : result.high;
-    if (is_positive && known.kind != evaluate::Kind::log) result.low = std::max(result.low, 0.0);
+    if (is_positive) result.low = std::max(result.low, 0.0);
     result.least = 0;
     result.grid = kFinestGrid;
     result.zero = result.low <= 0 && result.high >= 0;
     return tidy(result);
+}
+
+/// As a 16-bit float, or as it was.
+Range also_in_half(Range range) {
+    if (range.has_no_number()) return range;
+    constexpr double kStep = 0x1p-10;
+    const auto outwards = [&](double end, bool is_up) {
+        const double moved = end + (is_up ? 1 : -1) * (std::fabs(end) * kStep + 0x1p-24);
+        return std::fabs(moved) >= 65520 ? (is_up && moved > 0    ? kInfinity
+                                            : !is_up && moved < 0 ? -kInfinity
+                                                                  : moved)
+                                         : moved;
+    };
+    Range wider{outwards(range.low, false), outwards(range.high, true), 0, kFinestGrid, true, range.nan};
+    if (range.low >= 0) wider.low = 0;
+    if (range.high <= 0) wider.high = 0;
+    return tidy(wider);
 }
 
 /// Of a function that never falls, at both ends.
@@ -149,6 +189,14 @@ Known Ranges::evaluate(std::uint32_t index) const {
         case kPlain:
             known.range = known_[operands[0]].range;
             return known;
+        case kHalf: {
+            const Known& whole = known_[operands[0]];
+            known.range = also_in_half(whole.range);
+            known.makes_infinity =
+                whole.makes_infinity || (!is_infinite(whole.range) && is_infinite(known.range));
+            known.makes_nan = whole.makes_nan;
+            return known;
+        }
         case kJoined:
             evaluate_join(expression, operands, known);
             return known;
@@ -178,10 +226,11 @@ Known Ranges::evaluate(std::uint32_t index) const {
         known.range = compare(expression, operands);
         return known;
     }
-    if (expression.scalar == Scalar::float32)
-        evaluate_floats(expression, index, known);
-    else
+    if (expression.scalar != Scalar::float32) {
         known.range = evaluate_whole(expression, operands);
+        return known;
+    }
+    evaluate_floats(expression, index, known);
     return known;
 }
 
@@ -199,10 +248,8 @@ void Ranges::evaluate_join(const Expression& expression, const std::uint32_t* op
         }
         known.range = hull(known.range, way.range);
         known.product = hull(known.product, way.product);
-        for (std::size_t variant = 0; variant < known.terms.size(); ++variant) {
-            known.terms[variant].first = hull(known.terms[variant].first, way.terms[variant].first);
-            known.terms[variant].second = hull(known.terms[variant].second, way.terms[variant].second);
-        }
+        for (std::size_t variant = 0; variant < known.terms.size(); ++variant)
+            known.terms[variant].add(way.terms[variant]);
         known.has_product = known.has_product || way.has_product;
         known.has_terms = known.has_terms || way.has_terms;
         known.always_has_terms = known.always_has_terms && way.always_has_terms;
@@ -244,7 +291,7 @@ void Ranges::evaluate_sum(const Expression& expression, const std::uint32_t* ope
     if (is_difference) {
         y.range = negated(y.range);
         y.product = negated(y.product);
-        for (Terms& terms : y.terms) terms = {negated(terms.first), negated(terms.second)};
+        for (TermsCases& terms : y.terms) terms.negate();
     }
     const Range a = finite_part(x.range);
     const Range b = finite_part(y.range);
@@ -285,45 +332,45 @@ void Ranges::evaluate_sum(const Expression& expression, const std::uint32_t* ope
         Range all = known.range;
         const auto fuse = [&](Range product, const Range& rounded_product, const Range& other) {
             if (product.has_no_number()) return;
-            // What is known of the product as a float holds of the product, but for its rounding.
-            const Range near = widened_by(widened(rounded_product, 1), kSmallestNormal);
-            product.low = std::max(product.low, near.low);
-            product.high = std::min(product.high, near.high);
-            product = tidy(product);
+            product = both(product, before_rounding(rounded_product));
             if (product.has_no_number()) return;
             all = hull(all, add(sum(product, other), product.size() + other.size()));
         };
         if (x.has_product) fuse(x.product, a, b);
         if (y.has_product) fuse(y.product, b, a);
         known.has_terms = known.always_has_terms = true;
+        const bool takes_first = x.has_terms && x.always_has_terms;
         for (std::size_t variant = 0; variant < known.terms.size(); ++variant) {
-            Terms& now = known.terms[variant];
-            now = {a, b};
-            const auto regroup = [&](const Terms& terms, const Range& other) {
-                const Range first = finite_part(terms.first);
-                const Range second = finite_part(terms.second);
-                if (first.has_no_number() || second.has_no_number()) return;
-                const double sizes = first.size() + second.size() + other.size();
-                Terms next = variant == 0 ? Terms{first, rounded(sum(second, other))}
-                                          : Terms{rounded(sum(first, other)), second};
-                all = hull(all, add(sum(next.first, next.second), sizes));
+            TermsCases& now = known.terms[variant];
+            if (!takes_first && !y.always_has_terms) now.add(Terms{a, b});
+            const auto regroup = [&](Terms terms, const Range& of_sum, const Range& other) {
+                terms = {finite_part(terms.first), finite_part(terms.second)};
+                // Their sum is what is known as a float.
+                const Range near = before_rounding(of_sum);
+                terms.second = both(terms.second, sum(near, negated(terms.first)));
+                if (terms.first.has_no_number() || terms.second.has_no_number()) return;
+                const double sizes = terms.first.size() + terms.second.size() + other.size();
+                const auto take = [&](const Terms& next) {
+                    all = hull(all, add(sum(next.first, next.second), sizes));
+                    now.add(next);
+                };
                 // What cancels is gone.
                 const Range opposite = negated(other);
-                if (!both(opposite, first).is_empty()) {
-                    all = hull(all, add(second, sizes));
-                    next = {hull(next.first, second), hull(next.second, exactly(0))};
-                }
-                if (!both(opposite, second).is_empty()) {
-                    all = hull(all, add(first, sizes));
-                    next = {hull(next.first, first), hull(next.second, exactly(0))};
-                }
-                now = {hull(now.first, next.first), hull(now.second, next.second)};
+                const bool always_cancels =
+                    opposite.is_one() && terms.first.is_one() && opposite.low == terms.first.low;
+                if (!both(opposite, terms.first).is_empty()) take({terms.second, exactly(0)});
+                if (always_cancels) return;
+                if (!both(opposite, terms.second).is_empty()) take({terms.first, exactly(0)});
+                take(variant == 0 ? Terms{terms.first, rounded(sum(terms.second, other))}
+                                  : Terms{rounded(sum(terms.first, other)), terms.second});
             };
-            const bool takes_first = x.has_terms && x.always_has_terms;
-            if (takes_first || y.always_has_terms) now = {kNothing, kNothing};
-            if (x.has_terms) regroup(x.terms[variant], b);
-            if (y.has_terms && !takes_first) regroup(y.terms[variant], a);
-            if (now.first.has_no_number()) now = {a, b};
+            if (x.has_terms)
+                for (std::size_t i = 0; i < x.terms[variant].count; ++i)
+                    regroup(x.terms[variant].cases[i], a, b);
+            if (y.has_terms && !takes_first)
+                for (std::size_t i = 0; i < y.terms[variant].count; ++i)
+                    regroup(y.terms[variant].cases[i], b, a);
+            if (now.count == 0) now.add(Terms{a, b});
         }
         known.range = all;
     }
@@ -389,7 +436,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             known.makes_infinity = known.makes_nan = false;
             known.range = negated(known.range);
             known.product = negated(known.product);
-            for (Terms& terms : known.terms) terms = {negated(terms.first), negated(terms.second)};
+            for (TermsCases& terms : known.terms) terms.negate();
             if (expression.is_precise) known.has_product = known.has_terms = known.always_has_terms = false;
             return;
         }
@@ -467,7 +514,9 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             return;
         }
     }
-    const auto error = [&](const Range& result) { return with_error(result, expression.code, r[0], r[1]); };
+    const auto error = [&](const Range& result) {
+        return with_error(result, expression.code, r[0], count > 1 ? r[1] : exactly(0));
+    };
     Range result = kAnything;
     bool nan = false;
     switch (expression.code) {

@@ -22,6 +22,7 @@ enum Code : std::uint32_t {
     kTexel,              ///< what a texture function answers; known to lie in Expression::known
     kKept,               ///< the operand, as it is under the conditions of a context
     kPlain,              ///< the operand, of which no variant of arithmetic knows how it was computed
+    kHalf,               ///< the operand, or the 16-bit float nearest to it
     kJoined,             ///< of its operands, each from a context of its own, the one whose way was taken
     kIndexed,            ///< first operand: the offset; then what stands at the offsets Expression::offsets
     kReplaced,           ///< operands: an offset, a new value, the old one; new where the offset is `part`
@@ -80,6 +81,8 @@ struct Expressions {
     std::vector<std::uint32_t> site_operands;
     std::vector<Event> events;
     std::vector<OutputValues> outputs;
+    bool has_relaxed =
+        false;  ///< some result is a 16-bit float on some variants: what is known of roundings does not hold
 
     [[nodiscard]] const std::uint32_t* operands_of(std::uint32_t expression) const {
         return operands.data() + all[expression].first;

@@ -50,6 +50,7 @@ bool Ranges::is_largest_of(std::uint32_t scale, const std::uint32_t* vector, std
 
 std::optional<std::array<std::uint32_t, 3>> Ranges::vector_of_square(std::uint32_t square) const {
     square = expressions_.origin(square);
+    if (expressions_.has_relaxed) return std::nullopt;
     if (known_[square].range.low < 1e-31 || known_[square].range.nan) return std::nullopt;
     std::uint32_t sum = square;
     if (expressions_.all[square].code == extended(GLSLstd450FMax))

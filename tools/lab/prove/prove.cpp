@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "family/key.hpp"
+#include "lab/prove/check.hpp"
 #include "lab/prove/stage_proof.hpp"
 #include "lab/sanitize/hard_points.hpp"
 #include "lab/sanitize/sanitize.hpp"
@@ -24,6 +25,7 @@ struct Proven {
     std::vector<RuleAtOperation> rules;
     std::vector<std::vector<PartLeft>> left;  ///< of each rule
     std::vector<std::vector<Range>> outputs;
+    std::vector<std::vector<Range>> results;
     Diagnostics diagnostics;
 };
 
@@ -42,6 +44,7 @@ Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains,
     if (const auto ran = proof.run(splits, true); !ran) proven.diagnostics = ran.error();
     proven.rules = proof.rules();
     proven.outputs = proof.outputs();
+    proven.results = proof.results();
     const auto is_open = [](const RuleAtOperation& rule) { return !rule.is_proven; };
     std::vector<std::vector<PartLeft>>& left = proven.left;
     for (const RuleAtOperation& rule : proven.rules) left.push_back(proof.inputs_of(rule.left));
@@ -188,6 +191,19 @@ ProveReport prove(const Family& family, const Composition& composition, const Va
     });
     ProveReport report;
     report.stages = stages.size();
+    report.permutations = composition.permutations.size();
+    if (options.check > 0 && !stages.empty()) {
+        const std::size_t points = (options.check + stages.size() - 1) / stages.size();
+        std::vector<Diagnostics> faults(stages.size());
+        parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
+            if (!stages[i].diagnostics.empty()) return;
+            faults[i] = check(stages[i].program, stages[i].space, stages[i].rules, stages[i].results, points,
+                              options.seed + i * points);
+        });
+        for (const Diagnostics& of_stage : faults)
+            report.diagnostics.insert(report.diagnostics.end(), of_stage.begin(), of_stage.end());
+        report.points = points * stages.size();
+    }
     std::map<PlaceAndName, SourceOperation> operations;
     std::map<std::pair<StageKind, std::string>, OutputRange> outputs;
     for (std::size_t i = 0; i < stages.size(); ++i) {

@@ -21,6 +21,7 @@ struct ProveOptions {
     std::size_t points =
         4096;  ///< inputs that a stage gets in search of an example, where anything is undecided
     std::uint64_t seed = 1;
+    std::size_t check = 0;  ///< inputs over all stages that the proofs are held to
 };
 
 enum class Status { impossible, undecided, possible };
@@ -78,6 +79,8 @@ struct ProveReport {
     std::vector<OutputRange> outputs;         ///< by stage and name
     Diagnostics diagnostics;                  ///< why nothing is known of a stage
     std::size_t stages = 0;
+    std::size_t permutations = 0;
+    std::size_t points = 0;  ///< that the proofs were held to
 };
 
 /// `validated` must hold the SPIR-V of every stage, with debug information, so that places are known.

@@ -28,8 +28,9 @@ Range tidy(Range range) {
     if (range.low > -range.least && range.low < 0) range.low = 0;
     if (range.high < range.least && range.high > 0) range.high = 0;
     if (!range.zero) {
-        if (range.low >= 0) range.low = std::max({range.low, range.least, kSmallestFloat});
-        if (range.high <= 0) range.high = std::min({range.high, -range.least, -kSmallestFloat});
+        constexpr double kTiny = std::numeric_limits<double>::denorm_min();
+        if (range.low >= 0) range.low = std::max({range.low, range.least, kTiny});
+        if (range.high <= 0) range.high = std::min({range.high, -range.least, -kTiny});
         if (range.low > range.high) return {kInfinity, -kInfinity, 0, kFinestGrid, false, range.nan};
     }
     if (range.low > 0) range.least = std::max(range.least, range.low);

@@ -182,7 +182,10 @@ bool Ranges::spread() {
 bool Ranges::narrow(std::uint32_t expression, const Range& to) {
     if (expression >= is_computed_.size() || !is_computed_[expression]) return true;
     Known& known = known_[expression];
-    const Range narrower = both(known.range, to);
+    Range narrower = to;
+    if (!to.zero && expressions_.all[expression].scalar == Scalar::float32)
+        narrower.least = std::max(narrower.least, kSmallestFloat);
+    narrower = both(known.range, narrower);
     if (narrower == known.range) return !narrower.is_empty();
     if (narrower.is_empty()) return false;
     saved_.push_back({expression, known});
@@ -421,7 +424,7 @@ double Ranges::length_limit(const std::uint32_t* vector, std::uint32_t count, in
         square += range.has_no_number() ? 0 : range.size() * range.size();
     }
     const double by_components = std::sqrt(square) * (1 + 1e-12);
-    if (depth > kDeepest) return by_components;
+    if (depth > kDeepest || expressions_.has_relaxed) return by_components;
     const Expression& first = expressions_.all[origins[0]];
     for (std::uint32_t i = 1; i < count; ++i) {
         const Expression& other = expressions_.all[origins[i]];
@@ -492,6 +495,7 @@ double Ranges::length_limit(const std::uint32_t* vector, std::uint32_t count, in
 }
 
 bool Ranges::makes_unit(const std::uint32_t* products, std::uint32_t count) const {
+    if (expressions_.has_relaxed) return false;
     // v * inversesqrt(max(dot(v, v), least)), or without max().
     const std::uint32_t root = expressions_.origin(expressions_.operand(products[0], 1));
     if (expressions_.all[root].code != extended(GLSLstd450InverseSqrt)) return false;

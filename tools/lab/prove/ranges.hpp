@@ -11,8 +11,34 @@ namespace gobo::prove {
 
 /// The two numbers whose sum a value is, where sums are regrouped or reordered.
 struct Terms {
-    Range first;
-    Range second;
+    Range first = kNothing;
+    Range second = kNothing;
+    friend bool operator==(const Terms&, const Terms&) = default;
+};
+
+/// What these may be, case by case as long as there are few.
+struct TermsCases {
+    std::array<Terms, 4> cases{};
+    std::size_t count = 0;
+
+    void add(const Terms& terms) {
+        if (terms.first.has_no_number() || terms.second.has_no_number()) return;
+        for (std::size_t i = 0; i < count; ++i)
+            if (cases[i] == terms) return;
+        if (count < cases.size()) {
+            cases[count++] = terms;
+            return;
+        }
+        Terms& last = cases.back();
+        last = {hull(last.first, terms.first), hull(last.second, terms.second)};
+    }
+    void add(const TermsCases& others) {
+        for (std::size_t i = 0; i < others.count; ++i) add(others.cases[i]);
+    }
+    void negate() {
+        for (std::size_t i = 0; i < count; ++i)
+            cases[i] = {negated(cases[i].first), negated(cases[i].second)};
+    }
 };
 
 /// What is known of an expression.
@@ -20,12 +46,12 @@ struct Known {
     Range range = kNothing;
     bool has_product =
         false;  ///< on some variant a sum takes the factors of this product instead of the rounded product
-    bool has_terms = false;         ///< likewise the terms of this sum
-    bool always_has_terms = false;  ///< whichever way it was computed
-    Range product = kNothing;       ///< before it is rounded
-    std::array<Terms, 2> terms{};   ///< regrouped, reordered
-    bool makes_infinity = false;    ///< of finite operands
-    bool makes_nan = false;         ///< of finite operands
+    bool has_terms = false;             ///< likewise the terms of this sum
+    bool always_has_terms = false;      ///< whichever way it was computed
+    Range product = kNothing;           ///< before it is rounded
+    std::array<TermsCases, 2> terms{};  ///< regrouped, reordered
+    bool makes_infinity = false;        ///< of finite operands
+    bool makes_nan = false;             ///< of finite operands
 };
 
 /// By how much a vector that a shader makes unit may be longer than 1, on any variant of arithmetic.

@@ -73,8 +73,10 @@ std::string proof_text(const ProveReport& report) {
         for (const ProvenRule& rule : operation.rules)
             by_rule[rule.message].add(rule.status, rule.ignores_tiny);
     }
-    std::string text = fmt::format(fmt::runtime(kColumns), "rule", "operations", "impossible", "undecided",
-                                   "possible", "proven");
+    std::string text = fmt::format("{} permutations, {} stages", report.permutations, report.stages);
+    if (report.points > 0) text += fmt::format(", held to {} points", report.points);
+    text += "\n\n" + fmt::format(fmt::runtime(kColumns), "rule", "operations", "impossible", "undecided",
+                                 "possible", "proven");
     for (const auto& [message, count] : by_rule) text += count_line(message, count);
     text += count_line("operations with a rule of their own", own);
     text += count_line("all operations", all);

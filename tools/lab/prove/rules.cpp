@@ -73,6 +73,12 @@ bool are_not_negative(View& view) {
 bool shifts_within_word(View& view) {
     return never<1>(view, below(-1)) && never<1>(view, above(32));
 }
+bool quotient_fits(View& view) {
+    return each(view, 2, [&](std::uint32_t c) {
+        return view.ranges.excludes(
+            {{view.operand(0, c), exactly(kAnyInt.low)}, {view.operand(1, c), exactly(-1)}});
+    });
+}
 bool fits_int(View& view) {
     return each(view, 1, [&](std::uint32_t c) {
         const Range& range = view.range(0, c);
@@ -214,6 +220,7 @@ constexpr Proof kProofs[] = {
     {spv::OpFMod, "mod() by zero", divisor_is_not_zero, 2},
     {spv::OpFRem, "remainder of a division by zero", divisor_is_not_zero, 2},
     {spv::OpSDiv, "integer division by zero", divisor_is_not_zero, 2},
+    {spv::OpSDiv, "integer division overflows", quotient_fits, 3},
     {spv::OpUDiv, "integer division by zero", divisor_is_not_zero, 2},
     {spv::OpSMod, "integer remainder by zero", divisor_is_not_zero, 2},
     {spv::OpSMod, "integer remainder of a negative number", are_not_negative, 3},

@@ -71,6 +71,7 @@ Result<void> StageProof::run(std::size_t splits, bool has_tiny_inputs) {
         std::size_t rule;
     };
     std::vector<Open> open;
+    results_.assign(program_.operations.size(), {});
     Ranges ranges(expressions_, space_);
     ranges.begin({}, nullptr);
     for (const Event& event : expressions_.events) {
@@ -79,6 +80,10 @@ Result<void> StageProof::run(std::size_t splits, bool has_tiny_inputs) {
         if (event.kind != Event::Kind::site) continue;
         const Site& site = expressions_.sites[event.index];
         View view{ranges, program_, expressions_, site};
+        std::vector<Range>& results = results_[site.operation];
+        if (results.size() < site.results) results.resize(site.results, kNothing);
+        for (std::uint32_t i = 0; i < site.results && ranges.is_reached(); ++i)
+            results[i] = hull(results[i], ranges.range(expressions_.site_operands[site.first_result + i]));
         for (std::size_t i = first_rule[site.operation];
              i < rules_.size() && rules_[i].operation == site.operation; ++i) {
             RuleAtOperation& one = rules_[i];

@@ -33,6 +33,9 @@ class StageProof {
     [[nodiscard]] const std::vector<RuleAtOperation>& rules() const { return rules_; }
     /// Of each component of each output, in the program's order; none of one that is never written.
     [[nodiscard]] const std::vector<std::vector<Range>>& outputs() const { return outputs_; }
+    /// Of each operation that has rules or computes anything, what its results may be, over all its sites; of
+    /// others none.
+    [[nodiscard]] const std::vector<std::vector<Range>>& results() const { return results_; }
     /// What of the inputs is left by the cuts.
     [[nodiscard]] std::vector<PartLeft> inputs_of(const std::vector<Cut>& cuts) const;
     [[nodiscard]] const Expressions& expressions() const { return expressions_; }
@@ -55,6 +58,7 @@ class StageProof {
     Expressions expressions_;
     std::vector<RuleAtOperation> rules_;
     std::vector<std::vector<Range>> outputs_;
+    std::vector<std::vector<Range>> results_;
 };
 
 }  // namespace gobo::prove

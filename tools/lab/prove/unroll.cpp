@@ -22,7 +22,7 @@ using evaluate::Slice;
 using Id = std::uint32_t;
 
 constexpr std::size_t kMostExpressions = 300000;
-constexpr std::uint32_t kMostTurns = 4096;
+constexpr std::uint32_t kMostTurns = 1U << 16U;
 
 constexpr std::uint32_t extended(std::uint32_t number) {
     return evaluate::kExtended + number;
@@ -163,6 +163,7 @@ class Unroller {
     void begin() {
         turns_.resize(program_.blocks.size());
         ranges_.begin({}, nullptr);
+        expressions_.has_relaxed = std::ranges::any_of(program_.infos, &OperationInfo::is_relaxed);
         add({.code = kUnknown}, {});
         is_carried_.assign(program_.slots, false);
         for (const auto& [slot, count] : program_.variables)
@@ -370,6 +371,8 @@ class Unroller {
         for (const Slice& operand : info.operands)
             for (std::uint32_t i = 0; i < operand.count; ++i) before.push_back(state.slots[operand.slot + i]);
         std::vector<Id> results = results_of(operation, info, row, before, state);
+        if (info.is_relaxed && info.result.scalar == Scalar::float32)
+            for (Id& result : results) result = make({.code = kHalf}, {result});
         if (row.code != evaluate::kScatter)
             for (std::uint32_t i = 0; i < results.size(); ++i) state.slots[operation.result + i] = results[i];
         if (row.is_bookkeeping || row.kind == evaluate::Kind::load || row.kind == evaluate::Kind::store)

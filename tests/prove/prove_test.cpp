@@ -1,0 +1,173 @@
+// What is proven of shaders whose answers are known, and that nothing is proven which an evaluation
+// contradicts.
+#include "lab/prove/prove.hpp"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "compose/compose.hpp"
+#include "compose/search_path.hpp"
+#include "core/file_system.hpp"
+#include "lab/prove/rules.hpp"
+#include "sanitize_support.hpp"
+
+namespace gobo {
+namespace {
+
+using prove::Status;
+
+prove::ProveReport proven(const std::string& path, const FileSystem& files,
+                          const prove::ProveOptions& options) {
+    SearchPath search;
+    const Result<Family> family = family_of_files({path}, files, search);
+    EXPECT_TRUE(family) << path;
+    const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
+    EXPECT_TRUE(composition) << path;
+    ValidateOptions validate_options;
+    validate_options.keep_spirv = true;
+    validate_options.debug_information = true;
+    const Validated validated = validate(*family, *composition, validate_options);
+    for (const Diagnostic& error : validated.diagnostics) {
+        if (error.severity == Severity::error) ADD_FAILURE() << to_text(error);
+    }
+    prove::ProveReport report = prove::prove(*family, *composition, validated, options);
+    for (const Diagnostic& error : report.diagnostics) ADD_FAILURE() << to_text(error);
+    return report;
+}
+
+/// The worst of a rule over a file.
+std::map<std::string, Status> by_rule(const prove::ProveReport& report) {
+    std::map<std::string, Status> all;
+    for (const prove::SourceOperation& operation : report.operations)
+        for (const prove::ProvenRule& rule : operation.rules)
+            all[rule.message] = std::max(all[rule.message], rule.status);
+    return all;
+}
+
+std::string word(Status status) {
+    return status == Status::impossible ? "impossible"
+           : status == Status::possible ? "possible"
+                                        : "undecided";
+}
+
+TEST(Proofs, ExistForEveryRuleOfTheSanitizer) {
+    // A determinant is told from 0 by nothing that is known here.
+    EXPECT_EQ(prove::rules_without_proof(), std::vector<std::string_view>{"inverse() of a singular matrix"});
+}
+
+struct Row {
+    std::string name;
+    std::string statements;  ///< that set `result`
+    std::string rule;
+    Status status;
+};
+
+constexpr Status kImpossible = Status::impossible;
+constexpr Status kPossible = Status::possible;
+
+const Row kRows[] = {
+    {"division", "result = a / b;", "division by zero", kPossible},
+    {"division_by_a_square_and_one", "result = a / (b * b + 1.0);", "division by zero", kImpossible},
+    {"division_behind_a_comparison", "if (b != 0.0) result = a / b;", "division by zero", kImpossible},
+    {"division_behind_another_comparison", "if (a != 0.0) result = a / b;", "division by zero", kPossible},
+    {"division_behind_a_size", "if (abs(b) > 1e-3 && a > 0.0) result = a / b;", "division by zero",
+     kImpossible},
+    {"division_by_a_difference", "if (a < b) result = 1.0 / (b - a);", "division by zero", kImpossible},
+    {"division_by_a_difference_of_a_chain", "if (a < b) { if (b < v.x) result = 1.0 / (v.x - a); }",
+     "division by zero", kImpossible},
+    {"division_by_a_difference_the_wrong_way", "if (a <= b) result = 1.0 / (b - a);", "division by zero",
+     kPossible},
+    {"division_in_a_loop", "for (int k = 1; k < 9; ++k) result += a / float(k);", "division by zero",
+     kImpossible},
+    {"division_in_a_loop_from_0", "for (int k = 0; k < 9; ++k) result += a / float(k - 4);",
+     "division by zero", kPossible},
+    {"division_after_a_loop_that_an_input_bounds",
+     "int k = 1; while (k < abs(i)) k += 7; result = a / float(k);", "division by zero", kImpossible},
+    {"root_of_a_square", "result = sqrt(dot(v, v));", "sqrt() of a negative number", kImpossible},
+    {"root_of_one_less_a_square", "result = sqrt(1.0 - a * a);", "sqrt() of a negative number", kPossible},
+    {"root_of_one_less_a_clamped_square", "float c = clamp(a, -1.0, 1.0); result = sqrt(1.0 - c * c);",
+     "sqrt() of a negative number", kImpossible},
+    {"root_of_a_sine",
+     "vec3 n = v * inversesqrt(max(dot(v, v), 1e-20)); result = sqrt(max(1.0 - n.x * n.x, 0.0));",
+     "sqrt() of a negative number", kImpossible},
+    {"arc_cosine_of_unit_vectors", "result = acos(dot(normalize(v), vec3(1.0, 0.0, 0.0)) * 0.999);",
+     "acos() of a number beyond [-1, 1]", Status::undecided},
+    {"power_of_a_size", "result = pow(abs(a) + 1e-3, b * 0.01);", "pow() of a negative number", kImpossible},
+    {"power_of_zero", "result = pow(abs(a), 0.0);", "pow(0, y) with y not above 0", kPossible},
+    {"angle_of_a_point_not_at_the_origin", "if (abs(a) + abs(b) != 0.0) result = atan(a, b);", "atan(0, 0)",
+     kImpossible},
+    {"angle", "result = atan(a, b);", "atan(0, 0)", kPossible},
+    {"scaled_by_its_largest_component",
+     "vec3 w = v / max(abs(v.x), max(abs(v.y), max(abs(v.z), 1e-30))); result = acos(w.x);",
+     "acos() of a number beyond [-1, 1]", kPossible},
+    {"shift_by_masked_bits", "result = float(1 << (i & 31));", "shift by more than 31 bits", kImpossible},
+    {"shift", "result = float(1 << abs(i));", "shift by more than 31 bits", kPossible},
+    {"index_clamped", "float all[4] = float[4](1.0, 2.0, 3.0, a); result = all[clamp(i, 0, 3)];",
+     "array index out of bounds", kImpossible},
+    {"index", "float all[4] = float[4](1.0, 2.0, 3.0, a); result = all[abs(i)];", "array index out of bounds",
+     kPossible},
+    {"overflow_of_exponential", "result = exp(a);", "an infinity made from finite numbers", kPossible},
+    {"exponential_of_less", "result = exp(min(a, 80.0));", "an infinity made from finite numbers",
+     kImpossible},
+    {"conversion", "result = float(int(a * 1e9));", "conversion to int out of range", kPossible},
+    {"conversion_within", "result = float(int(floor(a)));", "conversion to int out of range", kImpossible},
+    {"edges_in_order", "result = smoothstep(a, a + 1.0, b);", "smoothstep() with equal edges",
+     Status::undecided},
+    {"normalize_away_from_zero", "result = normalize(vec3(v.xy, 1.0)).x;", "normalize() of a zero vector",
+     kImpossible},
+    {"normalize", "result = normalize(v).x;", "normalize() of a zero vector", kPossible},
+};
+
+class Proof : public testing::TestWithParam<Row> {};
+
+TEST_P(Proof, IsAsKnown) {
+    const Row& row = GetParam();
+    const std::string text =
+        "#version 450\nlayout(location = 0) in float a;\nlayout(location = 1) in float b;\nlayout(location = "
+        "2) in vec3 v;\n"
+        "layout(location = 3) flat in int i;\nlayout(location = 0) out float color;\nvoid main() {\n    "
+        "float result = 0.0;\n    " +
+        row.statements + "\n    color = result;\n}\n";
+    prove::ProveOptions options;
+    options.check = 4096;
+    options.points = 2048;
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{{"known.frag", text}});
+    const auto found = by_rule(proven("known.frag", files, options));
+    ASSERT_TRUE(found.contains(row.rule));
+    EXPECT_EQ(word(found.at(row.rule)), word(row.status));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Proof, testing::ValuesIn(kRows),
+                         [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
+
+/// Shaders that say in comments which traps they have.
+class PlantedFault : public testing::TestWithParam<std::string> {};
+
+TEST_P(PlantedFault, IsNeverProvenImpossible) {
+    prove::ProveOptions options;
+    options.check = 4096;
+    options.points = 256;
+    const prove::ProveReport report = proven(GetParam(), DiskFileSystem(), options);
+    Lines open;
+    for (const prove::SourceOperation& operation : report.operations)
+        for (const prove::ProvenRule& rule : operation.rules)
+            if (rule.status != Status::impossible)
+                open.insert(std::to_string(operation.place.line) + ": " + rule.message);
+    for (const std::string& mark : marked_lines(GetParam())) {
+        const bool is_other = mark.find("is read before it is written") != std::string::npos ||
+                              mark.find("the output") != std::string::npos ||
+                              mark.find("returns no value") != std::string::npos;
+        if (!is_other) {
+            EXPECT_TRUE(open.contains(mark)) << mark;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sanitizer, PlantedFault, testing::ValuesIn(shader_files("sanitize/planted")),
+                         file_test_name);
+INSTANTIATE_TEST_SUITE_P(Plain, PlantedFault, testing::ValuesIn(shader_files("hard_cases/plain")),
+                         file_test_name);
+
+}  // namespace
+}  // namespace gobo
