@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <ctime>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "core/csv.hpp"
+#include "core/file_system.hpp"
+#include "lab/cost/compile_on_chips.hpp"
+#include "lab/cost/stage_cost.hpp"
 #include "lit_drawing.hpp"
 
 namespace gobo {
@@ -134,7 +137,7 @@ bool GuardTime::is_measurable() const {
 
 GuardTime measure(const Guard& guard, const Context& context) {
     const Pair pair = pair_of(guard);
-    if (!pair.is_in_fragment) return {{}, {}, context.renderer()};
+    if (!pair.is_in_fragment) return {{}, {}, context.renderer(), {}};
     LitDrawing guarded(context, pair.guarded, pair.permutation);
     LitDrawing plain(context, pair.plain, pair.permutation);
     const Result<Framebuffer> target = make_framebuffer(context, kPixels, kPixels);
@@ -158,39 +161,104 @@ GuardTime measure(const Guard& guard, const Context& context) {
     return time;
 }
 
+Result<std::map<std::string, std::vector<GuardCycles>>> measure_cycles(const std::string& folder,
+                                                                       const std::string& lab) {
+    std::vector<cost::Pipeline> pipelines;
+    std::vector<std::string> stages;
+    for (const Guard& guard : lit_guards()) {
+        const Pair pair = pair_of(guard);
+        stages.emplace_back(pair.is_in_fragment ? "fragment" : "vertex");
+        for (const LitUnderTest* lit : {&pair.guarded, &pair.plain}) {
+            GOBO_TRY(auto pipeline, cost::pipeline_of(lit->spirv(pair.permutation, StageKind::vertex),
+                                                      lit->spirv(pair.permutation, StageKind::fragment)));
+            pipelines.push_back(std::move(pipeline));
+        }
+    }
+    GOBO_TRY(const auto chips, cost::chips_named({kGuardChips.begin(), kGuardChips.end()}));
+    const auto answers = cost::compile_on_chips(DiskFileSystem(), chips, pipelines,
+                                                {.driver = folder, .program = lab, .jobs = 2});
+    std::map<std::string, std::vector<GuardCycles>> all;
+    for (std::size_t chip = 0; chip < chips.size(); ++chip) {
+        GOBO_TRY(const auto answer, answers[chip]);
+        for (std::size_t i = 0; i < stages.size(); ++i) {
+            GuardCycles& cycles = all[lit_guards()[i].name].emplace_back();
+            cycles.gpu = chips[chip].name;
+            cycles.driver = answer.driver;
+            for (const bool guarded : {true, false}) {
+                const auto& compiled = answer.pipelines[2 * i + (guarded ? 0 : 1)];
+                if (!compiled) return fail(Fault::input, compiled.error());
+                for (const cost::CompiledStage& stage : *compiled)
+                    if (stage.stage == stages[i])
+                        (guarded ? cycles.guarded : cycles.plain) =
+                            cost::cost_of(stage, chips[chip], false).cycles;
+            }
+        }
+    }
+    return all;
+}
+
 std::string to_csv(const GuardTimes& times) {
-    std::string csv =
-        "guard,case,piece,key,operations_guarded,operations_plain,guarded_us_low,guarded_us,guarded_us_high,"
-        "plain_us_low,plain_us,plain_us_high,renderer\n";
+    CsvTable table;
+    table.columns = {"guard",
+                     "case",
+                     "piece",
+                     "key",
+                     "operations_guarded",
+                     "operations_plain",
+                     "guarded_us_low",
+                     "guarded_us",
+                     "guarded_us_high",
+                     "plain_us_low",
+                     "plain_us",
+                     "plain_us_high",
+                     "renderer"};
+    for (const char* gpu : kGuardChips)
+        for (const char* column : {"cycles_{}_guarded", "cycles_{}_plain", "driver_{}"})
+            table.columns.push_back(fmt::format(fmt::runtime(column), gpu));
     for (const Guard& guard : lit_guards()) {
         const auto found = times.find(guard.name);
         if (found == times.end()) continue;
         const GuardTime& time = found->second;
         const GuardOperations operations = operations_of(guard);
-        csv +=
-            fmt::format("{},{},{},{},{},{},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},{:.0f},\"{}\"\n", guard.name,
-                        guard.needed_by, guard.piece, operations.key, computing(operations.guarded),
-                        computing(operations.plain), time.guarded.low, time.guarded.median, time.guarded.high,
-                        time.plain.low, time.plain.median, time.plain.high, time.renderer);
+        std::vector<std::string>& row = table.rows.emplace_back();
+        row = {guard.name,
+               guard.needed_by,
+               guard.piece,
+               operations.key,
+               std::to_string(computing(operations.guarded)),
+               std::to_string(computing(operations.plain))};
+        for (const GuardTime::Quartiles& quartiles : {time.guarded, time.plain})
+            for (const double end : {quartiles.low, quartiles.median, quartiles.high})
+                row.push_back(fmt::format("{:.0f}", end));
+        row.push_back(time.renderer);
+        for (const GuardCycles& cycles : time.cycles)
+            row.insert(row.end(),
+                       {std::to_string(cycles.guarded), std::to_string(cycles.plain), cycles.driver});
+        row.resize(table.columns.size());
     }
-    return csv;
+    return csv_text(table);
 }
 
 GuardTimes times_of_csv(const std::string& csv) {
+    const CsvTable table = read_csv(csv);
     GuardTimes times;
-    std::istringstream lines(csv);
-    std::string line;
-    std::getline(lines, line);  // its heading
-    while (std::getline(lines, line)) {
-        std::vector<std::string> cells;
-        std::istringstream row(line);
-        for (std::string cell; cells.size() < 12 && std::getline(row, cell, ',');) cells.push_back(cell);
-        if (cells.size() < 12) continue;
-        std::string renderer;
-        std::getline(row, renderer);
-        std::erase(renderer, '"');
-        const auto number = [&](std::size_t at) { return std::stod(cells[at]); };
-        times[cells[0]] = {{number(6), number(7), number(8)}, {number(9), number(10), number(11)}, renderer};
+    for (const std::vector<std::string>& row : table.rows) {
+        const auto cell = [&](const std::string& name) {
+            const auto column = table.column(name);
+            return column ? row[*column] : "";
+        };
+        const auto number = [&](const std::string& name) { return number_in_cell(cell(name)).value_or(0); };
+        GuardTime& time = times[cell("guard")];
+        time.guarded = {number("guarded_us_low"), number("guarded_us"), number("guarded_us_high")};
+        time.plain = {number("plain_us_low"), number("plain_us"), number("plain_us_high")};
+        time.renderer = cell("renderer");
+        for (const char* gpu : kGuardChips) {
+            const std::string prefix = fmt::format("cycles_{}", gpu);
+            if (cell(prefix + "_guarded").empty()) continue;
+            time.cycles.push_back({gpu, cell(fmt::format("driver_{}", gpu)),
+                                   static_cast<std::uint64_t>(number(prefix + "_guarded")),
+                                   static_cast<std::uint64_t>(number(prefix + "_plain"))});
+        }
     }
     return times;
 }

@@ -1,6 +1,7 @@
 // What each guard costs: operations, counted by the evaluator, and time, measured on a renderer.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,22 @@ struct GuardOperations {
 /// "+2: 1 compare, 1 branch"; "none" where nothing is added.
 [[nodiscard]] std::string added_text(const GuardOperations& operations);
 
+/// Cycles of 64 invocations of the stage that a guard is in, as a chip's compiler estimates them.
+struct GuardCycles {
+    std::string gpu;     ///< "navi21"
+    std::string driver;  ///< "radv Mesa 25.0.7"
+    std::uint64_t guarded = 0;
+    std::uint64_t plain = 0;
+};
+
+/// The chips that guards are costed on.
+inline constexpr std::array<const char*, 3> kGuardChips = {"navi21", "gfx1201", "ampere"};
+
+/// By the guard's name; with the drivers that were unpacked into a folder (gobo cost --driver), by a
+/// gobo-lab.
+[[nodiscard]] Result<std::map<std::string, std::vector<GuardCycles>>> measure_cycles(
+    const std::string& folder, const std::string& lab);
+
 /// Processor times of drawing 256 x 256 fragments, over interleaved rounds.
 struct GuardTime {
     struct Quartiles {
@@ -38,12 +55,14 @@ struct GuardTime {
     Quartiles guarded;
     Quartiles plain;
     std::string renderer;
+    std::vector<GuardCycles> cycles = {};  ///< on chips, by kGuardChips
 
     /// The quartiles do not overlap.
     [[nodiscard]] bool is_measurable() const;
 };
 
-/// All zero for guards of the vertex stage: shading a few vertices takes no time that could be told.
+/// All zero for guards of the vertex stage: shading a few vertices takes no time that could be told. Without
+/// cycles.
 [[nodiscard]] GuardTime measure(const Guard& guard, const Context& context);
 
 /// By the guard's name.

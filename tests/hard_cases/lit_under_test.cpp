@@ -160,13 +160,18 @@ Composition alone(const Composition& composition, int stage) {
     return result;
 }
 
-evaluate::Program compiled(const Family& family, const Composition& composition, int stage) {
+std::vector<std::uint32_t> words_of(const Family& family, const Composition& composition, int stage,
+                                    bool with_lines) {
     ValidateOptions options;
     options.keep_spirv = true;
-    options.debug_information = true;
+    options.debug_information = with_lines;
     const Validated validated = validate(family, alone(composition, stage), options);
     EXPECT_EQ(exit_status(validated.diagnostics), 0);
-    Result<evaluate::Program> program = evaluate::decode(validated.stages.front().spirv);
+    return validated.stages.front().spirv;
+}
+
+evaluate::Program compiled(const Family& family, const Composition& composition, int stage) {
+    Result<evaluate::Program> program = evaluate::decode(words_of(family, composition, stage, true));
     EXPECT_TRUE(program);
     return program ? std::move(*program) : evaluate::Program{};
 }
@@ -206,6 +211,10 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     if (!composition) return;
     composition_ = *composition;
     programs_.resize(composition_.stages.size());
+}
+
+std::vector<std::uint32_t> LitUnderTest::spirv(std::size_t permutation, StageKind kind) const {
+    return words_of(family_, composition_, composition_.permutations[permutation].stages[kind], false);
 }
 
 const evaluate::Program& LitUnderTest::program(int stage) const {

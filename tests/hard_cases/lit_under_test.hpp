@@ -65,6 +65,8 @@ class LitUnderTest {
     [[nodiscard]] const Composition& composition() const { return composition_; }
     [[nodiscard]] const evaluate::Program& vertex(std::size_t permutation) const;
     [[nodiscard]] const evaluate::Program& fragment(std::size_t permutation) const;
+    /// A stage's SPIR-V for OpenGL, as drivers are given it.
+    [[nodiscard]] std::vector<std::uint32_t> spirv(std::size_t permutation, StageKind kind) const;
 
   private:
     [[nodiscard]] const evaluate::Program& program(int stage) const;

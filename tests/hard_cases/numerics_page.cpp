@@ -71,6 +71,31 @@ std::string time_text(const GuardTimes& times, const std::string& name) {
                        time.guarded.high, time.plain.low, time.plain.high);
 }
 
+/// "navi21 +6 of 420, ampere 0 of 900": what the guard adds to the cycles of its stage without it.
+std::string cycles_text(const GuardTimes& times, const std::string& name) {
+    const auto found = times.find(name);
+    if (found == times.end() || found->second.cycles.empty()) return "not costed";
+    std::vector<std::string> parts;
+    bool costs = false;
+    for (const GuardCycles& cycles : found->second.cycles) {
+        const auto added = static_cast<std::int64_t>(cycles.guarded - cycles.plain);
+        costs = costs || added != 0;
+        parts.push_back(fmt::format("{} {} of {}", cycles.gpu, added == 0 ? "0" : fmt::format("{:+}", added),
+                                    cycles.plain));
+    }
+    return costs ? join(parts, ", ") : "none";
+}
+
+/// The versions of the drivers that cycles are from.
+std::string drivers_of(const GuardTimes& times) {
+    std::vector<std::string> drivers;
+    for (const auto& [name, time] : times)
+        for (const GuardCycles& cycles : time.cycles)
+            if (std::find(drivers.begin(), drivers.end(), cycles.driver) == drivers.end())
+                drivers.push_back(cycles.driver);
+    return drivers.empty() ? "no driver" : join(drivers, " and ");
+}
+
 /// "| tiny vector, huge vector | ordinary lengths".
 std::string case_cells(const Case& tested) {
     return fmt::format("| {} | {}", fmt::join(tested.about, ", "), join(split(tested.name, '_'), " "));
@@ -93,9 +118,10 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     const bool is_of_depth = tested->about.front().starts_with("depth");
     const std::string trap = without.traps.empty() ? "" : ": " + trap_text(without.traps.front());
     const Outcomes seen = outcomes(without, with, is_of_depth);
-    return fmt::format("{} | {} | {}{} | {} | {} | {} | {} |\n", case_cells(*tested), code(guard.guarded),
-                       seen.plain, trap, seen.ours, cell(tested->check.tolerance),
-                       added_text(operations_of(guard)), time_text(times, guard.name));
+    return fmt::format("{} | {} | {}{} | {} | {} | {} | {} | {} |\n", case_cells(*tested),
+                       code(guard.guarded), seen.plain, trap, seen.ours, cell(tested->check.tolerance),
+                       added_text(operations_of(guard)), time_text(times, guard.name),
+                       cycles_text(times, guard.name));
 }
 
 std::string guard_rows(const GuardTimes& times) {
@@ -226,7 +252,8 @@ std::string numerics_page(const GuardTimes& times) {
                                          {"traps", trap_rows()},
                                          {"wrong", wrong_rows()},
                                          {"normals", normal_rows()},
-                                         {"renderer", renderer_of(times)}});
+                                         {"renderer", renderer_of(times)},
+                                         {"drivers", drivers_of(times)}});
     EXPECT_TRUE(text);
     return text ? *text : std::string();
 }

@@ -1,5 +1,5 @@
 // Writes docs/data/guard_prices.csv and docs/numerics.md. Times are measured anew with --time, and for guards
-// that have none; the others are kept.
+// that have none; the others are kept. Cycles are costed anew where GOBO_MESA names a folder with drivers.
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -25,6 +25,14 @@ int run(bool measures_all) {
     }
     for (const Guard& guard : lit_guards())
         if (!times.contains(guard.name)) times[guard.name] = measure(guard, *context);
+    if (const char* folder = std::getenv("GOBO_MESA")) {
+        const auto cycles = measure_cycles(folder, GOBO_LAB);
+        if (!cycles) {
+            std::fputs(to_text(cycles.error().front()).c_str(), stderr);
+            return 3;
+        }
+        for (const auto& [name, of_guard] : *cycles) times[name].cycles = of_guard;
+    }
     // The page shows what the table says, rounded as it is there.
     const std::string csv = to_csv(times);
     const bool is_written = disk.write(csv_path, csv) &&
