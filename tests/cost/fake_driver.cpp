@@ -1,5 +1,6 @@
 // A Vulkan driver that compiles nothing: it does what the fragment stage is named after. Tests load it in
 // place of Mesa's.
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
