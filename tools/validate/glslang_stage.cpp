@@ -17,6 +17,7 @@
 #include "validate/declaration.hpp"
 #include "validate/glslang_log.hpp"
 #include "validate/language_rules.hpp"
+#include "validate/missing_built_ins.hpp"
 #include "validate/missing_ends.hpp"
 #include "validate/old_versions.hpp"
 #include "validate/plain_messages.hpp"
@@ -135,9 +136,16 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     // Its tables are kept for the next composition.
     [[maybe_unused]] static const bool is_initialized = glslang::InitializeProcess();
     shader_ = std::make_unique<Shader>(language_of(kind_));
-    shader_->prologue = prologue;
+    const MissingBuiltIns built_ins =
+        for_spirv ? missing_built_ins(kind_, prologue, pieces_) : MissingBuiltIns{};
+    shader_->prologue = prologue + built_ins.declarations;
     for (const Piece* piece : pieces_) {
-        const std::string& text = piece == pieces_.front() ? shader_->prologue : piece->text;
+        const bool is_prologue = piece == pieces_.front();
+        const std::string& text =
+            is_prologue ? shader_->prologue
+            : built_ins.renamed.empty()
+                ? piece->text
+                : shader_->renamed.emplace_back(substituted(piece->text, built_ins.renamed));
         shader_->texts.push_back(text.data());
         shader_->lengths.push_back(static_cast<int>(text.size()));
         shader_->names.push_back(piece->path.c_str());
@@ -158,8 +166,10 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     const Place place{pieces_.back()->path, 0, 0};
     Diagnostics found = with_macros(
         with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
-    for (Diagnostic& diagnostic : found)
+    for (Diagnostic& diagnostic : found) {
         make_strict(diagnostic, prologue, (further_messages_ & EShMsgRelaxedErrors) != 0);
+        name_built_ins(diagnostic);
+    }
     if (is_fine || has_errors(found)) return found;
     found = diagnostics_of_log(shader.getInfoLog(), pieces_, place, true);
     if (has_errors(found)) return found;
@@ -272,6 +282,8 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     Result<Interface> interface = reflect_stage(module, usage);
     if (!interface) return placed(std::move(interface).error(), pieces_);
     stage.interface = *std::move(interface);
+    std::erase_if(stage.interface.uniforms,
+                  [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
     stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices);
     const bool asks_for_bindings = bindings_mapped_ || may_lack_bindings(stage.interface);
     if (asks_for_bindings || may_hold_bools(stage.interface)) {

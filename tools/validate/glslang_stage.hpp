@@ -1,6 +1,7 @@
 // One stage in glslang's hands: parsed once, linked with its partners, then turned into SPIR-V.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
@@ -39,6 +40,7 @@ class GlslangStage {
         explicit Shader(EShLanguage language) : shader(language) {}
 
         std::string prologue;
+        std::deque<std::string> renamed;  ///< texts in which built-ins have other names
         std::vector<const char*> texts;
         std::vector<int> lengths;
         std::vector<const char*> names;

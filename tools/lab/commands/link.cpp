@@ -20,6 +20,7 @@ struct LinkOptions : SelectionOptions {
 struct Verdict {
     std::string refused_by_gobo;  ///< the first error; empty where it is taken
     std::string refused_by_driver;
+    bool is_too_new = false;  ///< the driver lacks the version of GLSL
 };
 
 std::string first_error(const Diagnostics& diagnostics) {
@@ -50,6 +51,8 @@ class Judge {
         known->second.refused_by_gobo = first_error(validate(family_, one_, options_).diagnostics);
         if (const auto program = link_program(context_, stages_of(one_, permutation)); !program)
             known->second.refused_by_driver = first_error(program.error());
+        known->second.is_too_new =
+            known->second.refused_by_driver.find("is not supported. Supported versions") != std::string::npos;
         return known->second;
     }
 
@@ -79,7 +82,13 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
         const std::string key =
             subject.are_files ? "the files" : key_text(subject.family.family, permutation.key);
         const bool is_taken = verdict.refused_by_gobo.empty();
-        if (is_taken == verdict.refused_by_driver.empty()) {
+        if (verdict.is_too_new) {
+            diagnostics.push_back(
+                {.severity = Severity::warning,
+                 .message = "not compared: the driver lacks this version of GLSL",
+                 .help = "ask another driver by --backend, or write it for another --dialect",
+                 .subject = key});
+        } else if (is_taken == verdict.refused_by_driver.empty()) {
             ++(is_taken ? both : neither);
         } else if (is_taken) {
             ++laxer;

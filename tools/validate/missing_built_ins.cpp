@@ -1,0 +1,72 @@
+#include "validate/missing_built_ins.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace gobo {
+namespace {
+
+constexpr std::string_view kOwnPrefix = "gobo_built_in_";
+
+struct BuiltIn {
+    std::string_view name;
+    std::string_view type;
+    bool of_draws;  ///< of GL_ARB_shader_draw_parameters, which glslang has from 4.40 on
+};
+
+constexpr std::array kBuiltIns = {
+    BuiltIn{"gl_DepthRange", "DepthRange", false}, BuiltIn{"gl_NumSamples", "int", false},
+    BuiltIn{"gl_DrawIDARB", "int", true},          BuiltIn{"gl_BaseVertexARB", "int", true},
+    BuiltIn{"gl_BaseInstanceARB", "int", true},
+};
+
+bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue) {
+    const GlslVersion version = version_of(prologue);
+    if (built_in.of_draws)
+        return stage == StageKind::vertex && !version.es && version.number < 440 &&
+               prologue.find("GL_ARB_shader_draw_parameters ") != std::string::npos;
+    if (built_in.name == "gl_NumSamples")
+        return stage == StageKind::fragment && version.number >= (version.es ? 320 : 400);
+    return true;
+}
+
+std::string own_name(std::string_view name) {
+    return fmt::format("{}{}", kOwnPrefix, name.substr(3));
+}
+
+}  // namespace
+
+MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
+                                  const std::vector<const Piece*>& pieces) {
+    MissingBuiltIns found;
+    for (const BuiltIn& built_in : kBuiltIns) {
+        const bool is_mentioned = std::ranges::any_of(
+            pieces, [&](const Piece* piece) { return piece->text.find(built_in.name) != std::string::npos; });
+        if (!is_mentioned || !has(built_in, stage, prologue)) continue;
+        const std::string name = own_name(built_in.name);
+        if (built_in.type == "DepthRange") {
+            found.renamed.emplace_back("gl_DepthRangeParameters", name + "Parameters");
+            found.declarations += fmt::format(
+                "struct {0}Parameters {{ highp float near, far, diff; }}; uniform {0}Parameters {0};\n",
+                name);
+        } else {
+            found.declarations += fmt::format("uniform highp {} {};\n", built_in.type, name);
+        }
+        found.renamed.emplace_back(built_in.name, name);
+    }
+    return found;
+}
+
+bool is_missing_built_in(std::string_view uniform) {
+    return uniform.starts_with(kOwnPrefix);
+}
+
+void name_built_ins(Diagnostic& diagnostic) {
+    for (auto at = diagnostic.message.find(kOwnPrefix); at != std::string::npos;
+         at = diagnostic.message.find(kOwnPrefix, at))
+        diagnostic.message.replace(at, kOwnPrefix.size(), "gl_");
+}
+
+}  // namespace gobo
