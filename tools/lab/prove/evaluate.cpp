@@ -86,6 +86,11 @@ Range with_error(Range result, std::uint32_t code, const Range& x, const Range& 
             below = std::max(below, largest_error(a, b, result.low));
             above = std::max(above, largest_error(a, b, result.high));
         }
+    // An exponential never falls, nor does it with its error: each end has the error of its own operand.
+    if (known.kind == evaluate::Kind::exp) {
+        below = largest_error(x.low, 0, result.low);
+        above = largest_error(x.high, 0, result.high);
+    }
     // Functions that are not negative stay so; angles need not.
     const bool is_positive =
         result.low >= 0 && known.kind != evaluate::Kind::log && known.kind != evaluate::Kind::trig;
@@ -311,6 +316,10 @@ void Ranges::evaluate_sum(const Expression& expression, const std::uint32_t* ope
         } else if (is_before(first, second, is_strict)) {
             real.high = std::min(real.high, 0.0);
             real.zero = real.zero && !is_strict;
+            real = tidy(real);
+        }
+        if (const auto rounding = rounding_of_sum(operands[0], operands[1])) {
+            real = both(real, *rounding);
             real = tidy(real);
         }
         // x - floor(x)
@@ -552,6 +561,11 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
                 result.high = std::max(limit, 0.0);
                 result = tidy(result);
             }
+            if (divides_by_length(operands, 1, operands[1])) {
+                result.low = std::max(result.low, -1 - kDirectionSlack);
+                result.high = std::min(result.high, 1 + kDirectionSlack);
+                result = tidy(result);
+            }
             if (is_at_most(operands[0], operands[1])) {
                 constexpr double kMost = 1 + 0x1p-20;
                 const bool is_exact = error(exactly(1)) == exactly(1);
@@ -733,7 +747,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             nan = of_squares.low <= 0 && of_squares.holds_zero();
             // What has lost no digits is at most 1.
             if (of_squares.least > 1e-30 && !is_infinite(of_squares))
-                result = within(-1 - kUnitSlack, 1 + kUnitSlack);
+                result = within(-1 - kDirectionSlack, 1 + kDirectionSlack);
             break;
         }
         case extended(GLSLstd450Cross): {

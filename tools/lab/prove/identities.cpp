@@ -48,6 +48,70 @@ bool Ranges::is_largest_of(std::uint32_t scale, const std::uint32_t* vector, std
     return false;
 }
 
+// With total = fl(s + y): fl(total - s) is y and fl(fl(total - s) - y) is 0, but for roundings (Kahan's
+// compensated sum).
+std::optional<Range> Ranges::rounding_of_sum(std::uint32_t x, std::uint32_t y) const {
+    const auto is_precise_sum = [&](std::uint32_t expression) {
+        const Expression& sum = expressions_.all[expression];
+        return sum.code == spv::OpFAdd && sum.is_precise;
+    };
+    const auto slack = [&](std::uint32_t sum) {
+        const std::uint32_t* terms = expressions_.operands_of(sum);
+        return 8 * kRounding * (known_[terms[0]].range.size() + known_[terms[1]].range.size()) +
+               4 * kSmallestNormal;
+    };
+    x = expressions_.origin(x);
+    y = expressions_.origin(y);
+    for (std::uint32_t side = 0; side < 2; ++side) {
+        if (is_precise_sum(x) && expressions_.origin(expressions_.operand(x, side)) == y) {
+            const Range& rest = known_[expressions_.operand(x, 1 - side)].range;
+            const double most = slack(x);
+            if (!rest.nan && !rest.has_no_number() && most < kLargestFloat) return widened_by(rest, most);
+        }
+        const Expression& difference = expressions_.all[x];
+        if (difference.code != spv::OpFSub || !difference.is_precise) continue;
+        const std::uint32_t total = expressions_.origin(expressions_.operand(x, 0));
+        if (!is_precise_sum(total)) continue;
+        const bool is_this = expressions_.origin(expressions_.operand(total, side)) ==
+                                 expressions_.origin(expressions_.operand(x, 1)) &&
+                             expressions_.origin(expressions_.operand(total, 1 - side)) == y;
+        const double most = slack(total);
+        if (is_this && most < kLargestFloat) return between(-most, most);
+    }
+    return std::nullopt;
+}
+
+bool Ranges::divides_by_length(const std::uint32_t* vector, std::uint32_t count,
+                               std::uint32_t divisor) const {
+    if (expressions_.has_relaxed) return false;
+    const Range& length = known_[divisor].range;
+    if (length.nan || length.smallest() < 1e-15 || length.high > 1e18) return false;
+    divisor = expressions_.origin(divisor);
+    const Expression* expression = &expressions_.all[divisor];
+    std::uint32_t terms = expression->count;
+    if (expression->code == extended(GLSLstd450Sqrt)) {
+        divisor = expressions_.origin(expressions_.operand(divisor, 0));
+        expression = &expressions_.all[divisor];
+        if (expression->code != kSumOfProducts) return false;
+        terms = expression->count / 2;
+        for (std::uint32_t i = 0; i < terms; ++i)
+            if (expressions_.origin(expressions_.operand(divisor, i)) !=
+                expressions_.origin(expressions_.operand(divisor, terms + i)))
+                return false;
+    } else if (expression->code != extended(GLSLstd450Length)) {
+        return false;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        bool is_among = false;
+        for (std::uint32_t k = 0; k < terms; ++k)
+            is_among = is_among ||
+                       ((count == 1 || k == i) && expressions_.origin(expressions_.operand(divisor, k)) ==
+                                                      expressions_.origin(vector[i]));
+        if (!is_among) return false;
+    }
+    return true;
+}
+
 std::optional<std::array<std::uint32_t, 3>> Ranges::vector_of_square(std::uint32_t square) const {
     square = expressions_.origin(square);
     if (expressions_.has_relaxed) return std::nullopt;

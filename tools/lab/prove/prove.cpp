@@ -52,6 +52,7 @@ Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains,
     // What no input shows that the sanitizer draws.
     StageProof without_tiny(proven.program, proven.space);
     if (!without_tiny.run(splits, false)) return proven;
+    proven.outputs = without_tiny.outputs();
     for (std::size_t i = 0; i < proven.rules.size(); ++i) {
         if (!is_open(proven.rules[i])) continue;
         const RuleAtOperation& other = without_tiny.rules()[i];
@@ -155,12 +156,22 @@ void add_outputs(std::map<std::pair<StageKind, std::string>, OutputRange>& all, 
     for (std::size_t i = 0; i < proven.outputs.size(); ++i) {
         if (proven.outputs[i].empty()) continue;  // never written
         const evaluate::Port& port = proven.program.outputs[i];
-        const std::string name = verify::without_subscripts(port.name);
-        OutputRange& output =
-            all.try_emplace({stage, name}, OutputRange{stage, name, kNothing}).first->second;
-        for (const Range& range : proven.outputs[i]) output.range = hull(output.range, range);
-        if (const Domain* domain = verify::domain_of(family.domains, port.name)) {
+        const Domain* domain = verify::domain_of(family.domains, port.name);
+        const bool has_last = domain != nullptr && !domain->last.empty();
+        const std::size_t ranged = port.components - (has_last ? 1 : 0);
+        for (std::size_t c = 0; c < proven.outputs[i].size(); ++c) {
+            std::string name = verify::without_subscripts(port.name);
+            if (c >= ranged) name += fmt::format(".{}", "xyzw"[c % 4]);  // a quantity of its own
+            OutputRange& output =
+                all.try_emplace({stage, name}, OutputRange{stage, name, kNothing}).first->second;
+            output.range = hull(output.range, proven.outputs[i][c]);
+            if (domain == nullptr) continue;
             output.is_stated = true;
+            if (c >= ranged) {
+                output.stated_low = domain->last.at(0);
+                output.stated_high = domain->last.at(1);
+                continue;
+            }
             output.is_of_length = domain->of_length;
             output.stated_low = domain->of_length ? -domain->high : domain->low;
             output.stated_high = domain->high;

@@ -464,6 +464,13 @@ double Ranges::length_limit(const std::uint32_t* vector, std::uint32_t count, in
                 limit = limit_of(1) * known_[operands[0]].range.size() * kStep;
             }
             break;
+        case spv::OpFDiv:
+            if (!shares(1)) break;
+            for (std::uint32_t i = 0; i < count; ++i) parts[i] = expressions_.operand(origins[i], 0);
+            if (divides_by_length(parts.data(), count, operands[1]))
+                return std::min(by_components, 1 + kDirectionSlack);
+            limit = limit_of(0) / std::max(known_[operands[1]].range.smallest(), kSmallestFloat) * kStep;
+            break;
         case kJoined: {
             const std::vector<std::uint32_t>& from = expressions_.lists[first.field];
             for (std::uint32_t i = 1; i < count; ++i)
@@ -474,7 +481,7 @@ double Ranges::length_limit(const std::uint32_t* vector, std::uint32_t count, in
             break;
         }
         case extended(GLSLstd450Normalize):
-            if (count == first.count) limit = 1 + kUnitSlack;
+            if (count == first.count && known_[origins[0]].range.size() < 2) limit = 1 + kDirectionSlack;
             break;
         case extended(GLSLstd450Cross):
             limit = length_limit(operands, 3, depth + 1) * length_limit(operands + 3, 3, depth + 1) *
@@ -563,6 +570,14 @@ bool Ranges::is_at_most(std::uint32_t a, std::uint32_t b, int depth) const {
              is_before(expressions_.origin(operands[1]), expressions_.origin(others[1]), is_strict)))
             return true;
     }
+    // a <= a + c where c is not negative, however sums are regrouped, if c is none.
+    if (larger.code == spv::OpFAdd && range.low >= 0)
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            const Known& other = known_[operands[1 - i]];
+            if (expressions_.origin(operands[i]) == a && other.range.low >= 0 && !other.range.nan &&
+                !other.has_terms)
+                return true;
+        }
     if (larger.code == extended(GLSLstd450FMax))
         return is_at_most(a, operands[0], depth + 1) || is_at_most(a, operands[1], depth + 1);
     return false;

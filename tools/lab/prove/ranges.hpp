@@ -54,8 +54,11 @@ struct Known {
     bool makes_nan = false;             ///< of finite operands
 };
 
-/// By how much a vector that a shader makes unit may be longer than 1, on any variant of arithmetic.
-inline constexpr double kUnitSlack = 9e-7;
+/// By how much v * inversesqrt(dot(v, v)) may be longer than 1, on any variant of arithmetic: 1.5 roundings
+/// of the sum's root, 2 and the 4 allowed of inversesqrt(), 1 of the product.
+inline constexpr double kUnitSlack = 6e-7;
+/// And normalize(v): 3 roundings, and the 14 allowed.
+inline constexpr double kDirectionSlack = 1.2e-6;
 
 /// A part of the values: of an expression, as soon as it is computed.
 struct Cut {
@@ -125,6 +128,12 @@ class Ranges {
     /// Whether the scale, being above `least`, is the largest |component| of the vector.
     [[nodiscard]] bool is_largest_of(std::uint32_t scale, const std::uint32_t* vector, std::uint32_t count,
                                      double least) const;
+    /// What x - y may be where x is (s + y') of `precise` sums less s: y' but for roundings, or, where y is
+    /// y', those alone.
+    [[nodiscard]] std::optional<Range> rounding_of_sum(std::uint32_t x, std::uint32_t y) const;
+    /// Whether the divisor is the length of a vector that has these components, and has lost no digits.
+    [[nodiscard]] bool divides_by_length(const std::uint32_t* vector, std::uint32_t count,
+                                         std::uint32_t divisor) const;
     /// At least |n.h / |h|| of such a product of `sum` with `inverse_length`; infinite where it is none.
     [[nodiscard]] double cosine_limit(std::uint32_t sum, std::uint32_t inverse_length) const;
     /// The vector whose square the number is at least, its three components, known to be of some length;

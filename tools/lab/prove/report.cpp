@@ -17,7 +17,7 @@ std::string_view word(Status status) {
 }
 
 std::string number(double value) {
-    return fmt::format("{:.6g}", value);
+    return fmt::format("{:.8g}", value);
 }
 
 std::string range_text(const Range& range) {
@@ -117,7 +117,9 @@ std::string proof_json(const ProveReport& report) {
         return Json{{"low", end(range.low)}, {"high", end(range.high)}, {"nan", range.nan}};
     };
     Json json;
+    json["permutations"] = report.permutations;
     json["stages"] = report.stages;
+    json["points"] = report.points;
     json["operations"] = Json::array();
     for (const SourceOperation& operation : report.operations) {
         Json rules = Json::array();
