@@ -279,8 +279,10 @@ Result<TimedGroup> time_group(const Subject& subject, const Context& context, co
                               Journal& journal, const StudyPlan& plan, const std::vector<Key>& keys) {
     GOBO_TRY(const Variants variants, load_variants(subject, keys));
     GOBO_TRY(const DrawnScene scene, draw_scene(subject.shipped, subject.family, plan.scenes.front()));
-    std::string text = fmt::format("times 1 {} {} {} {}", options.computer, context.renderer(),
-                                   options.rounds, scene.identity);
+    // GPUs are timed by clocks of their own since the second version.
+    std::string text =
+        fmt::format("times {} {} {} {} {}", draws_in_calling_thread(context.renderer()) ? 1 : 2,
+                    options.computer, context.renderer(), options.rounds, scene.identity);
     for (const Key& key : keys) text += fmt::format(" {:x}", variants.at(key).hash);
     const std::string identity = identity_of_text(text);
     if (auto known = journal.find<TimedGroup>(identity); known && known->timings.size() == keys.size())

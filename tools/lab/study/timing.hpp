@@ -20,9 +20,9 @@ struct Slopes {
 /// Whether the renderer draws in the calling thread once make_timings_repeatable() was called.
 [[nodiscard]] bool draws_in_calling_thread(const std::string& renderer);
 
-/// Something by two clocks. `elapsed` is a monotonic clock's around glFinish(); `processor` the calling
-/// thread's processor time, which other programs do not add to. It says nothing where the
-/// renderer works elsewhere than in that thread.
+/// Something by two clocks. `elapsed` is a monotonic clock's around glFinish(), or of a GPU the one that
+/// choose_clock() trusts; `processor` the calling thread's processor time, which other programs do not add
+/// to. It says nothing where the renderer works elsewhere than in that thread.
 template <class T>
 struct ByClock {
     T elapsed{};
@@ -38,7 +38,7 @@ struct ByClock {
 /// One permutation's times.
 struct Timing : ByClock<Slopes> {
     int rounds = 0;
-    std::string renderer;
+    std::string renderer;  ///< with the clock, where one was chosen
 
     [[nodiscard]] const Slopes& ranked() const { return ByClock::ranked(renderer); }
 };
@@ -72,7 +72,7 @@ double count_fragments(const Context& context, const DrawList& list);
 /// Times the keys in rounds, each in another order, with a second copy of the first key as the control. Where
 /// that fails, something else ran: all is timed anew, up to twice.
 /// `scene` is drawn at 160 x 120 and 480 x 360 for the fragments, spheres of two tessellations at 16 x 12 for
-/// the vertices.
+/// the vertices. Where no clock can be trusted the control is 1.
 [[nodiscard]] Result<TimedGroup> time_variants(const Context& context, const Family& family,
                                                const Variants& variants, const std::vector<Key>& keys,
                                                const DrawnScene& scene, int rounds);
