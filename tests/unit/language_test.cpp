@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
+#include "family/read_family.hpp"
 #include "lab/render/program.hpp"
 #include "small_families.hpp"
 #include "validate/validate.hpp"
@@ -178,6 +179,139 @@ const Row taken[] = {
 constexpr auto name_of_row = [](const auto& info) { return std::string(info.param.name); };
 INSTANTIATE_TEST_SUITE_P(Refused, Language, testing::ValuesIn(refused), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Taken, Language, testing::ValuesIn(taken), name_of_row);
+
+struct StagesRow {
+    const char* name;
+    const char* version;
+    std::vector<std::pair<StageKind, const char*>> stages;  ///< beside the usual pair, or a compute stage
+    const char* message;  ///< of the error, in part; empty where both take it
+};
+
+void PrintTo(const StagesRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class LanguageOfStages : public testing::TestWithParam<StagesRow> {};
+
+TEST_P(LanguageOfStages, IsTakenAsMesaTakesIt) {
+    const StagesRow& row = GetParam();
+    const std::string head = fmt::format("#version {}\n{}", row.version,
+                                         std::string_view(row.version).ends_with("es")
+                                             ? "precision highp float; precision highp image2D;\n"
+                                             : "");
+    PerStage<std::string> texts;
+    if (row.stages.front().first != StageKind::compute) {
+        texts[StageKind::vertex] = "void main() { gl_Position = vec4(0.0); }\n";
+        texts[StageKind::fragment] = "out vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+    }
+    for (const auto& [kind, text] : row.stages) texts[kind] = text;
+    std::string toml = "name = \"tiny\"\n";
+    std::map<std::string, std::string, std::less<>> files;
+    for (const StageNames& stage : kStages) {
+        if (texts[stage.kind].empty()) continue;
+        toml += fmt::format("{0} = \"tiny.{1}\"\n", stage.name, stage.infix);
+        files[fmt::format("tiny.{}", stage.infix)] = head + texts[stage.kind];
+    }
+    const MemoryFileSystem disk(files);
+    SearchPath search;
+    search.add(disk, "", "", false);
+    const Family family = read_family(toml, "tiny.toml", {}).value();
+    const Composition composition = compose(family, {{}}, search, Dialect::own).value();
+    std::string errors;
+    for (const Diagnostic& diagnostic : validate(family, composition, {}).diagnostics)
+        if (diagnostic.severity == Severity::error) errors += to_text(diagnostic);
+    EXPECT_EQ(errors.empty(), *row.message == '\0') << errors;
+    EXPECT_THAT(errors, testing::HasSubstr(row.message));
+
+    const Result<Context> context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context);
+    const Result<Program> program =
+        link_program(*context, stages_of(composition, composition.permutations.front()));
+    EXPECT_EQ(program.has_value(), *row.message == '\0')
+        << (program ? "it links" : first_text(program.error()));
+}
+
+#define TRIANGLES "layout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\n"
+constexpr const char* kControl =
+    "layout(vertices = 3) out;\nvoid main() { gl_TessLevelOuter[0] = gl_TessLevelInner[0] = 1.0; }\n";
+constexpr const char* kEvaluation =
+    "layout(triangles) in;\nvoid main() { gl_Position = vec4(gl_TessCoord, 1.0); }\n";
+
+const StagesRow stages[] = {
+    {"invocations",
+     "430",
+     {{StageKind::geometry,
+       "layout(triangles, invocations = 33) in;\nlayout(triangle_strip, max_vertices = 3) out;\n"
+       "void main() { gl_Position = vec4(0.0); EmitVertex(); }\n"}},
+     "tiny.geom:2: error: invocations of the geometry stage: 33, OpenGL guarantees only 32"},
+    {"stream_of_triangles",
+     "430",
+     {{StageKind::geometry, TRIANGLES "void main() { gl_Position = vec4(0.0); EmitStreamVertex(1); }\n"}},
+     "tiny.geom:4: error: stream 1 takes points alone"},
+    {"stream_of_points",
+     "430",
+     {{StageKind::geometry,
+       "layout(points) in;\nlayout(points, max_vertices = 3) out;\n"
+       "void main() { gl_Position = vec4(0.0); EmitStreamVertex(1); }\n"}},
+     ""},
+    {"patch_vertices",
+     "430",
+     {{StageKind::tess_control, "layout(vertices = 33) out;\nvoid main() { gl_TessLevelOuter[0] = 1.0; }\n"},
+      {StageKind::tess_evaluation, kEvaluation}},
+     "tiny.tesc:2: error: vertices of a patch: 33, OpenGL guarantees only 32"},
+    {"tessellation",
+     "430",
+     {{StageKind::tess_control, kControl}, {StageKind::tess_evaluation, kEvaluation}},
+     ""},
+    {"evaluation_alone", "430", {{StageKind::tess_evaluation, kEvaluation}}, ""},
+    {"evaluation_alone_in_es",
+     "320 es",
+     {{StageKind::tess_evaluation, kEvaluation}},
+     "a program of OpenGL ES with a tess_evaluation stage needs a tess_control stage"},
+    {"group_too_large",
+     "430",
+     {{StageKind::compute, "layout(local_size_x = 64, local_size_y = 32) in;\nvoid main() {}\n"}},
+     "tiny.comp:2: error: invocations of a work group: 2048, OpenGL guarantees only 1024"},
+    {"storage_binding",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(std430, binding = 500) buffer B { float b; };\n"
+       "void main() { b = 1.0; }\n"}},
+     "storage buffer bindings up to that of 'B': 501"},
+    {"image_without_format_in_es",
+     "310 es",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(binding = 0) uniform writeonly image2D map;\n"
+       "void main() { imageStore(map, ivec2(0), vec4(1.0)); }\n"}},
+     "tiny.comp:4: error: the image 'map' states no format"},
+    {"image_with_format_in_es",
+     "310 es",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(rgba8, binding = 0) uniform writeonly image2D map;\n"
+       "void main() { imageStore(map, ivec2(0), vec4(1.0)); }\n"}},
+     ""},
+    {"components_of_two_types",
+     "450",
+     {{StageKind::vertex,
+       "layout(location = 0) out vec3 a;\nlayout(location = 0, component = 3) flat out int b;\n"
+       "void main() { a = vec3(1.0); b = 1; gl_Position = vec4(0.0); }\n"},
+      {StageKind::fragment,
+       "layout(location = 0) in vec3 a;\nlayout(location = 0, component = 3) flat in int b;\n"
+       "out vec4 c;\nvoid main() { c = vec4(a, b); }\n"}},
+     "'vec3 a' and 'int b' share location 0 and have not one numerical type"},
+    {"clip_and_cull_distances",
+     "450",
+     {{StageKind::vertex,
+       "out float gl_ClipDistance[6];\nout float gl_CullDistance[6];\n"
+       "void main() { gl_ClipDistance[5] = gl_CullDistance[5] = 1.0; gl_Position = vec4(0.0); }\n"}},
+     "clip and cull distances: 12, OpenGL guarantees only 8"},
+    {"second_source_at_1",
+     "430",
+     {{StageKind::fragment, "layout(location = 1, index = 1) out vec4 b;\nvoid main() { b = vec4(1.0); }\n"}},
+     "an output of index 1 stands at location 0 alone"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Rows, LanguageOfStages, testing::ValuesIn(stages), name_of_row);
 
 }  // namespace
 }  // namespace gobo

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <deque>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -203,6 +205,15 @@ class LanguageCheck {
         bool counts_atomically = false;  // there `offset` is as old as the counter
         for (std::size_t i = end; i < tokens_.size() && !is_any(at(i), {";", "{"}); ++i)
             counts_atomically = counts_atomically || at(i) == "atomic_uint";
+        const auto value = [&](std::string_view qualifier) {
+            for (std::size_t i = begin; i + 2 < end; ++i)
+                if (at(i) == qualifier && at(i + 1) == "=") return at(i + 2);
+            return std::string_view();
+        };
+        if (value("index") == "1" && !is_any(value("location"), {"", "0"}))
+            refuse(tokens_[begin],
+                   "an output of index 1 stands at location 0 alone (MAX_DUAL_SOURCE_DRAW_BUFFERS)",
+                   "blend by two sources in the first output");
         for (std::size_t i = begin; i < end; ++i) {
             const bool is_qualifier = i == begin || at(i - 1) == ",";
             const NameSince* since = is_qualifier ? layout_since(at(i)) : nullptr;
@@ -235,6 +246,8 @@ class LanguageCheck {
             if (depth == 1 && token == "{") check_block(begin, i);
             if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth == 0 && token == ";") check_counter(begin, i);
+            if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
+            if (depth == 0 && token == "[") check_distances(i);
             if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
         }
     }
@@ -275,6 +288,42 @@ class LanguageCheck {
                    "state #version 150, or take it out and name its members alone");
     }
 
+    /// In OpenGL ES each image states its format (GLSL ES 3.10, 4.4.7).
+    void check_image(std::size_t begin, std::size_t end) {
+        bool is_uniform = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::string_view token = at(i);
+            const bool is_format =
+                token.size() > 1 && token[0] == 'r' && token.find_first_of("0123456789") < 5;
+            if (is_format || is_macro(i)) return;
+            is_uniform = is_uniform || token == "uniform";
+            const bool is_image =
+                token.starts_with("image") || token.starts_with("iimage") || token.starts_with("uimage");
+            if (is_uniform && is_image && is_name(i + 1))
+                return refuse(tokens_[i], fmt::format("the image '{}' states no format", at(i + 1)),
+                              "write it, as in layout(rgba8)");
+        }
+    }
+
+    /// `float gl_ClipDistance[6]` beside `float gl_CullDistance[6]`: together they have a limit.
+    void check_distances(std::size_t bracket) {
+        if (bracket < 2 || at(bracket - 2) != "float" || at(bracket + 2) != "]" ||
+            !is_any(at(bracket - 1), {"gl_ClipDistance", "gl_CullDistance"}))
+            return;
+        int size = 0;
+        std::from_chars(at(bracket + 1).data(), at(bracket + 1).data() + at(bracket + 1).size(), size);
+        distances_[at(bracket - 1)] = std::min(size, 100);
+        int all = 0;
+        for (const auto& [name, count] : distances_) all += count;
+        constexpr int kGuaranteed = 8;
+        if (all > kGuaranteed)
+            refuse(tokens_[bracket],
+                   fmt::format("clip and cull distances: {}, OpenGL guarantees only {} "
+                               "(MAX_COMBINED_CLIP_AND_CULL_DISTANCES)",
+                               all, kGuaranteed),
+                   "declare fewer");
+    }
+
     /// `uniform atomic_uint NAME;` from one token to another.
     void check_counter(std::size_t begin, std::size_t end) {
         bool is_uniform = false;
@@ -294,6 +343,7 @@ class LanguageCheck {
     Conditions conditions_;
     std::deque<std::string> without_comments_;  ///< texts that tokens point into
     std::vector<Token> tokens_;
+    std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string> told_;
     Diagnostics found_;
 };

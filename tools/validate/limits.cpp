@@ -127,6 +127,14 @@ class LimitCheck {
                     fmt::format("uniform buffer bindings up to that of '{}':", block.name),
                     "MAX_UNIFORM_BUFFER_BINDINGS");
         }
+        // AMD's and NVIDIA's drivers offer more bindings of storage blocks than are guaranteed, none more
+        // than 96.
+        for (const Block& block : interface.storage_blocks) {
+            const std::int64_t binding = std::int64_t{block.binding} + 1;
+            at_most(binding > 96 ? 96 : 8, binding, stage, block.name,
+                    fmt::format("storage buffer bindings up to that of '{}':", block.name),
+                    "MAX_SHADER_STORAGE_BUFFER_BINDINGS", binding > 96 ? Severity::error : Severity::warning);
+        }
         int components = 0;
         std::string largest;
         int most = 0;

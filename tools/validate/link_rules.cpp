@@ -76,6 +76,17 @@ class LinkCheck {
         if (version_.es && stages_.size() == 1 && stages_.front().kind == StageKind::vertex)
             add({{stages_.front().pieces.back()->path, 0, 0}, ""}, Severity::error,
                 "a program of OpenGL ES needs a fragment stage", "add one whose main() is empty");
+        const auto has = [&](StageKind kind) {
+            return std::ranges::any_of(stages_, [&](const StageView& stage) { return stage.kind == kind; });
+        };
+        if (version_.es && has(StageKind::tess_evaluation) && !has(StageKind::tess_control))
+            add({{stages_.back().pieces.back()->path, 0, 0}, ""}, Severity::error,
+                "a program of OpenGL ES with a tess_evaluation stage needs a tess_control stage",
+                "add one that sets the levels");
+        for (const StageView& stage : stages_) {
+            if (stage.kind != StageKind::fragment) check_components(stage, stage.interface.outputs);
+            if (stage.kind != StageKind::vertex) check_components(stage, stage.interface.inputs);
+        }
         for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
             earlier_ = stages_.begin();
             if (later_ != earlier_) check_versions();
@@ -95,6 +106,23 @@ class LinkCheck {
   private:
     void add(const Declaration& at, Severity severity, std::string message, std::string help) {
         found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
+    }
+
+    /// What shares a location by its components has one numerical type (GLSL 4.60, 4.4.1).
+    void check_components(const StageView& stage, const std::vector<Variable>& list) {
+        for (const Variable& one : list)
+            for (const Variable& other : list) {
+                if (&one >= &other || one.location < 0 || one.location != other.location ||
+                    one.component == other.component)
+                    continue;
+                const auto type = glsl_type(one.type);
+                const auto other_type = glsl_type(other.type);
+                if (type && other_type && type->scalar != other_type->scalar)
+                    add(declaration_of(other.name, other.type, stage.pieces), Severity::error,
+                        fmt::format("'{} {}' and '{} {}' share location {} and have not one numerical type",
+                                    one.type, one.name, other.type, other.name, one.location),
+                        "give each a location of its own");
+            }
     }
 
     /// A program is of OpenGL or of OpenGL ES, and there of one version (GLSL ES 3.00, 3.3).

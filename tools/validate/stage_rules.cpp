@@ -31,6 +31,8 @@ class StageCheck {
         if (places_vertices) check_position();
         if (kind_ == StageKind::compute) check_local_size();
         if (kind_ == StageKind::geometry) check_vertices();
+        if (kind_ == StageKind::geometry) check_streams();
+        check_sizes();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -107,14 +109,54 @@ class StageCheck {
                           "write layout(local_size_x = 64) in; with the number of invocations in a group"));
     }
 
+    /// A number that an execution mode gives; 0 where the stage has not that mode.
+    [[nodiscard]] std::int64_t mode_value(spv::ExecutionMode mode, std::size_t word = 3) const {
+        for (const spirv::Instruction& instruction : module_.instructions)
+            if (instruction.opcode == spv::OpExecutionMode && instruction.as<spv::ExecutionMode>(2) == mode)
+                return instruction.word(word);
+        return 0;
+    }
+
+    void at_most(std::int64_t limit, std::int64_t size, std::string_view word, std::string_view what,
+                 std::string_view constant) {
+        if (size > limit)
+            refuse(use_of(word, pieces_),
+                   fmt::format("{}: {}, OpenGL guarantees only {} ({})", what, size, limit, constant),
+                   "state fewer");
+    }
+
+    void check_sizes() {
+        if (kind_ == StageKind::geometry)
+            at_most(32, mode_value(spv::ExecutionModeInvocations), "invocations",
+                    "invocations of the geometry stage", "MAX_GEOMETRY_SHADER_INVOCATIONS");
+        if (kind_ == StageKind::tess_control)
+            at_most(32, mode_value(spv::ExecutionModeOutputVertices), "vertices", "vertices of a patch",
+                    "MAX_PATCH_VERTICES");
+        if (kind_ != StageKind::compute) return;
+        std::int64_t size = 1;
+        for (const std::size_t word : {3, 4, 5}) size *= mode_value(spv::ExecutionModeLocalSize, word);
+        at_most(1024, size, "local_size_x", "invocations of a work group",
+                "MAX_COMPUTE_WORK_GROUP_INVOCATIONS");
+    }
+
+    /// Further streams take points alone (GLSL 4.60, 8.15).
+    void check_streams() {
+        if (has_mode(spv::ExecutionModeOutputPoints)) return;
+        for (const spirv::Instruction& instruction : module_.instructions) {
+            if (instruction.opcode != spv::OpEmitStreamVertex) continue;
+            const auto stream = module_.integers.find(instruction.id(1));
+            if (stream != module_.integers.end() && stream->second != 0)
+                return refuse(
+                    use_of("EmitStreamVertex", pieces_),
+                    fmt::format("stream {} takes points alone, and this stage emits others", stream->second),
+                    "state layout(points) out, or emit into stream 0");
+        }
+    }
+
     /// MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS: those of all vertices together.
     void check_vertices() {
         constexpr std::int64_t kGuaranteed = 1024;
-        std::int64_t vertices = 0;
-        for (const spirv::Instruction& instruction : module_.instructions)
-            if (instruction.opcode == spv::OpExecutionMode &&
-                instruction.as<spv::ExecutionMode>(2) == spv::ExecutionModeOutputVertices)
-                vertices = instruction.as<std::uint32_t>(3);
+        const std::int64_t vertices = mode_value(spv::ExecutionModeOutputVertices);
         const Part position = spirv::built_in_output(module_, spv::BuiltInPosition);
         std::int64_t components = position.first != Id::none && usage_.written.contains(position) ? 4 : 0;
         for (const Variable& output : interface_.outputs)
