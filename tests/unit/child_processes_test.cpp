@@ -109,6 +109,27 @@ TEST(ChildProcesses, LeaveOutWhatIsGivenUp) {
     EXPECT_LE(deaths, 1);
 }
 
+/// One that only waits takes no processor time; what tells of progress is left alone.
+TEST(ChildProcesses, EndWhereTheyAreLate) {
+    std::vector<Death> deaths;
+    const ChildWork work{[](std::size_t task, Note& note) {
+                             for (int i = 0; task == 0 && i < 4; ++i) {
+                                 usleep(500'000);
+                                 note = i + 1;
+                             }
+                             while (task == 1) pause();
+                             return std::string();
+                         },
+                         [](std::size_t task, std::string_view) { return task == 0; },
+                         [&](std::size_t task, int, Death death) {
+                             EXPECT_EQ(task, 1U);
+                             deaths.push_back(death);
+                             return false;
+                         }};
+    EXPECT_THAT(run_in_children(2, 2, work, {.wall_seconds = 1}), IsEmpty());
+    EXPECT_THAT(deaths, testing::ElementsAre(Death::time));
+}
+
 TEST(ChildProcesses, MayWriteNoFile) {
     const std::string path = testing::TempDir() + "written_by_a_child";
     bool has_died = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -27,6 +28,9 @@ namespace {
 
 constexpr std::size_t kNoTask = ~std::size_t{0};
 constexpr int kOutOfMemory = 77;
+constexpr int kLookEvery = 200;  // milliseconds, whether a child is late
+
+using Clock = std::chrono::steady_clock;
 
 /// Memory that all the processes share.
 struct Shared {
@@ -60,9 +64,9 @@ std::size_t held_memory() {
 }
 
 void set_limits(const ChildLimits& limits) {
-    limit(RLIMIT_AS, held_memory() + limits.memory);
+    if (limits.memory > 0) limit(RLIMIT_AS, held_memory() + limits.memory);
     limit(RLIMIT_STACK, limits.stack);
-    limit(RLIMIT_FSIZE, 0);
+    if (!limits.writes_files) limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_CORE, 0);
     // Where the parent ignores or handles them, the child dies all the same.
     for (const int number : {SIGXCPU, SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
@@ -107,9 +111,12 @@ class Pool {
         while (!children_.empty()) {
             std::vector<pollfd> files;
             for (const Child& child : children_) files.push_back({child.file, POLLIN, 0});
-            if (poll(files.data(), files.size(), -1) < 0) continue;  // a signal came
+            const int wait = limits_.wall_seconds > 0 ? kLookEvery : -1;
+            if (poll(files.data(), files.size(), wait) < 0) continue;  // a signal came
             for (std::size_t i = files.size(); i-- > 0;)
                 if (files[i].revents != 0) read_from(i);
+            if (limits_.wall_seconds > 0)
+                for (Child& child : children_) end_if_late(child);
         }
         std::vector<std::size_t> left;
         for (std::size_t task = 0; task < count_; ++task)
@@ -123,7 +130,25 @@ class Pool {
         int file;           ///< the end of its pipe to read from
         std::size_t place;  ///< in Shared::children
         std::string received = {};
+        std::size_t task = kNoTask;  ///< as last seen, and since when
+        int note = 0;
+        Clock::time_point since = Clock::now();
+        bool is_late = false;
     };
+
+    /// Kills a child that has been at one thing for too long; its pipe closes then.
+    void end_if_late(Child& child) const {
+        const Shared::Child& own = shared_->children[child.place];
+        if (child.task != own.task || child.note != own.note) {
+            child.task = own.task;
+            child.note = own.note;
+            child.since = Clock::now();
+        } else if (!child.is_late && child.task != kNoTask &&
+                   Clock::now() - child.since > std::chrono::seconds(limits_.wall_seconds)) {
+            child.is_late = true;
+            kill(child.process, SIGKILL);
+        }
+    }
 
     /// Starts a child, which begins with a task of its own where `first` is one. Where the system refuses
     /// it, the others do all.
@@ -150,7 +175,7 @@ class Pool {
              task = shared_->next++) {
             self.note = 0;
             self.task = task;
-            limit_time(limits_.processor_seconds);
+            if (limits_.processor_seconds > 0) limit_time(limits_.processor_seconds);
             const std::string bytes = work_.work(task, self.note);
             const Head head{task, bytes.size()};
             write_all(file, {reinterpret_cast<const char*>(&head), sizeof head});
@@ -208,14 +233,15 @@ class Pool {
     /// A child is at its end, or has died.
     void ended(std::size_t index) {
         const std::size_t place = children_[index].place;
+        const bool is_late = children_[index].is_late;
         const int status = reap(index);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
         const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         const bool is_full = WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory;
-        const Death death = signal == SIGXCPU   ? Death::time
-                            : signal == SIGKILL ? Death::killed
-                            : is_full           ? Death::memory
-                                                : Death::crash;
+        const Death death = is_late || signal == SIGXCPU ? Death::time
+                            : signal == SIGKILL          ? Death::killed
+                            : is_full                    ? Death::memory
+                                                         : Death::crash;
         Shared::Child& last = shared_->children[place];
         std::size_t task = last.task.exchange(kNoTask);
         if (task >= count_) return;  // it died of itself: so would the next

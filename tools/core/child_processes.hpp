@@ -10,11 +10,13 @@
 
 namespace gobo {
 
-/// What a child process may take; it may write no file.
+/// What a child process may take. 0 in the first two: as much as it wants.
 struct ChildLimits {
     int processor_seconds = 10;                 ///< for one task
     std::size_t memory = std::size_t{2} << 30;  ///< bytes beside what its parent holds
     std::size_t stack = std::size_t{64} << 20;  ///< bytes, where the system allows so many
+    int wall_seconds = 0;       ///< until its task ends or its note changes; 0: as long as it wants
+    bool writes_files = false;  ///< whether it may
 };
 
 enum class Death {

@@ -7,6 +7,7 @@
 
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/gallery/gallery.hpp"
 #include "lab/render/texture.hpp"
@@ -187,7 +188,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     return {};
 }
 
-Result<Outcome> run(const RenderOptions& options, const World& world) {
+Result<Outcome> render(const RenderOptions& options, const World& world) {
     GOBO_TRY(const PictureOptions pictures, picture_options(options));
     GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
@@ -207,6 +208,15 @@ Result<Outcome> run(const RenderOptions& options, const World& world) {
                    fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
                                pictures.view.width / pictures.smooth, pictures.view.height / pictures.smooth,
                                context.renderer())};
+}
+
+/// In a process that a driver may end.
+Result<Outcome> run(const RenderOptions& options, const World& world) {
+    return run_guarded("the renderer of --backend " + options.backend, [&](const Progress& progress) {
+        ToldFiles files(world.disk, progress);
+        World told{files, world.shipped, world.options, world.measure, world.cache, world.tell};
+        return render(options, told);
+    });
 }
 
 }  // namespace

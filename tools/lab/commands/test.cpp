@@ -10,6 +10,7 @@
 
 #include "compose/dialect.hpp"
 #include "family/key.hpp"
+#include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
 #include "lab/verify/cross_check.hpp"
@@ -289,7 +290,14 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(const Composition composition, compose_keys(family, keys));
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
-    if (options.render) return compare_pictures(world, options, family.family, composition, validated);
+    if (options.render)
+        // A key takes less than a second; nothing is told between them.
+        return run_guarded(
+            "the renderer of --backend " + options.backend,
+            [&](const Progress&) {
+                return compare_pictures(world, options, family.family, composition, validated);
+            },
+            kDriverSeconds + 20 * static_cast<int>(composition.permutations.size()));
     verify_options.jobs = world.jobs();
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
     verify_options.meshes = verify::test_meshes(std::move(teapot));
