@@ -10,6 +10,7 @@
 #include "family/key.hpp"
 #include "lab/prove/check.hpp"
 #include "lab/prove/stage_proof.hpp"
+#include "lab/sanitize/guide.hpp"
 #include "lab/sanitize/hard_points.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/sanitize/shrink.hpp"
@@ -39,7 +40,7 @@ Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains,
         return proven;
     }
     proven.program = std::move(*program);
-    proven.space = sanitize::input_space_of(proven.program, domains);
+    proven.space = sanitize::input_space_of(proven.program, domains, true);
     StageProof proof(proven.program, proven.space);
     if (const auto ran = proof.run(splits, true); !ran) proven.diagnostics = ran.error();
     proven.rules = proof.rules();
@@ -126,13 +127,20 @@ void find_examples(const Family& family, const Composition& composition, const V
     const StageKind kind = composition.stages[stage].kind;
     sanitize::OutputBounds bounds(family, key, kind, proven.program, proven.space,
                                   sanitize::depth_promise_of(validated.stages[stage].spirv));
+    sanitize::Guide guide(proven.program, proven.space, options.seed);
     for (std::size_t done = 0; done < options.points; done += kPortion) {
-        const std::vector<PartLeft>& left = rules[done / kPortion % rules.size()]->left;
-        const auto points = points_in(proven.space, left, kPortion, options.seed + done / kPortion);
+        const std::size_t portion = done / kPortion;
+        const std::vector<PartLeft>& left = rules[portion % rules.size()]->left;
+        // First hard ones, then every other time what the guide makes of those that came near.
+        const auto points = portion >= 4 && portion % 2 == 1
+                                ? guide.next(kPortion)
+                                : points_in(proven.space, left, kPortion, options.seed + portion);
         const auto invocations = sanitize::invocations_of(proven.space, points);
-        for (const sanitize::Machine machine : sanitize::kMachines) {
-            const auto found = sanitize::find_traps(proven.program, invocations, machine);
+        const sanitize::Machine other = sanitize::kMachines[1 + portion % (sanitize::kMachines.size() - 1)];
+        for (const sanitize::Machine machine : {sanitize::Machine::ieee, other}) {
+            const auto found = sanitize::find_traps(proven.program, invocations, machine, {}, &guide);
             if (!found) return;
+            guide.learn(points);
             for (const sanitize::Finding& finding : *found)
                 for (std::size_t i = 0; i < rules.size(); ++i) {
                     ProvenRule& rule = *rules[i];
@@ -247,7 +255,7 @@ ProveReport prove(const Family& family, const Composition& composition, const Va
         for (ProvenRule& rule : operation.rules) {
             if (rule.status == Status::impossible) continue;
             const std::vector<std::size_t> permutations = sanitize::permutations_of(composition, rule.stage);
-            if (!permutations.empty())
+            if (!permutations.empty() && !family.features.empty())
                 rule.key = key_text(family, composition.permutations[permutations.front()].key);
         }
         report.operations.push_back(std::move(operation));

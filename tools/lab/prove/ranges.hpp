@@ -102,6 +102,8 @@ class Ranges {
     [[nodiscard]] Range sum_of_products(const std::uint32_t* left, const std::uint32_t* right,
                                         std::uint32_t terms) const;
 
+    [[nodiscard]] const sanitize::InputSpace& space() const { return space_; }
+
     /// To be called when an expression has been added to the list.
     void grow();
 

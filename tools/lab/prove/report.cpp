@@ -50,6 +50,13 @@ struct Count {
     }
 };
 
+/// An infinity or NaN of an operation that has a closer reason, which is not excluded either.
+bool follows(const SourceOperation& operation, const ProvenRule& rule) {
+    return rule.is_of_results && std::ranges::any_of(operation.rules, [](const ProvenRule& other) {
+               return !other.is_of_results && other.status != Status::impossible;
+           });
+}
+
 constexpr std::string_view kColumns = "{:<66} {:>10} {:>10} {:>9} {:>8} {:>8}\n";
 
 std::string count_line(const std::string& name, const Count& count) {
@@ -86,7 +93,7 @@ std::string proof_text(const ProveReport& report) {
     bool is_first = true;
     for (const SourceOperation& operation : report.operations)
         for (const ProvenRule& rule : operation.rules) {
-            if (rule.status != Status::undecided) continue;
+            if (rule.status != Status::undecided || follows(operation, rule)) continue;
             if (is_first) text += "\nundecided\n";
             is_first = false;
             text += fmt::format("{}:{}: {}: {}: {}\n", operation.place.file, operation.place.line,

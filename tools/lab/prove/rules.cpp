@@ -6,6 +6,7 @@
 #include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
+#include "lab/evaluate/image_call.hpp"
 #include "lab/sanitize/rules.hpp"
 
 namespace gobo::prove {
@@ -205,6 +206,108 @@ bool index_is_within(View& view) {
     return true;
 }
 
+// Texture functions and derivatives: what tools/lab/sanitize/image_rules.cpp watches.
+
+evaluate::ImageCall call_of(const View& view) {
+    return evaluate::image_call_of(view.program, view.program.operations[view.site.operation]);
+}
+
+/// What a texture's size or number of levels is stated to be at least; nothing where it is not stated.
+std::optional<double> stated_extent(const View& view, std::size_t channel) {
+    const std::uint32_t image = view.expressions.origin(view.operand(0, 0));
+    if (view.expressions.all[image].code != kConstant) return 0;  // one of several
+    const auto index = static_cast<std::size_t>(view.expressions.known[image].low);
+    const std::string& name = view.program.images.at(index).name;
+    for (const sanitize::InputField& field : view.ranges.space().fields)
+        if (field.is_texture && field.name == name && channel < field.channels.size())
+            return field.channels[channel].high > 0 ? std::optional(field.channels[channel].low)
+                                                    : std::nullopt;
+    return std::nullopt;
+}
+
+/// All pixels of a quad come here or none does: no condition depends on what is a pixel's own.
+bool comes_in_quads(View& view) {
+    std::vector<std::uint32_t> waiting;
+    std::vector<bool> is_seen(view.expressions.all.size(), false);
+    const auto visit = [&](std::uint32_t expression) {
+        if (!is_seen[expression]) waiting.push_back(expression);
+        is_seen[expression] = true;
+    };
+    const auto visit_context = [&](std::uint32_t context) {
+        for (; context != 0; context = view.expressions.contexts[context].parent)
+            visit(view.expressions.contexts[context].condition);
+    };
+    visit_context(view.site.context);
+    while (!waiting.empty()) {
+        const std::uint32_t expression = waiting.back();
+        waiting.pop_back();
+        const Expression& one = view.expressions.all[expression];
+        if (one.code == kUnknown || one.code == kTexel) return false;
+        if (one.code == kInput) {
+            const std::string& name = view.ranges.space().fields[one.field].name;
+            if (find_port(view.program.inputs, name) != nullptr) return false;
+        }
+        for (std::uint32_t i = 0; i < one.count; ++i) visit(view.expressions.operand(expression, i));
+        if (one.code == kJoined)
+            for (const std::uint32_t context : view.expressions.lists[one.field]) visit_context(context);
+    }
+    return true;
+}
+
+bool projects_forwards(View& view) {
+    const evaluate::ImageCall call = call_of(view);
+    const std::uint32_t divisor = view.operand(1, call.divisor - call.coordinates);
+    return view.ranges.range(divisor).low > 0 || view.ranges.excludes({{divisor, below(0)}});
+}
+
+bool direction_is_not_zero(View& view) {
+    std::vector<Cut> all;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) all.push_back({view.operand(1, axis), exactly(0)});
+    return view.ranges.excludes(all);
+}
+
+bool fetches_inside(View& view) {
+    const evaluate::ImageCall call = call_of(view);
+    const std::optional<double> side = stated_extent(view, 4);
+    for (std::uint32_t axis = 0; axis < call.dimensions; ++axis) {
+        const Range& at = view.range(1, axis);
+        if (call.offset != 0 || at.low < 0 || (side && at.high >= *side)) return false;
+    }
+    return !side || (call.lod != 0 && view.range(2, 0).high <= 0);
+}
+
+bool has_level(View& view) {
+    const evaluate::ImageCall call = call_of(view);
+    const Range& level = view.range(call.coordinates == 0 ? 1 : 2, 0);
+    const std::optional<double> levels = stated_extent(view, 5);
+    return level.low >= 0 && !stated_extent(view, 4) && (!levels || level.high < *levels);
+}
+
+void add_image_rules(const evaluate::Program& program, const evaluate::Operation& operation,
+                     std::vector<Rule>& rules) {
+    using What = evaluate::ImageRequest::What;
+    constexpr std::string_view kParted = "derivatives where neighbouring pixels go another way";
+    const evaluate::Row& row = evaluate::row_of(operation);
+    if (row.kind == Kind::derivative && row.name.starts_with("Interpolate") == false)
+        rules.push_back({kParted, comes_in_quads, ~0U});
+    if (row.kind != Kind::image) return;
+    const evaluate::ImageCall call = evaluate::image_call_of(program, operation);
+    if (call.is_implicit != 0 && call.reference == 0) rules.push_back({kParted, comes_in_quads, ~0U});
+    if (call.divisor != 0)
+        rules.push_back(
+            {"a projected texture coordinate whose divisor is not above 0", projects_forwards, 2});
+    const bool may_be_cube = std::ranges::any_of(program.images, [](const evaluate::ImagePort& image) {
+        return image.type.dimension == spv::DimCube;
+    });
+    if (may_be_cube && call.coordinates != 0 && call.dimensions == 3 && call.has_int_coordinates == 0)
+        rules.push_back({"a cube map is looked up along a zero vector", direction_is_not_zero, 2});
+    if (static_cast<What>(call.what) == What::fetch)
+        rules.push_back({"texelFetch() outside of the texture", fetches_inside, 2});
+    if (call.has_int_level != 0 && call.lod != 0)
+        rules.push_back(
+            {"a level that the texture does not have", has_level, call.coordinates == 0 ? 2U : 4U});
+}
+
 #define GOBO_STD450(name) evaluate::kExtended + GLSLstd450##name
 
 /// By code and by the beginning of the sanitizer's message, since an operation may have several.
@@ -296,6 +399,7 @@ std::vector<std::vector<Rule>> rules_of(const evaluate::Program& program) {
                                row.code == spv::OpAccessChain            ? ~0U
                                : row.code == spv::OpVectorExtractDynamic ? 2U
                                                                          : 4U});
+        add_image_rules(program, program.operations[at], all[at]);
         if (row.kind <= Kind::matrix && program.infos[at].result.scalar == Scalar::float32) {
             all[at].push_back({kMakesInfinity, makes_no_infinity, ~0U, true});
             all[at].push_back({kMakesNaN, makes_no_nan, ~0U, true});

@@ -9,6 +9,7 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/functions.hpp"
+#include "lab/evaluate/image_call.hpp"
 #include "lab/prove/ranges.hpp"
 
 namespace gobo::prove {
@@ -543,7 +544,7 @@ class Unroller {
             default:
                 break;
         }
-        if (row.kind == evaluate::Kind::image) return texels(operation, info, row);
+        if (row.kind == evaluate::Kind::image) return texels(operation, info, row, state);
         // Component by component; an operand of one component goes with all.
         const std::uint32_t count = std::max(info.result.count, 1U);
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -562,18 +563,46 @@ class Unroller {
         return results;
     }
 
-    std::vector<Id> texels(const Operation& operation, const OperationInfo& info, const evaluate::Row& row) {
-        Range known = between(0, 1);
-        if (row.code == spv::OpImageQuerySizeLod || row.code == spv::OpImageQuerySize)
-            known = whole_between(1, 16384);
-        else if (row.code == spv::OpImageQueryLevels)
-            known = whole_between(1, 15);
-        else if (row.code == spv::OpImageQueryLod)
-            known = between(-1000, 1000);
+    std::vector<Id> texels(const Operation& operation, const OperationInfo& info, const evaluate::Row& row,
+                           const State& state) {
+        const evaluate::ImageCall call = evaluate::image_call_of(program_, operation);
         std::vector<Id> results;
-        for (std::uint32_t i = 0; i < operation.count; ++i)
+        for (std::uint32_t i = 0; i < operation.count; ++i) {
+            Range known = texel(call, state, i);
+            if (row.code == spv::OpImageQuerySizeLod || row.code == spv::OpImageQuerySize)
+                known = whole_between(1, 16384);
+            else if (row.code == spv::OpImageQueryLevels)
+                known = whole_between(1, 15);
+            else if (row.code == spv::OpImageQueryLod)
+                known = between(-1000, 1000);
             results.push_back(add({.code = kTexel, .part = i, .scalar = info.result.scalar}, {}, known));
+        }
         return results;
+    }
+
+    /// What a texture may answer: what its domain says of the channel, or 0, as beyond a border.
+    Range texel(const evaluate::ImageCall& call, const State& state, std::uint32_t component) {
+        if (call.reference != 0) return between(0, 1);
+        const Id image = expressions_.origin(state.slots[call.image - 1]);
+        Range all = kNothing;
+        for (std::size_t index = 0; index < program_.images.size(); ++index) {
+            if (expressions_.all[image].code == kConstant &&
+                expressions_.known[image].low != static_cast<double>(index))
+                continue;
+            const auto field =
+                std::ranges::find(space_.fields, program_.images[index].name, &sanitize::InputField::name);
+            if (field == space_.fields.end()) return call.has_int_result != 0 ? kAnyInt : kAnything;
+            for (std::size_t channel = 0; channel < std::min<std::size_t>(4, field->channels.size());
+                 ++channel) {
+                if (call.component == 0 && channel != component) continue;  // else which one a gather is told
+                const Domain& domain = field->channels[channel];
+                all = hull(all, call.has_int_result != 0
+                                    ? whole_between(std::round(domain.low), std::round(domain.high))
+                                    : between(nearest_float(domain.low), nearest_float(domain.high)));
+                for (const double also : domain.also) all = hull(all, exactly(nearest_float(also)));
+            }
+        }
+        return hull(all, exactly(0));
     }
 
     static std::vector<std::uint32_t> counting(std::size_t count, std::uint32_t step) {
