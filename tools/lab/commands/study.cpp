@@ -7,6 +7,7 @@
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "family/read_family.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/study_cycles.hpp"
@@ -14,6 +15,7 @@
 #include "lab/study/qualities.hpp"
 #include "lab/study/report.hpp"
 #include "lab/study/rows.hpp"
+#include "lab/study/worst_case.hpp"
 
 namespace gobo {
 namespace {
@@ -35,6 +37,8 @@ struct StudyCommandOptions {
     std::string fronts;  ///< a page of all fronts of a finished study
     std::string svg;
     std::string study_file;
+    std::size_t worst = 0;  ///< points of each quality to search
+    std::string domain;     ///< a file of domains to search within
     std::string draw;       ///< a key to draw once: what callgrind watches
     std::string draw_size;  ///< "160x120"
 };
@@ -135,6 +139,69 @@ Result<Outcome> weigh(const StudyCommandOptions& options, const World& world) {
     return Outcome{text, {}, path};
 }
 
+/// The effects that are asked for, by default the plan's.
+Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, const Family& family,
+                                           const study::StudyPlan& plan) {
+    const std::vector<std::string>& texts = options.study.effects.empty()
+                                                ? (options.study.quick ? plan.quick : plan.effects)
+                                                : options.study.effects;
+    std::vector<Key> effects;
+    for (const std::string& text : texts) {
+        GOBO_TRY(const Key key, parse_key(family, text));
+        effects.push_back(effects_of(family, key));
+    }
+    return effects;
+}
+
+/// The error on the study's scenes, or nothing where it has none of that key.
+std::optional<double> error_on_scenes(const std::vector<study::StudyRow>& rows, const std::string& key) {
+    const auto row = std::ranges::find(rows, key, &study::StudyRow::key);
+    return row == rows.end() ? std::nullopt : std::optional(row->total.max);
+}
+
+Result<Outcome> search_worst(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
+    const Family& family = loaded.family;
+    GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
+    GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
+    study::WorstCaseOptions search{options.worst, 1, {}};
+    if (!options.domain.empty()) {
+        GOBO_TRY(const std::string text, read_input(world, options.domain));
+        GOBO_TRY(search.domains, read_domain_file(text, options.domain));
+    }
+    std::vector<int> rate;
+    for (std::size_t i = 0; i < family.features.size(); ++i)
+        if (std::ranges::find(plan.rate, family.features[i].name) != plan.rate.end())
+            rate.push_back(static_cast<int>(i));
+    const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
+    GOBO_TRY(const auto cases, study::find_worst_cases(subject, effects, rate, search));
+    const auto shipped =
+        read_or_shipped(world, options.study_file, fmt::format("data/study/{}.csv", family.name));
+    std::string text =
+        fmt::format("{:<40} {:<32} {:>9} {:>9} {:>9}\n", "effects", "quality", "scenes", "worst", "accurate");
+    Diagnostics diagnostics;
+    std::size_t number = 0;
+    for (const study::WorstCase& worst : cases) {
+        std::optional<double> typical;
+        if (shipped)
+            if (const auto rows = study::read_rows(shipped->text, shipped->path, family, worst.effects))
+                typical = error_on_scenes(*rows, key_text(family, worst.key));
+        text +=
+            fmt::format("{:<40} {:<32} {:>9} {:>9.2g} {:>9.2g}\n", key_text(family, worst.effects),
+                        study::quality_text(family, worst.key),
+                        typical ? fmt::format("{:.2g}", *typical) : "-", worst.error, worst.accurate_error);
+        if (options.folder.empty()) continue;
+        const std::string key = key_text(family, worst.key);
+        const std::string path = fmt::format("{}/{}.toml", options.folder, ++number);
+        const std::string follow =
+            fmt::format("gobo eval {} '{}' --inputs {}", shell_word(options.family), key, shell_word(path));
+        append(diagnostics,
+               keep_file(world, path,
+                         evaluate::eval_file("fragment", worst.input, {follow}, evaluate::Digits::of_float)));
+    }
+    return Outcome{text, std::move(diagnostics)};
+}
+
 /// This program again, drawing a key once.
 study::DrawCommand draw_command(const StudyCommandOptions& options, const World& world) {
     std::error_code error;
@@ -217,6 +284,7 @@ std::string study_summary(const Family& family, const study::Study& study, const
 
 Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     if (!options.front.empty()) return show_front(options, world);
+    if (options.worst > 0) return search_worst(options, world);
     if (!options.fronts.empty()) return show_fronts(options, world);
     if (options.folder.empty())
         return fail(Fault::usage, "--output is required",
@@ -295,6 +363,13 @@ Command study_command() {
           "With --front and --fronts: a study.csv or summary.csv; by default the one that came with the "
           "family",
           &options->study_file},
+         {"--worst", "N",
+          "Instead, search N points of the domain for the worst error of each quality's values, beside that "
+          "on "
+          "the study's scenes; with -o its input, for gobo eval",
+          &options->worst, between(1, 1e12)},
+         {"--domain", "FILE", "With --worst: a file whose [domain] is narrower than the family's",
+          &options->domain},
          {"--effects", "KEY", "A combination of effects; by default those of the plan",
           &options->study.effects},
          {"--quick", "", "Few effects, no times: a usable front in under a minute", &options->study.quick},
@@ -325,7 +400,8 @@ Command study_command() {
         "  gobo study lit -o study --quick\n"
         "  gobo study lit -o study --no-time --effects 'point=2 specular=blinn' --effects 'fog=linear'\n"
         "  gobo study lit -o study --weights\n"
-        "  gobo study lit --front 'directional=1 specular=blinn'",
+        "  gobo study lit --front 'directional=1 specular=blinn'\n"
+        "  gobo study lit --worst 100000 --effects 'spot=1' -o worst",
         [options](const World& world) { return run(*options, world); },
         "What is measured is kept in DIR/measurements.jsonl: a study that was interrupted goes on from "
         "there."};

@@ -155,17 +155,16 @@ class Search {
         if (field.is_direction)
             number += size * random_.between(-1, 1);
         else
-            number *= random_.one_in(8) ? std::exp2(random_.between(-3, 3)) : 1 + size * random_.between(-1, 1);
+            number *=
+                random_.one_in(8) ? std::exp2(random_.between(-3, 3)) : 1 + size * random_.between(-1, 1);
         field.field.set(sample, numbers);
     }
 
     Result<void> judge(const std::vector<Sample>& samples) {
         GOBO_TRY(const auto invocations, verify::bind_inputs(choice_.program.fragment, samples));
-        GOBO_TRY(const auto accurate_invocations,
-                 verify::bind_inputs(accurate_.program.fragment, samples));
+        GOBO_TRY(const auto accurate_invocations, verify::bind_inputs(accurate_.program.fragment, samples));
         GOBO_TRY(const auto outputs, evaluate::run<float>(choice_.program.fragment, invocations));
-        GOBO_TRY(const auto accurate,
-                 evaluate::run<float>(accurate_.program.fragment, accurate_invocations));
+        GOBO_TRY(const auto accurate, evaluate::run<float>(accurate_.program.fragment, accurate_invocations));
         for (std::size_t i = 0; i < samples.size(); ++i) {
             ++worst_.points;
             oracle::Decisions decisions;

@@ -28,12 +28,13 @@ struct WorstCaseOptions {
     std::vector<Domain> domains;  ///< narrower ones, ahead of the family's
 };
 
-/// For each combination of effects and each single choice of a quality feature that is computed in the fragment
-/// stage (`rate` names the features that say where light is computed, whose error hangs on the mesh). Inputs
-/// are those of verify::make_samples(), with shininess from 0.1 to 1e6 and cones from 1e-3 radians on, points
-/// beside the cones' edges, within the domains; the search maximises by how much the choice errs more than the
-/// most accurate quality, so that it finds what the choice costs and no ill-conditioned inputs. Points at a
-/// discontinuity are left out. Choices whose model the oracle does not know are left out too.
+/// For each combination of effects and each single choice of a quality feature that is computed in the
+/// fragment stage (`rate` names the features that say where light is computed, whose error hangs on the
+/// mesh). Inputs are those of verify::make_samples(), with shininess from 0.1 to 1e6 and cones from 1e-3
+/// radians on, points beside the cones' edges, within the domains; the search maximises by how much the
+/// choice errs more than the most accurate quality, so that it finds what the choice costs and no
+/// ill-conditioned inputs. Points at a discontinuity are left out. Choices whose model the oracle does not
+/// know are left out too.
 [[nodiscard]] Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject,
                                                               const std::vector<Key>& effects,
                                                               const std::vector<int>& rate,
