@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,11 @@ struct QualityChoice {
     Key key;
     double promised_error = 0;  ///< linear radiance; no scene's is expected to be larger
     double measured_error = 0;  ///< the worst of the study's scenes
-    double cost = 0;            ///< additions a fragment
-    std::string source;         ///< "study", or "measured" for effects that the study does not hold
+    /// The worst over the whole domain of the inputs, as a part of the light that reaches a point; nothing
+    /// where no value of the quality was searched.
+    std::optional<double> worst_error = {};
+    double cost = 0;     ///< additions a fragment
+    std::string source;  ///< "study", or "measured" for effects that the study does not hold
 };
 
 /// What a generated header and its manifest are made from.
@@ -51,9 +55,9 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 /// value is the default), "interface" (as `gobo reflect --json`, with the bindings and locations of the
 /// header), "pieces" (names), "stages" (each distinct one: its kind and the numbers of its pieces in order)
 /// and "permutations" (key text, and the stages by their number; where a budget chose it, "promised_error",
-/// "measured_error", "cost" and "chosen_by"), sorted by key text. Where permutations declare names
-/// differently, "differing" lists these, and "declared" of a permutation which declaration it has of each.
-/// One stage or permutation a line. The same input gives the same bytes.
+/// "measured_error", "worst_error" where it is known, "cost" and "chosen_by"), sorted by key text. Where
+/// permutations declare names differently, "differing" lists these, and "declared" of a permutation which
+/// declaration it has of each. One stage or permutation a line. The same input gives the same bytes.
 [[nodiscard]] std::string emit_manifest(const EmitInput& input);
 
 /// A rule in the syntax of make (and so of Ninja and CMake): the outputs depend on the files, each named

@@ -66,8 +66,10 @@ std::string choice_text(const std::vector<QualityChoice>& qualities, const Key& 
     for (const QualityChoice& choice : qualities)
         if (choice.key == key)
             return fmt::format(
-                ",\"promised_error\":{:.6g},\"measured_error\":{:.6g},\"cost\":{:.6g},\"chosen_by\":{}",
-                choice.promised_error, choice.measured_error, choice.cost, text_of(choice.source));
+                ",\"promised_error\":{:.6g},\"measured_error\":{:.6g}{},\"cost\":{:.6g},\"chosen_by\":{}",
+                choice.promised_error, choice.measured_error,
+                choice.worst_error ? fmt::format(",\"worst_error\":{:.6g}", *choice.worst_error) : "",
+                choice.cost, text_of(choice.source));
     return "";
 }
 

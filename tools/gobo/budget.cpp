@@ -1,12 +1,15 @@
 // Budgets on the command line: which quality each combination of effects is built with.
 #include "budget/budget.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "core/csv.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/input.hpp"
@@ -23,10 +26,50 @@ Result<StudiedEffects> load_studied(const World& world, LoadedFamily& family, co
     return read_studied(study.text, study.path, family.family, split(join(options.gpus, ","), ','));
 }
 
+/// The worst error of each quality value over the whole domain, by effects and its text, "power=squaring"; of
+/// all effects together by "".
+using WorstErrors = std::map<std::pair<std::string, std::string>, double>;
+
+/// Those that came with the family; none where there are none.
+WorstErrors load_worst_errors(const World& world, const Family& family) {
+    WorstErrors errors;
+    const auto text = world.shipped.read(fmt::format("data/study/{}_worst.csv", family.name));
+    if (!text) return errors;
+    const CsvTable table = read_csv(*text);
+    const auto effects = table.column("effects");
+    const auto quality = table.column("quality");
+    const auto worst = table.column("worst");
+    if (!effects || !quality || !worst) return errors;
+    for (const auto& row : table.rows)
+        if (const auto number = number_in_cell(row[*worst]))
+            for (const std::string& of : {row[*effects], std::string()}) {
+                double& known = errors[{of, row[*quality]}];
+                known = std::max(known, *number);
+            }
+    return errors;
+}
+
+/// Of a key the worst among its values, with these effects where they were searched; nothing where no value
+/// is known.
+std::optional<double> worst_error_of(const Family& family, const Key& key, const std::string& effects,
+                                     const WorstErrors& errors) {
+    std::optional<double> worst;
+    for (std::size_t i = 0; i < family.features.size(); ++i) {
+        const Feature& feature = family.features[i];
+        if (feature.role != Role::quality) continue;
+        const std::string value =
+            fmt::format("{}={}", feature.name, feature.values[static_cast<std::size_t>(key[i])]);
+        auto found = errors.find({effects, value});
+        if (found == errors.end()) found = errors.find({"", value});
+        if (found != errors.end()) worst = std::max(worst.value_or(0), found->second);
+    }
+    return worst;
+}
+
 /// The key that the budget chooses for one combination of effects.
 Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
-                                 const StudiedEffects& studied, const BudgetOptions& options,
-                                 const Key& effects) {
+                                 const StudiedEffects& studied, const WorstErrors& worst,
+                                 const BudgetOptions& options, const Key& effects) {
     const std::string text = key_text(family.family, effects);
     const auto found = studied.find(effects);
     const bool is_studied = found != studied.end();
@@ -49,8 +92,9 @@ Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
         return !has_cost || forbidding_rule(family.family, key.key, name_of(family.dialect)) != nullptr;
     });
     GOBO_TRY(const StudiedKey chosen, choose(keys, options, text));
-    return QualityChoice{chosen.key, kSafety * chosen.error, chosen.error, chosen.cost,
-                         is_studied ? "study" : "measured"};
+    return QualityChoice{chosen.key,   kSafety * chosen.error,
+                         chosen.error, worst_error_of(family.family, chosen.key, text, worst),
+                         chosen.cost,  is_studied ? "study" : "measured"};
 }
 
 }  // namespace
@@ -87,6 +131,7 @@ Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFa
                                                     const BudgetOptions& options,
                                                     const std::vector<Key>& keys) {
     GOBO_TRY(const auto studied, load_studied(world, family, options));
+    const WorstErrors worst = load_worst_errors(world, family.family);
     std::map<Key, QualityChoice> chosen;
     Diagnostics problems;
     std::vector<QualityChoice> choices;
@@ -94,7 +139,7 @@ Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFa
         const Key effects = effects_of(family.family, key);
         const auto [choice, is_new] = chosen.try_emplace(effects);
         if (is_new) {
-            const auto made = choose_for(world, family, studied, options, effects);
+            const auto made = choose_for(world, family, studied, worst, options, effects);
             if (made)
                 choice->second = *made;
             else

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/file_system.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
@@ -39,6 +40,7 @@ struct StudyCommandOptions {
     std::string study_file;
     std::size_t worst = 0;  ///< points of each quality to search
     std::string domain;     ///< a file of domains to search within
+    std::string promises;   ///< a table of errors that are promised
     std::string draw;       ///< a key to draw once: what callgrind watches
     std::string draw_size;  ///< "160x120"
 };
@@ -153,6 +155,24 @@ Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, c
     return effects;
 }
 
+/// The columns quality and error of a table.
+Result<std::vector<study::Promise>> read_promises(const World& world, const std::string& path) {
+    std::vector<study::Promise> promises;
+    if (path.empty()) return promises;
+    GOBO_TRY(const std::string text, read_input(world, path));
+    const CsvTable table = read_csv(text);
+    const auto quality = table.column("quality");
+    const auto error = table.column("error");
+    if (!quality || !error)
+        return fail({path, 1, 0}, "", "a table of promises has the columns 'quality' and 'error'");
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+        const auto number = number_in_cell(table.rows[row][*error]);
+        if (!number) return fail_at_row(path, row, "'error' is not a number", "write what is promised: 0.01");
+        promises.push_back({table.rows[row][*quality], *number});
+    }
+    return promises;
+}
+
 /// The error on the study's scenes, or nothing where it has none of that key.
 std::optional<double> error_on_scenes(const std::vector<study::StudyRow>& rows, const std::string& key) {
     const auto row = std::ranges::find(rows, key, &study::StudyRow::key);
@@ -165,6 +185,7 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
     GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
     GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
     study::WorstCaseOptions search{options.worst, 1, {}};
+    GOBO_TRY(const auto promises, read_promises(world, options.promises));
     if (!options.domain.empty()) {
         GOBO_TRY(const std::string text, read_input(world, options.domain));
         GOBO_TRY(search.domains, read_domain_file(text, options.domain));
@@ -199,6 +220,14 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
                keep_file(world, path,
                          evaluate::eval_file("fragment", worst.input, {follow}, evaluate::Digits::of_float)));
     }
+    for (const study::Promise& promise : study::broken_promises(family, promises, cases))
+        diagnostics.push_back(
+            {.message = fmt::format("{} is promised to err by at most {:.3g}, and errs by more",
+                                    promise.quality, promise.error),
+             .help = "promise more, or narrow the domain: --domain FILE"});
+    if (!options.folder.empty())
+        append(diagnostics,
+               keep_file(world, options.folder + "/worst.csv", study::worst_case_csv(family, cases)));
     return Outcome{text, std::move(diagnostics)};
 }
 
@@ -368,6 +397,9 @@ Command study_command() {
           "on "
           "the study's scenes; with -o its input, for gobo eval",
           &options->worst, between(1, 1e12)},
+         {"--promises", "FILE",
+          "With --worst: a CSV table of quality and error; those that the search breaks are errors",
+          &options->promises},
          {"--domain", "FILE", "With --worst: a file whose [domain] is narrower than the family's",
           &options->domain},
          {"--effects", "KEY", "A combination of effects; by default those of the plan",

@@ -253,6 +253,17 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
     return cases;
 }
 
+std::vector<Promise> broken_promises(const Family& family, const std::vector<Promise>& promises,
+                                     const std::vector<WorstCase>& cases) {
+    std::vector<Promise> broken;
+    for (const Promise& promise : promises)
+        if (std::ranges::any_of(cases, [&](const WorstCase& worst) {
+                return quality_text(family, worst.key) == promise.quality && worst.error > promise.error;
+            }))
+            broken.push_back(promise);
+    return broken;
+}
+
 std::string worst_case_csv(const Family& family, const std::vector<WorstCase>& cases) {
     std::string text = "effects,quality,worst,most_accurate,points\n";
     for (const WorstCase& worst : cases)

@@ -40,7 +40,17 @@ struct WorstCaseOptions {
                                                               const std::vector<int>& rate,
                                                               const WorstCaseOptions& options);
 
-/// A table: effects, quality, error on the study's scenes (where `typical` has it), the worst, and where.
+/// A promise about a quality: that it errs by no more.
+struct Promise {
+    std::string quality;  ///< "power=squaring"
+    double error = 0;
+};
+
+/// The promises that some case breaks, in order.
+[[nodiscard]] std::vector<Promise> broken_promises(const Family& family, const std::vector<Promise>& promises,
+                                                   const std::vector<WorstCase>& cases);
+
+/// A table: effects, quality, its worst error, the most accurate quality's there, and points tried.
 [[nodiscard]] std::string worst_case_csv(const Family& family, const std::vector<WorstCase>& cases);
 
 }  // namespace gobo::study
