@@ -106,6 +106,25 @@ INSTANTIATE_TEST_SUITE_P(
                   "0.5;\n'''\n",
                   "default", core_vertex, "void main() { color = vec4(shade); }\n", ""},
         FamilyRow{
+            "version_of_the_other_stage", "", "default",
+            "#version 330 core\nin vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n",
+            "out vec4 color;\n#if __VERSION__ != 330\nbroken\n#endif\nvoid main() { color = vec4(1.0); }\n",
+            ""},
+        FamilyRow{"count_of_one_number",
+                  "version = \"330 core\"\n[features.n]\ncount = [3, 3]\nconstant = \"N\"\n", "default",
+                  core_vertex,
+                  "out vec4 color;\nvoid main() { float a[N]; a[2] = 1.0; color = vec4(a[2]); }\n", ""},
+        FamilyRow{"program_called_2d",
+                  "version = \"330 core\"\n[programs.2d]\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n",
+                  "program=2d", core_vertex, "out vec4 color;\nvoid main() { color = vec4(1.0); }\n", ""},
+        FamilyRow{"include_rule_of_one_file",
+                  "version = \"330 core\"\n[includes]\n'#pragma color' = "
+                  "'tiny.vert'\n[features.part]\ndefine = \"PART\"\n",
+                  "default",
+                  "#ifdef ONLY_A_NAME\n#endif\nin vec3 position;\nvoid main() { gl_Position = vec4(position, "
+                  "1.0); }\n",
+                  "#pragma color\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n", "tiny.vert:4"},
+        FamilyRow{
             "mistake_in_the_prologue",
             "version = \"330 core\"\n[prologue]\nfragment = '''\n\nout vec4 color;\nconst float shade = "
             "oops;\n'''\n",

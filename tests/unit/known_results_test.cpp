@@ -143,7 +143,8 @@ TEST_P(Edit, CompilesExactlyTheStagesThatHoldThePiece) {
         const std::size_t at = text.find(GetParam().behind);
         if (at == std::string::npos || path.ends_with(".toml") || path.find("/header/") != std::string::npos)
             continue;
-        if (number++ % 7 != 0) continue;  // each takes a tenth of a second
+        // Each takes a tenth of a second: some, but at least one that a key holds.
+        if (number++ % 7 != 0 && (tried > 0 || !GetParam().compiles)) continue;
         files = whole;
         files[path].insert(at + std::string_view(GetParam().behind).size(), GetParam().edit);
         std::size_t changed = 0;

@@ -28,6 +28,7 @@ bool has(const List& list, const Item& item) {
 Result<void> Placer::follow_templates(Placement& placement) {
     const std::vector<std::string>& paths = family_.templates_of(placement.key)[placement.stage];
     if (paths.empty()) return {};
+    placement.version_beside = version_beside(placement);
     library_.substitute_for(placement.key, placement.stage);
     const auto asked = [&](const std::string& path) {
         return Include{false, path, {family_.path, 0, 0}, ""};
@@ -44,6 +45,19 @@ Result<void> Placer::follow_templates(Placement& placement) {
     placement.behind_prologue = placement.placed.size();
     for (const std::string& path : paths) GOBO_TRY_DO(follow(placement, asked(path), nullptr));
     return family_.compatibility ? place_legacy(placement) : Result<void>();
+}
+
+std::string Placer::version_beside(const Placement& placement) {
+    if (composition_.dialect != Dialect::own || !family_.version.empty()) return {};
+    for (const StageNames& stage : kStages) {
+        const std::vector<std::string>& paths = family_.templates_of(placement.key)[stage.kind];
+        if (stage.kind == placement.stage || paths.empty()) continue;
+        library_.substitute_for(placement.key, stage.kind);
+        const auto file = library_.find({false, paths.front(), {family_.path, 0, 0}, ""}, placement.key,
+                                        stage.kind, nullptr);  // what is missing is told at its own stage
+        if (file && *file && !library_.source(**file).version.empty()) return library_.source(**file).version;
+    }
+    return {};
 }
 
 Result<void> Placer::place_legacy(Placement& placement) {

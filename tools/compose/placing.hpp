@@ -24,6 +24,7 @@ struct Placement {
     bool wants_varyings = false;      ///< an `#include <varyings>` was met
     Extensions extensions = {};
     std::string version = {};  ///< the family's, else the template's, else the first that a file states
+    std::string version_beside = {};  ///< that of another stage of the program, for one that states none
     std::optional<Conditions> conditions = {};
     std::size_t walked = 0;  ///< the pieces whose directives `conditions` has taken in
 };
@@ -39,6 +40,8 @@ class Placer {
     [[nodiscard]] Result<void> follow_templates(Placement& placement);
 
   private:
+    /// The version that the first file of another stage of the program states.
+    std::string version_beside(const Placement& placement);
     /// Puts the declarations of what OpenGL had built in, and the stage mentions, behind the prologue.
     Result<void> place_legacy(Placement& placement);
     /// Refuses a file whose version is not the one that the family states, or that the stage begins with.

@@ -35,8 +35,9 @@ std::vector<std::string> macros_of(const Family& family, const Placement& placem
 
 std::string stage_prologue(const Family& family, Dialect dialect, const Placement& placement,
                            const Mentions& mentions) {
-    std::string text =
-        dialect_prologue(dialect, placement.stage, placement.version, placement.extensions, mentions);
+    std::string text = dialect_prologue(
+        dialect, placement.stage, placement.version.empty() ? placement.version_beside : placement.version,
+        placement.extensions, mentions);
     for (const std::string& definition : macros_of(family, placement, mentions)) text += definition;
     return text;
 }

@@ -274,11 +274,26 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
             return fail(Fault::usage,
                         fmt::format("there is no {} stage, and drivers compile both together", name_of(kind)),
                         "name the files of both stages: gobo cost game.vert game.frag --gpu navi21");
-    GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
+    // Of a family with passes of other stages the rest is costed.
+    const auto left_out =
+        std::erase_if(subject.composition.permutations, [&](const Permutation& permutation) {
+            return !subject.are_files && !permutation.stages.is_usual_pair();
+        });
+    if (subject.composition.permutations.empty())
+        return fail(
+            Place{subject.family.family.path}, "",
+            "gobo cost compiles a vertex and a fragment stage, and no key of the selection has those alone",
+            "name keys of other programs by --where");
     if (!options.against.empty()) GOBO_TRY_DO(put_first(subject, options.against));
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true}));
     Pairs pairs = pairs_of(options, subject, validated);
     Diagnostics diagnostics = std::move(validated.diagnostics);
+    if (left_out > 0)
+        diagnostics.push_back(
+            {.severity = Severity::warning,
+             .message = fmt::format(
+                 "{} keys are left out: gobo cost compiles a vertex and a fragment stage alone", left_out),
+             .help = "name those that have no other stages by --where"});
     append(diagnostics, pairs.errors);
     const auto costs = costs_of(world, options, subject, pairs, chips, diagnostics);
     if (!options.baseline.empty()) return hold_to_baseline(world, options, costs, std::move(diagnostics));
