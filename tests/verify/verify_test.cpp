@@ -128,7 +128,7 @@ TEST(Verify, WritesAFailingPointAsAnInputOfEval) {
                             0.25,
                             1e-6,
                             9,
-                            {{{"eyeNormal", {0, 0, 0.1}}}, {{"Fog.start", {2}}}, {}}};
+                            {{{"eyeNormal", {0, 0, 0.1}}}, {{"Fog.start", {2}}}, {}, 0, ""}};
     EXPECT_EQ(verify::eval_input(failure, "fog=linear"),
               "# fog=linear: fp32 fragmentColor[1] is 0.25, should be 0.5 within 1e-06\n"
               "stage = \"fragment\"\n"
