@@ -50,6 +50,22 @@ void set_costs(std::vector<StudiedKey>& keys, const std::vector<std::vector<doub
     }
 }
 
+/// Which chips a study has, and how to add others.
+std::string help_with_cycles(const CsvTable& table, const std::string& path, const Family& family,
+                             const std::vector<std::string>& gpus) {
+    constexpr std::string_view kPrefix = "cycles_";
+    std::vector<std::string> known;
+    for (const std::string& column : table.columns)
+        if (column.starts_with(kPrefix)) known.push_back(column.substr(kPrefix.size()));
+    const std::string shipped = fmt::format("data/study/{}.csv", family.name);
+    const bool is_shipped = path == shipped;
+    return fmt::format(
+        "{}{}gobo cost {} --study {}{} --gpu {} > study.csv, and choose by --study study.csv",
+        known.empty() ? "add them: " : fmt::format("it has those of {}; add others: ", join(known, ", ")),
+        is_shipped ? "gobo library -o library, then " : "", family.name, is_shipped ? "library/" : "", path,
+        join(gpus, ","));
+}
+
 }  // namespace
 
 Key effects_of(const Family& family, Key key) {
@@ -78,8 +94,7 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         const auto column = table.column("cycles_" + gpu);
         if (!column)
             return fail({path, 1, 0}, "", fmt::format("holds no cycles of {}", gpu),
-                        fmt::format("add them: gobo cost {} --study {} --gpu {} > FILE", family.name, path,
-                                    join(gpus, ",")));
+                        help_with_cycles(table, path, family, gpus));
         cycles_at.push_back(*column);
     }
     StudiedEffects studied;
