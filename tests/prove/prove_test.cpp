@@ -141,6 +141,35 @@ TEST_P(Proof, IsAsKnown) {
 INSTANTIATE_TEST_SUITE_P(Rows, Proof, testing::ValuesIn(kRows),
                          [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 
+TEST(Proofs, AreWrittenAsJson) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 450\nlayout(location = 0) in float a;\nlayout(location = 0) out float color;\nvoid main() "
+         "{ color = 1.0 / a; }\n"}});
+    const std::string json = prove::proof_json(proven("known.frag", files, {}));
+    EXPECT_NE(json.find("\"rule\": \"division by zero\",\n     \"status\": \"possible\",\n     \"finding\": "
+                        "\"division by zero: FDiv 1, a = 0 -> inf\""),
+              std::string::npos)
+        << json;
+    EXPECT_NE(json.find("\"nan\": true,\n   \"stage\": \"fragment\",\n   \"output\": \"color\""),
+              std::string::npos)
+        << json;
+}
+
+/// A proof that needs the domain split: no single interval tells it.
+TEST(Proofs, SplitTheDomain) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 450\nlayout(location = 0) in float a;\nlayout(location = 0) out float color;\n"
+         "void main() { color = 1.0 / ((a - 150.0) * (a + 150.0) + a * 100.0 + 100.0); }\n"}});
+    prove::ProveOptions options;
+    options.points = 0;
+    options.splits = 0;
+    EXPECT_EQ(word(by_rule(proven("known.frag", files, options)).at("division by zero")), "undecided");
+    options.splits = 200;
+    EXPECT_EQ(word(by_rule(proven("known.frag", files, options)).at("division by zero")), "impossible");
+}
+
 /// Shaders that say in comments which traps they have.
 class PlantedFault : public testing::TestWithParam<std::string> {};
 

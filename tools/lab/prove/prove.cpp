@@ -42,23 +42,33 @@ Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains,
     proven.program = std::move(*program);
     proven.space = sanitize::input_space_of(proven.program, domains, true);
     StageProof proof(proven.program, proven.space);
-    if (const auto ran = proof.run(splits, true); !ran) proven.diagnostics = ran.error();
+    if (const auto ran = proof.run(0, true); !ran) proven.diagnostics = ran.error();
     proven.rules = proof.rules();
     proven.outputs = proof.outputs();
     proven.results = proof.results();
-    const auto is_open = [](const RuleAtOperation& rule) { return !rule.is_proven; };
-    std::vector<std::vector<PartLeft>>& left = proven.left;
-    for (const RuleAtOperation& rule : proven.rules) left.push_back(proof.inputs_of(rule.left));
-    if (!proven.diagnostics.empty() || std::ranges::none_of(proven.rules, is_open)) return proven;
-    // What no input shows that the sanitizer draws.
-    StageProof without_tiny(proven.program, proven.space);
-    if (!without_tiny.run(splits, false)) return proven;
-    proven.outputs = without_tiny.outputs();
-    for (std::size_t i = 0; i < proven.rules.size(); ++i) {
-        if (!is_open(proven.rules[i])) continue;
-        const RuleAtOperation& other = without_tiny.rules()[i];
-        proven.rules[i].is_proven = proven.rules[i].ignores_tiny = other.is_proven;
-        left[i] = without_tiny.inputs_of(other.left);
+    proven.left.resize(proven.rules.size());
+    if (!proven.diagnostics.empty()) return proven;
+    // What is open: without tiny inputs, which no input has that the sanitizer draws; then with the domain
+    // split.
+    std::vector<bool> is_settled(proven.rules.size());
+    const auto settle = [&](std::size_t most, bool has_tiny_inputs) {
+        for (std::size_t i = 0; i < is_settled.size(); ++i) is_settled[i] = proven.rules[i].is_proven;
+        if (std::ranges::count(is_settled, false) == 0) return;
+        StageProof next(proven.program, proven.space);
+        if (!next.run(most, has_tiny_inputs, is_settled)) return;
+        if (!has_tiny_inputs) proven.outputs = next.outputs();
+        for (std::size_t i = 0; i < is_settled.size(); ++i) {
+            if (is_settled[i]) continue;
+            const RuleAtOperation& other = next.rules()[i];
+            proven.rules[i].is_proven = other.is_proven;
+            proven.rules[i].ignores_tiny = other.is_proven && !has_tiny_inputs;
+            proven.left[i] = next.inputs_of(other.left);
+        }
+    };
+    settle(0, false);
+    if (splits > 0) {
+        settle(splits, true);
+        settle(splits, false);
     }
     return proven;
 }

@@ -56,7 +56,7 @@ StageProof::StageProof(const evaluate::Program& program, const sanitize::InputSp
         }
 }
 
-Result<void> StageProof::run(std::size_t splits, bool has_tiny_inputs) {
+Result<void> StageProof::run(std::size_t splits, bool has_tiny_inputs, const std::vector<bool>& is_settled) {
     auto unrolled = unroll(program_, space_, has_tiny_inputs);
     if (!unrolled) {
         for (RuleAtOperation& one : rules_) one.is_proven = one.is_constant = false;
@@ -115,7 +115,8 @@ Result<void> StageProof::run(std::size_t splits, bool has_tiny_inputs) {
         const Site& site = expressions_.sites[one.site];
         std::vector<Cut> cuts;
         rule.is_proven = false;
-        if (rule.rule.is_impossible == nullptr) continue;
+        const bool is_done = one.rule < is_settled.size() && is_settled[one.rule];
+        if (rule.rule.is_impossible == nullptr || splits == 0 || is_done) continue;
         const Slice slice = slice_for(site);
         std::size_t budget = splits;
         rule.is_proven = split(ranges, slice, site, rule.rule, cuts, budget, 0, rule.left);

@@ -28,7 +28,8 @@ class StageProof {
 
     /// Proves what it can, splitting the domain into so many parts for a rule at a site at most. Errors: a
     /// stage that cannot be unrolled; then nothing is proven of it.
-    [[nodiscard]] Result<void> run(std::size_t splits, bool has_tiny_inputs);
+    [[nodiscard]] Result<void> run(std::size_t splits, bool has_tiny_inputs,
+                                   const std::vector<bool>& is_settled = {});
 
     [[nodiscard]] const std::vector<RuleAtOperation>& rules() const { return rules_; }
     /// Of each component of each output, in the program's order; none of one that is never written.
