@@ -46,7 +46,8 @@ vec3 fresnelReflectance(float vh) {
 
 /// The part of the light that is reflected, by channel.
 vec3 fresnelReflectance(float vh) {
-    return surface.f0 + (surface.f90 - surface.f0) * exp2((-5.55473 * vh - 6.98316) * vh);
+    float weight = min(exp2((-5.55473 * vh - 6.98316) * vh), 1.0);  // guard: rounded out of its range
+    return surface.f0 + (surface.f90 - surface.f0) * weight;
 }
 
 #piece constant

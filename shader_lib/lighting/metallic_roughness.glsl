@@ -3,6 +3,7 @@
 //
 // Source: glTF 2.0, 3.9 and appendix B.
 
+#include <clearcoat>
 #include <directional>
 #include <occlusion_map>
 #include <point>
@@ -13,7 +14,9 @@
 /// The radiance that leaves the surface towards the viewer, before fog.
 vec3 litSurface() {
     beginSurface();
-    vec3 radiance = emittedRadiance() + ambientOcclusion() * environmentRadiance();
+    beginCoat();
+    float occlusion = ambientOcclusion();
+    vec3 radiance = underCoat(emittedRadiance() + occlusion * environmentRadiance()) + occlusion * coatEnvironment();
 #if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
     beginResponse();
 #endif

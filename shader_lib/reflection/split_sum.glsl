@@ -17,27 +17,16 @@ vec3 environmentRadiance() { return surface.diffuse * ambientLight(); }
 #include <ambient>
 #include <environment_brdf>
 #include <multiple_scattering>
+#include <reflection/mirrored>
 #include "pbr/surface.glsl"
-
-/// How much of the map is seen, the rotation from eye space to its axes, and the level of roughness 1.
-BLOCK(18, Reflection) {
-    mat3 toMap;
-    float weight;
-    float roughestLevel;
-} reflection;
-
-/// S: what a surface shows by the mirrored direction to the viewer, its roughness rising evenly from level to level.
-SAMPLER(4, samplerCube) specularMap;
 
 /// The ambient light that the surface reflects, and what it mirrors.
 vec3 environmentRadiance() {
     vec3 ambient = ambientLight();
-    vec3 direction = reflection.toMap * reflect(-surface.toViewer, surface.normal);
-    bool isKnown = surface.normal != vec3(0.0) && surface.toViewer != vec3(0.0) && direction != vec3(0.0);
-    if (!isKnown) return surface.diffuse * ambient;  // guard: zero vector
+    if (mirroredDirection() == vec3(0.0)) return surface.diffuse * ambient;  // guard: zero vector
     vec2 brdf = environmentBrdf(surface.nv, surface.roughness);
-    vec3 once = reflection.weight * (brdf.x * surface.f0 + brdf.y * surface.f90);
+    vec3 once = brdf.x * surface.f0 + brdf.y * surface.f90;
     vec3 again = reflection.weight * returnedToEnvironment(brdf);
-    vec3 mirrored = textureLod(specularMap, direction, surface.roughness * reflection.roughestLevel).rgb;
-    return once * mirrored + (again + max(1.0 - once - again, 0.0) * surface.diffuse) * ambient;
+    vec3 scattered = max(1.0 - reflection.weight * once - again, 0.0) * surface.diffuse;
+    return once * mirroredRadiance(surface.roughness) + (again + scattered) * ambient;
 }

@@ -7,12 +7,12 @@
 // Edges:  a light gives exactly nothing unless n.l > 0; directly behind the viewer's ray there is no half vector, and no
 //         highlight.
 
+#include <anisotropy>
+#include <clearcoat>
 #include <diffuse_lobe>
-#include <distribution>
 #include <fresnel>
 #include <light_sum>
 #include <multiple_scattering>
-#include <visibility>
 #include "light_ambient/none.glsl"
 #include "pbr/surface.glsl"
 
@@ -24,6 +24,7 @@ vec3 scaleOfHighlights;
 void beginResponse() {
     reflectedSum = emptySum();
     scaleOfHighlights = highlightScale();
+    beginHighlightLobe();
 }
 
 /// The part of the light from the unit direction `toLight`, at the cosine `nl` to the normal, that leaves towards the
@@ -33,10 +34,11 @@ vec3 reflectance(vec3 toLight, float nl) {
     float square = dot(sum, sum);
     float vh = 0.5 * sqrt(square);  // the cosine of half the angle between the two
     vec3 mirrored = fresnelReflectance(vh);
-    vec3 diffuse = (1.0 - mirrored) * diffuseLobe(toLight, nl, vh);
-    if (square < 1e-12) return diffuse;  // guard: light behind the viewer's ray
-    float lobe = normalDistribution(toLight, sum, square) * visibilityTerm(nl, square);
-    return diffuse + scaleOfHighlights * mirrored * lobe;
+    vec3 scattered = max(1.0 - mirrored, 0.0);  // guard: colours of vertices rounded above 1
+    vec3 diffuse = scattered * diffuseLobe(toLight, nl, vh);
+    if (square < 1e-12) return underCoat(diffuse);  // guard: light behind the viewer's ray
+    vec3 reflected = diffuse + scaleOfHighlights * mirrored * highlightLobe(toLight, sum, square, nl);
+    return underCoat(reflected) + coatHighlight(toLight, sum, square, nl);
 }
 
 /// Adds a light that arrives with irradiance `light` from the unit direction `toLight` (zero: from nowhere).

@@ -77,6 +77,35 @@ Surface surface_of(const Model& model, const Scene& scene, const PhysicalPoint& 
     return surface;
 }
 
+/// The lobe D V of a brushed surface, wider along the brush (KHR_materials_anisotropy; Burley 2012, appendix
+/// B).
+double brushed_lobe(const Material& material, const PhysicalPoint& point, const Surface& surface,
+                    const glm::dvec3& to_light, double nl, Roundings& r) {
+    const glm::dvec3& n = point.normal;
+    const glm::dvec3 given(point.tangent);
+    const glm::dvec3 t =
+        direction_of(r(given - glm::dot(n, given) * n, 4));  // sizes cancel where T lies along n
+    const glm::dvec3 b = point.tangent.w * r(glm::cross(n, t), 2);
+    const glm::dvec3 along = material.anisotropy_direction.x * t + material.anisotropy_direction.y * b;
+    const glm::dvec3 across = r(glm::cross(n, along), 2);
+    const double at = surface.alpha + (1 - surface.alpha) * material.anisotropy * material.anisotropy;
+    const double ab = surface.alpha;
+    const glm::dvec3 sum = to_light + point.to_viewer;
+    const double length = glm::length(sum);
+    const glm::dvec3 half = r(sum / length, 2 / length);
+    const auto sum_of_squares = [](double x, double y, double z) { return x * x + y * y + z * z; };
+    const double spread =
+        std::max(r(sum_of_squares(r(glm::dot(along, half), 2) / at, r(glm::dot(across, half), 2) / ab,
+                                  r(glm::dot(n, half), 2))),
+                 0.05);
+    const auto length_of = [&](const glm::dvec3& w, double cosine) {
+        return std::sqrt(
+            r(sum_of_squares(at * r(glm::dot(along, w), 2), ab * r(glm::dot(across, w), 2), cosine)));
+    };
+    const double masking = nl * length_of(point.to_viewer, surface.nv) + surface.nv * length_of(to_light, nl);
+    return 1 / (kPi * at * ab * spread * spread) / (2 * masking);
+}
+
 /// What several reflections give back (Turquin 2019; Fdez-Aguera 2019).
 glm::dvec3 highlight_scale(const Model& model, const Surface& surface) {
     if (model.multiple_scattering == MultipleScattering::none) return glm::dvec3(1);
@@ -151,7 +180,7 @@ double normal_distribution(Distribution kind, double alpha, const glm::dvec3& no
 
 double visibility_term(MaskingShadowing kind, double alpha, double nl, double nv, double half_square,
                        Roundings& r) {
-    if (kind == MaskingShadowing::half_angle) return 1 / r(half_square);
+    if (kind == MaskingShadowing::half_angle) return 1 / std::max(r(half_square), 1e-4);
     if (kind == MaskingShadowing::interpolated)
         return 1 / (2 * r((1 - alpha) * 2 * nl * nv + alpha * (nl + nv)));
     const double square = alpha * alpha;
@@ -215,8 +244,23 @@ glm::dvec2 environment_brdf(EnvironmentBrdf kind, const glm::dvec2& table, doubl
 PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const PhysicalPoint& point,
                              Roundings& r) {
     const Surface surface = surface_of(model, scene, point, r);
+    const Material& material = scene.material;
+    const bool is_coated = model.clearcoat == Clearcoat::layer;
+    // KHR_materials_clearcoat: mix(beneath, coat, factor (0.04 + 0.96 (1 - n.v)^5)).
+    // At grazing incidence next to nothing is left of 1 - coat: its rounding is one of 1.
+    const double coat = is_coated ? r(material.clearcoat * (0.04 + 0.96 * schlick_weight(surface.nv)), 4) : 0;
+    const double coat_alpha = r(alpha_of_roughness(material.clearcoat_roughness));
     PhysicalRadiance radiance{point.emission, point.emission};
     add_environment(model, scene, point, surface, radiance);
+    radiance.value *= 1 - coat;
+    if (is_coated && model.reflection == Reflection::image) {
+        const glm::dvec2 brdf = environment_brdf(model.environment_brdf, scene.environment_brdf, surface.nv,
+                                                 material.clearcoat_roughness);
+        const glm::dvec3 mirrored =
+            coat * (brdf.x + brdf.y) * scene.reflection.weight * point.reflected.value;
+        radiance.value += point.occlusion * mirrored;
+        radiance.largest += glm::abs(mirrored);
+    }
     const glm::dvec3 scale = highlight_scale(model, surface);
     for (std::size_t i = 0; i < point.lights.size(); ++i) {
         const IncidentLight& light = point.lights[i];
@@ -227,15 +271,22 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
         const double lv = r(glm::dot(light.to_light, point.to_viewer), 2);
         // A cosine of 0.01 stands for all smaller ones in what errors are measured by.
         const auto reflected = [&](double cosine) {
-            glm::dvec3 factor =
-                (1.0 - mirrored) * diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness,
-                                                cosine, surface.nv, lv, vh);
-            if (!point.has_half[i]) return factor;
-            const double lobe = normal_distribution(model.distribution, surface.alpha, point.normal,
-                                                    light.to_light, point.to_viewer, r) *
-                                visibility_term(model.masking_shadowing, surface.alpha, cosine, surface.nv,
-                                                glm::dot(sum, sum), r);
-            return factor + scale * mirrored * lobe;
+            glm::dvec3 factor = glm::max(1.0 - mirrored, glm::dvec3(0)) *
+                                diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness, cosine,
+                                             surface.nv, lv, vh);
+            if (!point.has_half[i]) return (1 - coat) * factor;
+            const auto lobe = [&](double alpha) {
+                return normal_distribution(model.distribution, alpha, point.normal, light.to_light,
+                                           point.to_viewer, r) *
+                       visibility_term(model.masking_shadowing, alpha, cosine, surface.nv, glm::dot(sum, sum),
+                                       r);
+            };
+            const double own = model.anisotropy == Anisotropy::brushed
+                                   ? brushed_lobe(material, point, surface, light.to_light, cosine, r)
+                                   : lobe(surface.alpha);
+            factor = (1 - coat) * (factor + scale * mirrored * own);
+            if (is_coated) factor += coat * lobe(coat_alpha);
+            return factor;
         };
         if (nl > 0) radiance.value += reflected(nl) * nl * light.radiance;
         const double least = std::max(nl, 0.01);

@@ -82,6 +82,7 @@ struct Reflectance {
 struct PhysicalPoint {
     glm::dvec3 normal{0};      ///< unit, unless it is interpolated as it is
     glm::dvec3 to_viewer{0};   ///< unit, or zero
+    glm::dvec4 tangent{0};     ///< as it is given, and the bitangent's sign
     double normal_length = 1;  ///< of the normal of a picture before it is made unit
     glm::dvec4 base_color{0};
     double metallic = 0;

@@ -164,6 +164,7 @@ Radiance physical_radiance(const Model& model, const Scene& scene, const Surface
     physical.normal =
         bent(model, scene, point, shading_direction(model, point.normal), physical.normal_length, decisions);
     if (is_flipped) physical.normal = -physical.normal;
+    physical.tangent = point.tangent;
     physical.to_viewer = to_viewer(model, point.position);
     physical.lights = incident_lights(model, scene, point.position, decisions);
     cast_shadows(model, scene, point.position, physical.lights, decisions);

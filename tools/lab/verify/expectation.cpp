@@ -172,7 +172,8 @@ std::vector<Expected> expect_vertex(const oracle::Model& model, const Sample& sa
         expected("eyePosition", placed.value, placed.largest, position_error),
         expected("eyeNormal", normal.value, glm::dvec3(1), glm::dvec3(normal.error + kDirectionError))};
     add_passed_on(sample, outputs);
-    if (model.normal_map == oracle::NormalMap::tangent) outputs.push_back(expect_tangent(sample));
+    if (model.normal_map == oracle::NormalMap::tangent || model.anisotropy == oracle::Anisotropy::brushed)
+        outputs.push_back(expect_tangent(sample));
     oracle::SurfacePoint point = sample.surface;
     point.position = placed.value;
     point.normal = normal.value;
@@ -213,6 +214,8 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
         value = radiance.value;
         largest = radiance.largest;
         error = radiance_error(model, sample.scene, point, radiance, {});
+        // Peaked highlights multiply what directions are off by: no float is further out than this.
+        if (model.is_physical()) largest += error;
     }
     const oracle::Seen seen =
         oracle::seen_through_fog(model, sample.scene, sample.surface.position, value, largest, decisions);

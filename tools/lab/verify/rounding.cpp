@@ -233,6 +233,7 @@ glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene
         const auto off = [&](const glm::dvec3& most) { return most * random.components(-1, 1); };
         oracle::PhysicalPoint point = exact;
         point.normal += off(glm::dvec3(bent_normal));
+        point.tangent += glm::dvec4(off(glm::dvec3(4 * kU)), 0);
         point.base_color += glm::dvec4(off(glm::dvec3(texel)), 0);
         const glm::dvec3 factors = off(glm::dvec3(texel));
         point.metallic += factors.x;
@@ -287,7 +288,12 @@ glm::dvec3 radiance_error(const oracle::Model& model, const oracle::Scene& scene
                           const oracle::SurfacePoint& point, const oracle::Radiance& radiance,
                           const PointErrors& errors) {
     if (radiance.physical) return physical_error(model, scene, point, radiance, errors);
-    if (model.is_physical()) return radiance.value * (2 * kU);  // the base colour, tinted
+    if (model.is_physical()) {  // the base colour, tinted; a texel, of up to 1, is off by eight roundings
+        const bool has_picture = model.base_color_map == oracle::Picture::texture;
+        const bool is_tinted = model.vertex_color == oracle::VertexColor::modulate;
+        const glm::dvec4 factors = scene.material.base_color * (is_tinted ? point.color : glm::dvec4(1));
+        return radiance.value * (3 * kU) + glm::dvec3(factors) * (has_picture ? 8 * kU : 0);
+    }
     const double normal = errors.normal + given_direction(model);
     const double to_viewer = viewer_error(model, point.position, errors.position);
     const oracle::Material& material = radiance.material;

@@ -47,7 +47,8 @@ void fill_pictures(Random& random, Sample& sample) {
         picture = {even(0.2, 0.8), even(-0.02, 0.02), even(-0.02, 0.02)};
     oracle::EvenPicture& normals = sample.scene.pictures[static_cast<std::size_t>(oracle::MapKind::normal)];
     normals.even.z = random.between(0.6, 1);
-    if (random.one_in(8)) normals = {{0.5, 0.5, random.one_in(16) ? 0.5 : 1, 1}, glm::dvec4(0), glm::dvec4(0)};
+    if (random.one_in(8))
+        normals = {{0.5, 0.5, random.one_in(16) ? 0.5 : 1, 1}, glm::dvec4(0), glm::dvec4(0)};
     for (oracle::TexturePlacement& placement : sample.scene.placements)
         placement = {even(-2, 2), {random.between(-1, 1), random.between(-1, 1)}, random.whole(0, 1)};
     oracle::SurfacePoint& point = sample.surface;
@@ -187,6 +188,11 @@ void fill_metallic_roughness(Random& random, Sample& sample) {
     material.dielectric_edge = random.one_in(2) ? 1 : factor();
     material.normal_scale = random.one_in(2) ? 1 : random.between(-2, 2);
     material.occlusion_strength = factor();
+    material.clearcoat = factor();
+    material.clearcoat_roughness = factor();
+    material.anisotropy = factor();
+    const double brush = random.between(0, 6.28);
+    material.anisotropy_direction = {std::cos(brush), std::sin(brush)};
     fill_pictures(random, sample);
 }
 
