@@ -123,6 +123,8 @@ const Row refused[] = {
         "GLSL ES has no layout(index)"),
     row("number_of_samples_in_330", "330 core", with_main("", "float(gl_NumSamples)"),
         "'gl_NumSamples' : undeclared"),
+    row("flat_of_no_interface", "330 core", with_main("flat vec3 v;\n"),
+        "tiny.frag:2: error: 'flat' stands before what is neither an input nor an output"),
     row("own_version", "450", with_main("#define __VERSION__ 330\n"), "'__VERSION__' is GLSL's own"),
     row("quotation_in_code", "330 core", with_main("float g\" = 1.0;\n", "g"), "tiny.frag:2: error"),
 };
@@ -164,6 +166,7 @@ const Row taken[] = {
         with_main("layout(binding = 0, offset = 4) uniform atomic_uint hits;\n"), ""),
     row("case_of_uint_400", "400",
         "out vec4 c;\nvoid main() { c = vec4(1.0); uint i = 1u; switch (i) { case 0: break; } }\n", ""),
+    row("a_name_called_flat_of_members", "450", with_main("struct S { float smoothness; };\n"), ""),
     row("depth_range", "330 core", with_main("", "gl_DepthRange.diff + gl_DepthRange.near"), ""),
     row("depth_range_in_es", "300 es",
         with_main("float f(gl_DepthRangeParameters r) { return r.far; }\n", "f(gl_DepthRange)"), ""),
@@ -278,6 +281,18 @@ const StagesRow stages[] = {
        "layout(local_size_x = 1) in;\nlayout(std430, binding = 500) buffer B { float b; };\n"
        "void main() { b = 1.0; }\n"}},
      "storage buffer bindings up to that of 'B': 501"},
+    {"writeonly_is_read",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) writeonly buffer B { uint sum[]; };\n"
+       "void main() { sum[0] += 1u; }\n"}},
+     "tiny.comp:3: error: 'sum' is writeonly, and is read"},
+    {"writeonly_has_a_length",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) writeonly buffer B { uint sum[]; };\n"
+       "void main() { sum[sum.length() - 1] = 1u; }\n"}},
+     ""},
     {"image_without_format_in_es",
      "310 es",
      {{StageKind::compute,

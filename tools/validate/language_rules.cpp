@@ -248,6 +248,7 @@ class LanguageCheck {
             if (depth == 0 && token == ";") check_counter(begin, i);
             if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
             if (depth == 0 && token == "[") check_distances(i);
+            if (depth == 0 && token == ";") check_interpolation(begin, i);
             if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
         }
     }
@@ -286,6 +287,22 @@ class LanguageCheck {
             refuse(tokens_[end + 1],
                    fmt::format("the block's name for its instance, '{}', came with GLSL 1.50", at(end + 1)),
                    "state #version 150, or take it out and name its members alone");
+    }
+
+    /// `flat vec3 v;`, which is neither in nor out.
+    void check_interpolation(std::size_t begin, std::size_t end) {
+        std::size_t qualifier = end;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (at(i) == "(" || at(i) == "{" || at(i) == "=" || is_macro(i)) break;
+            if (is_any(at(i), {"in", "out", "varying", "invariant", "precise"})) return;
+            if (is_any(at(i), {"flat", "smooth", "noperspective", "centroid"}) && i + 2 < end &&
+                is_name(i + 1))
+                qualifier = std::min(qualifier, i);
+        }
+        if (qualifier < end && version_.number >= 130 && at(begin) != "layout")
+            refuse(tokens_[qualifier],
+                   fmt::format("'{}' stands before what is neither an input nor an output", at(qualifier)),
+                   "write in or out behind it, or take it out");
     }
 
     /// In OpenGL ES each image states its format (GLSL ES 3.10, 4.4.7).

@@ -33,6 +33,7 @@ class StageCheck {
         if (kind_ == StageKind::geometry) check_vertices();
         if (kind_ == StageKind::geometry) check_streams();
         check_sizes();
+        check_writeonly();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -137,6 +138,23 @@ class StageCheck {
         for (const std::size_t word : {3, 4, 5}) size *= mode_value(spv::ExecutionModeLocalSize, word);
         at_most(1024, size, "local_size_x", "invocations of a work group",
                 "MAX_COMPUTE_WORK_GROUP_INVOCATIONS");
+    }
+
+    /// What a buffer block states as writeonly may not be read, as `+=` does.
+    void check_writeonly() {
+        for (const spirv::Instruction& load : module_.instructions) {
+            const spirv::Instruction* chain =
+                load.opcode == spv::OpLoad ? module_.definition(load.id(3)) : nullptr;
+            if (chain == nullptr || chain->opcode != spv::OpAccessChain) continue;
+            const auto variable = std::ranges::find(module_.variables, chain->id(3), &spirv::Variable::id);
+            const auto member = module_.integers.find(chain->id(4));
+            if (variable == module_.variables.end() || member == module_.integers.end()) continue;
+            const auto index = static_cast<int>(member->second);
+            if (!module_.decoration(variable->type, spv::DecorationNonReadable, index)) continue;
+            const std::string name = module_.name(variable->type, index);
+            return refuse(use_of(name, pieces_), fmt::format("'{}' is writeonly, and is read", name),
+                          "take writeonly out of its block, or write it without reading it");
+        }
     }
 
     /// Further streams take points alone (GLSL 4.60, 8.15).
