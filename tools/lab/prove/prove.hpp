@@ -19,7 +19,7 @@ struct ProveOptions {
     int jobs = 1;             ///< threads
     std::size_t splits = 40;  ///< parts of the domain that are looked at for one rule at one place, at most
     std::size_t points =
-        4096;  ///< inputs that a stage gets in search of an example, where anything is undecided
+        32768;  ///< inputs that a stage gets in search of an example, where anything is undecided
     std::uint64_t seed = 1;
     std::size_t check = 0;  ///< inputs over all stages that the proofs are held to
 };
