@@ -293,13 +293,14 @@ class LanguageCheck {
     void check_interpolation(std::size_t begin, std::size_t end) {
         std::size_t qualifier = end;
         for (std::size_t i = begin; i < end; ++i) {
-            if (at(i) == "(" || at(i) == "{" || at(i) == "=" || is_macro(i)) break;
+            if (at(i) == "{" || at(i) == "=") break;
+            if (is_macro(i)) return;  // it may stand for what is looked for
             if (is_any(at(i), {"in", "out", "varying", "invariant", "precise"})) return;
             if (is_any(at(i), {"flat", "smooth", "noperspective", "centroid"}) && i + 2 < end &&
                 is_name(i + 1))
                 qualifier = std::min(qualifier, i);
         }
-        if (qualifier < end && version_.number >= 130 && at(begin) != "layout")
+        if (qualifier < end && version_.number >= 130)
             refuse(tokens_[qualifier],
                    fmt::format("'{}' stands before what is neither an input nor an output", at(qualifier)),
                    "write in or out behind it, or take it out");
