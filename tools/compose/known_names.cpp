@@ -21,7 +21,9 @@ struct Named {
 
 std::vector<Named> names_of(const Family& family) {
     std::vector<Named> names;
-    for (const Domain& domain : family.domains) names.push_back({domain.name, "[domain]", domain.place});
+    // Of a constraint, "unit(normal)", what stands between its brackets.
+    for (const Domain& domain : family.domains)
+        names.push_back({domain.name.substr(domain.name.find('(') + 1), "[domain]", domain.place});
     for (const RenderValue& value : family.render) names.push_back({value.name, "[render]", value.place});
     for (const Relation& relation : family.relations) {
         for (const auto* const list : {&relation.names, &relation.turned_back})

@@ -96,6 +96,12 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     domain.place = reader.place_of(node);
     const std::string what = fmt::format("the domain of '{}'", domain.name);
     std::vector<double> range;
+    if (node.is_boolean()) {  // a constraint between inputs: "near < far" = true
+        if (!node.as_boolean()->get() || domain.name.find_first_of("<(") == std::string::npos)
+            reader.error(node, what + " is not a range",
+                         "write [low, high]; true states a constraint: \"near < far\" = true");
+        return domain;
+    }
     if (node.is_table()) {
         const TomlTable table(reader, *node.as_table(), what);
         table.only({"range", "length", "last", "also"});

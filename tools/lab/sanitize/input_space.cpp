@@ -150,6 +150,7 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
                           bool in_quads) {
     InputSpace space;
     if (in_quads && evaluate::needs_quads(program)) space.pixels = 4;
+    space.constraints = constraints_of(domains);
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports) {
             InputField field;

@@ -10,6 +10,7 @@
 #include "family/family.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/raster/random_numbers.hpp"
+#include "lab/sanitize/constraints.hpp"
 
 namespace gobo::sanitize {
 
@@ -74,6 +75,7 @@ struct InputSpace {
     std::vector<std::size_t> vectors;   ///< fields that are vectors of floats
     std::vector<std::size_t> floats;    ///< fields that are single floats
     std::vector<std::size_t> field_of;  ///< of each number of a point
+    std::vector<Constraint> constraints;
 };
 
 /// Points of one stage, each `InputSpace::numbers` numbers, one after the other.

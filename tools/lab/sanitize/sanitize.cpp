@@ -90,8 +90,9 @@ class StageSearch {
         const std::size_t pixels = space_.pixels;
         for (std::size_t done = 0; done < count && diagnostics_.empty(); done += kPortion) {
             const std::size_t portion = std::min(kPortion, count - done);
-            if (const auto ran = run(make(done, (portion + pixels - 1) / pixels)); !ran)
-                diagnostics_ = ran.error();
+            PointSet points = make(done, (portion + pixels - 1) / pixels);
+            for (std::size_t i = 0; i < points.count; ++i) constrain(space_, points[i]);
+            if (const auto ran = run(points); !ran) diagnostics_ = ran.error();
         }
     }
 
@@ -242,6 +243,26 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
     return report;
 }
 
+namespace {
+
+/// What is wrong with a constraint, if anything.
+Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& names) {
+    const auto constraint = constraint_of(domain.name);
+    if (!constraint)
+        return {evaluate::error_at(
+            domain.place, fmt::format("'{}' is no constraint", domain.name),
+            "write \"near < far\" = true, or unit(), not_zero(), distinct(,), orthonormal(), "
+            "inverse_transpose_of(,)")};
+    Diagnostics errors;
+    for (const std::string& name : constraint->names)
+        if (!names.contains(name))
+            errors.push_back(evaluate::error_at(domain.place, fmt::format("no stage reads '{}'", name),
+                                                suggestion(name, {names.begin(), names.end()})));
+    return errors;
+}
+
+}  // namespace
+
 Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validated& validated) {
     std::set<std::string> names;
     for (const ValidatedStage& stage : validated.stages)
@@ -254,11 +275,16 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validat
                 for (const char* part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
                     names.insert(verify::without_subscripts(image.name + part));
     Diagnostics errors;
-    for (const Domain& domain : domains)
+    for (const Domain& domain : domains) {
+        if (is_constraint(domain.name)) {
+            for (Diagnostic& error : wrong_constraint(domain, names)) errors.push_back(std::move(error));
+            continue;
+        }
         if (!names.contains(domain.name))
             errors.push_back(evaluate::error_at(domain.place,
                                                 fmt::format("no stage reads or writes '{}'", domain.name),
                                                 suggestion(domain.name, {names.begin(), names.end()})));
+    }
     return errors;
 }
 

@@ -92,6 +92,7 @@ class Shrinking {
             change(numbers_of(field));
             bring_into_domain(field, numbers_of(field));
         }
+        constrain(space_, point_[0]);
         if (are_simpler(point_.values, before) && shows()) return true;
         point_.values = before;
         return false;

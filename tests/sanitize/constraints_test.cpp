@@ -1,0 +1,89 @@
+// A stated contract between inputs silences what only breaking it reaches, and nothing else.
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "sanitize_support.hpp"
+
+namespace gobo {
+namespace {
+
+struct Row {
+    std::string name;
+    std::string statement;  ///< in line 8, a trap unless the contract holds
+    std::string constraint;
+    std::string message;  ///< of the trap
+};
+
+std::ostream& operator<<(std::ostream& stream, const Row& row) {
+    return stream << row.name;
+}
+
+const Row kRows[] = {
+    {"less", "color.r = 1.0 / (far - near);", "near < far", "division by zero"},
+    {"less_smoothstep", "color.r = smoothstep(near, far, v.x);", "near < far",
+     "smoothstep() with equal edges"},
+    {"unit", "color.rgb = normalize(normal);", "unit(normal)", "normalize() of a zero vector"},
+    {"unit_length", "color.r = log(length(normal) + 0.001);", "unit(normal)", ""},
+    {"not_zero", "color.rgb = normalize(v);", "not_zero(v)", "normalize() of a zero vector"},
+    {"distinct", "color.r = v == normal ? 1.0 / (v.x - normal.x) : 0.0;", "distinct(v, normal)",
+     "division by zero"},
+    {"orthonormal", "color.rgb = normalize(tbn * vec3(0.0, 0.0, 1.0));", "orthonormal(tbn)",
+     "normalize() of a zero vector"},
+    {"inverse_transpose", "color.rgb = normalize(normalMatrix * vec3(1.0, 0.0, 0.0));",
+     "inverse_transpose_of(normalMatrix, modelView)", "normalize() of a zero vector"},
+    {"of_elements", "color.rgb = normalize(directions[1]);", "unit(directions[])",
+     "normalize() of a zero vector"},
+};
+
+std::string shader_with(const std::string& statement) {
+    return "#version 450\n"
+           "in vec3 v; in vec3 normal;\n"
+           "uniform float near; uniform float far; uniform vec3 directions[2];\n"
+           "uniform mat3 tbn; uniform mat3 normalMatrix; uniform mat4 modelView;\n"
+           "out vec4 color;\n"
+           "void main() {\n"
+           "    color = vec4(modelView[0].x * 1e-30 + normalMatrix[0].x * 1e-30);\n    " +
+           statement + "\n}\n";
+}
+
+Domain stated(const std::string& constraint) {
+    Domain domain;
+    domain.name = constraint;
+    return domain;
+}
+
+class Contract : public testing::TestWithParam<Row> {};
+
+TEST_P(Contract, SilencesWhatItExcludes) {
+    const std::string text = shader_with(GetParam().statement);
+    const Lines without = found_lines(sanitized_text("contract.frag", text, {}));
+    if (!GetParam().message.empty()) {
+        EXPECT_TRUE(without.contains("8: " + GetParam().message)) << text;
+    }
+    EXPECT_EQ(found_lines(sanitized_text("contract.frag", text, {}, {stated(GetParam().constraint)})),
+              Lines{});
+}
+
+/// A hazard that the contract says nothing of is found as before, and its input keeps the contract.
+TEST_P(Contract, LeavesWhatItSaysNothingOf) {
+    const std::string text = shader_with(
+        "color.r = 1.0 / v.x + 0.0 * (near + far + tbn[0].x + normal.x + "
+        "directions[0].x + directions[1].x);");
+    const auto report = sanitized_text("contract.frag", text, {}, {stated(GetParam().constraint)});
+    EXPECT_EQ(found_lines(report), Lines{"8: division by zero"});
+    EXPECT_EQ(not_replayed("contract.frag", text, report), Lines{});
+    const auto& point = report.findings.front().finding.point;
+    if (GetParam().constraint == "near < far") {
+        EXPECT_LT(point.uniforms.at("near").front(), point.uniforms.at("far").front());
+    }
+}
+
+std::string row_name(const testing::TestParamInfo<Row>& info) {
+    return info.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Contract, testing::ValuesIn(kRows), row_name);
+
+}  // namespace
+}  // namespace gobo
