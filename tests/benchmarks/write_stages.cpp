@@ -1,5 +1,5 @@
-// write_stages KEYS_FILE FOLDER: every distinct stage of those keys of lit as a file, as other compilers take
-// it.
+// write_stages KEYS_FILE FOLDER [includes]: every distinct stage of those keys of lit as a file, as other
+// compilers take it; with a third argument its pieces are files too, which it includes as glslc knows it.
 #include <cstdio>
 #include <string>
 
@@ -32,16 +32,30 @@ Result<Composition> compose_keys(const FileSystem& disk, const FileSystem& shipp
     return compose(*family, *keys, search, Dialect::glsl450);
 }
 
-Result<bool> write_stages(const std::string& keys_file, const std::string& folder) {
+/// The stage with a line for each piece behind its prologue.
+std::string including(const Composition& composition, const Stage& stage) {
+    std::string text = composition.piece(stage.pieces.front()).text;
+    text += "#extension GL_GOOGLE_include_directive : require\n";
+    for (std::size_t i = 1; i < stage.pieces.size(); ++i)
+        text += fmt::format("#include \"pieces/{}.glsl\"\n", stage.pieces[i]);
+    return text;
+}
+
+Result<bool> write_stages(const std::string& keys_file, const std::string& folder, bool includes) {
     DiskFileSystem disk;
     const MemoryFileSystem shipped(shipped_files());
     const Result<Composition> composition = compose_keys(disk, shipped, keys_file);
     if (!composition) return tl::unexpected(composition.error());
+    for (std::size_t i = 0; includes && i < composition->pieces.size(); ++i) {
+        const std::string path = fmt::format("{}/pieces/{}.glsl", folder, i);
+        if (const auto written = disk.write(path, composition->pieces[i].text); !written) return written;
+    }
     int number = 0;
     for (const Stage& stage : composition->stages) {
         const char* extension = stage.kind == StageKind::vertex ? "vert" : "frag";
         const std::string path = fmt::format("{}/{:04}.{}", folder, number++, extension);
-        const Result<bool> written = disk.write(path, source_of(*composition, stage));
+        const Result<bool> written =
+            disk.write(path, includes ? including(*composition, stage) : source_of(*composition, stage));
         if (!written) return written;
     }
     return true;
@@ -51,8 +65,8 @@ Result<bool> write_stages(const std::string& keys_file, const std::string& folde
 }  // namespace gobo
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
-    const auto written = gobo::write_stages(argv[1], argv[2]);
+    if (argc != 3 && argc != 4) return 2;
+    const auto written = gobo::write_stages(argv[1], argv[2], argc == 4);
     if (written) return 0;
     for (const gobo::Diagnostic& diagnostic : written.error())
         std::fputs(gobo::to_text(diagnostic, false).c_str(), stderr);

@@ -1,4 +1,11 @@
 // What libFuzzer kept and what it found, through the same code as it is shipped.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
@@ -26,6 +33,56 @@ TEST_P(Replay, EndsInAValueOrInErrors) {
         if (!other.empty()) other[other.size() / 2] ^= 0x10;
         GetParam().run(other);
     }
+}
+
+/// Bytes changed, repeated, left out and taken from other inputs.
+std::string mutated(const std::vector<std::string>& inputs, std::mt19937& random) {
+    const auto below = [&](std::size_t count) { return count == 0 ? 0 : random() % count; };
+    std::string input = inputs[below(inputs.size())];
+    for (std::size_t change = 1 + below(6); change > 0; --change) {
+        const std::size_t at = below(input.size() + 1);
+        const std::string& other = inputs[below(inputs.size())];
+        const std::size_t from = below(other.size() + 1);
+        switch (below(5)) {
+            case 0:
+                if (at < input.size()) input[at] = static_cast<char>(input[at] ^ (1 << below(8)));
+                break;
+            case 1:
+                input.erase(at, below(32));
+                break;
+            case 2:
+                input.insert(at, other.substr(from, below(64)));
+                break;
+            case 3:
+                input.insert(at, std::string(1 + below(200), "()[]{}!+,.#\"\\ \n\0\xff"[below(17)]));
+                break;
+            default:
+                if (at + 4 <= input.size())
+                    input.replace(at, 4, std::string(4, static_cast<char>(below(2) * 255)));
+        }
+    }
+    return input;
+}
+
+/// As many as a normal run has time for; more where GOBO_FUZZ_TRIES says so.
+TEST_P(Replay, EndsSoForMutantsToo) {
+    const DiskFileSystem disk;
+    const std::string folder = corpus + std::string(GetParam().name);
+    std::vector<std::string> inputs;
+    for (const std::string& file : disk.files_below(folder))
+        inputs.push_back(disk.read(folder + "/" + file).value());
+    ASSERT_FALSE(inputs.empty());
+    const char* const wanted = std::getenv("GOBO_FUZZ_TRIES");
+    const char* const seed = std::getenv("GOBO_FUZZ_SEED");
+    const int tries = wanted == nullptr ? 300 : std::atoi(wanted);
+    std::mt19937 random(seed == nullptr ? 1U : static_cast<unsigned>(std::atoi(seed)));
+    const std::string kept = testing::TempDir() + "gobo_fuzz_" + std::string(GetParam().name);
+    for (int i = 0; i < tries; ++i) {
+        const std::string input = mutated(inputs, random);
+        std::ofstream(kept, std::ios::binary) << input;  // where it ends this program
+        GetParam().run(input);
+    }
+    std::remove(kept.c_str());
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Replay, testing::ValuesIn(kTargets),

@@ -14,6 +14,7 @@ namespace gobo {
 [[nodiscard]] Command library_command();
 [[nodiscard]] Command cache_command();
 [[nodiscard]] Command watch_command();
+[[nodiscard]] Command merge_command();
 
 namespace titles {
 inline const Title kEval = {"eval", "Evaluate one invocation of a stage, in fp32 and fp64"};

@@ -1,6 +1,7 @@
 #include "gobo/input.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <sstream>
 
@@ -94,6 +95,23 @@ Result<T> without_subjects(Result<T> result) {
     if (!result)
         for (Diagnostic& error : result.error()) error.subject.clear();
     return result;
+}
+
+/// The I-th of every N keys, for "I/N". The parts of all I together hold each key once.
+Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
+    if (text.empty()) return keys;
+    std::size_t number = 0;
+    std::size_t count = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, number);
+    const bool is_pair = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = is_pair ? std::from_chars(first.ptr + 1, end, count) : first;
+    if (!is_pair || second.ec != std::errc() || second.ptr != end || number < 1 || number > count)
+        return fail(Fault::usage, fmt::format("'{}' is not a valid shard", text),
+                    "write its number and how many there are, such as 2/4");
+    std::vector<Key> part;
+    for (std::size_t i = number - 1; i < keys.size(); i += count) part.push_back(keys[i]);
+    return part;
 }
 
 /// How many keys are validated to make those of error messages simpler.
@@ -199,7 +217,9 @@ OptionGroup common_options(CommonOptions& options) {
           "A folder where results are kept for later runs; by default what GOBO_CACHE_DIR names, or none",
           &options.cache},
          {"--cache-size", "MB", "How much the cache may hold; what was used longest ago goes first",
-          &options.cache_megabytes, between(1, 1'000'000)}}};
+          &options.cache_megabytes, between(1, 1'000'000)},
+         {"--keep-stopped", "DIR", "Where to keep the texts of stages that crash glslang or take it too long",
+          &options.stopped}}};
 }
 
 Option family_argument(std::string& name) {
@@ -288,7 +308,8 @@ OptionGroup selection_options(SelectionOptions& options) {
              {"--where", "EXPR", "Condition on the keys, such as 'point <= 2 && fog != none'",
               &options.more.where},
              {"--excluded", "", "Let --all and --cover take values that the family excludes by default",
-              &options.more.excluded}}};
+              &options.more.excluded},
+             {"--shard", "I/N", "Of all these keys only every N-th, from the I-th on", &options.shard}}};
 }
 
 Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
@@ -310,8 +331,30 @@ Result<Selection> load_selection(const World& world, LoadedFamily& family, const
 Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                    const SelectionOptions& options) {
     GOBO_TRY(const Selection selection, load_selection(world, family, options));
-    return select(family.family, selection, name_of(family.dialect));
+    GOBO_TRY(std::vector<Key> keys, select(family.family, selection, name_of(family.dialect)));
+    return shard_of(std::move(keys), options.shard);
 }
+
+namespace {
+
+/// Keeps the texts that glslang stopped at where the user wants them, and says so.
+Diagnostics keep_stopped(const World& world, const std::string& family, const Validated& validated) {
+    Diagnostics notes;
+    for (std::size_t i = 0; i < validated.stopped.size(); ++i) {
+        const StoppedStage& stage = validated.stopped[i];
+        const std::string path =
+            fmt::format("{}/{}.{}.{}", world.options.stopped, family, i + 1, names_of(stage.kind).infix);
+        const Result<bool> written = world.disk.write(path, stage.text);
+        if (!written) return written.error();
+        Diagnostic& note = notes.emplace_back();
+        note.severity = Severity::note;
+        note.place = {path};
+        note.message = fmt::format("the text of the {} stage that stopped glslang", name_of(stage.kind));
+    }
+    return notes;
+}
+
+}  // namespace
 
 Result<Composition> compose_keys(const LoadedFamily& family, const std::vector<Key>& keys) {
     Result<Composition> composition =
@@ -334,6 +377,8 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, const 
     options.cache = world.cache;
     Validated validated = validate(family.family, composition, options);
     if (exit_status(validated.diagnostics) != 0) {
+        if (!world.options.stopped.empty())
+            append(validated.diagnostics, keep_stopped(world, family.family.name, validated));
         simplify_subjects(validated.diagnostics, family, options);
         return tl::unexpected(std::move(validated.diagnostics));
     }

@@ -26,6 +26,7 @@ struct CommonOptions {
     bool in_process = false;  ///< glslang runs in this process, not in children
     std::string cache;        ///< a folder; empty: as the environment says
     int cache_megabytes = 1024;
+    std::string stopped;  ///< a folder for the texts of stages that stop glslang; empty: they are not kept
 };
 [[nodiscard]] OptionGroup common_options(CommonOptions& options);
 
@@ -84,6 +85,7 @@ struct SelectionOptions {
     std::vector<std::string> key_files = {};
     std::vector<std::string> scenes = {};
     std::string bucket_lights = {};
+    std::string shard = {};
     Selection more = {};  ///< what needs no reading
 };
 [[nodiscard]] OptionGroup selection_options(SelectionOptions& options);
@@ -91,7 +93,7 @@ struct SelectionOptions {
 /// What the options select. Key files, scenes and their buffers that were read are added to `family.files`.
 [[nodiscard]] Result<Selection> load_selection(const World& world, LoadedFamily& family,
                                                const SelectionOptions& options);
-/// The selected keys.
+/// The selected keys; of a shard its own.
 [[nodiscard]] Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                                  const SelectionOptions& options);
 

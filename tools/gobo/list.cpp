@@ -125,7 +125,7 @@ Result<Outcome> run(const ListOptions& options, const World& world) {
         GOBO_TRY(const auto count, count_selected(family, selection, name_of(loaded.dialect)));
         return Outcome{count.text() + "\n"};
     }
-    GOBO_TRY(const auto keys, select(family, selection, name_of(loaded.dialect)));
+    GOBO_TRY(const auto keys, load_keys(world, loaded, options));
     if (!options.against.empty()) {
         GOBO_TRY(const auto built, keys_of_manifest(world, loaded, options.against));
         const Compared compared = compare(keys, built);

@@ -52,7 +52,8 @@ std::string reason_text(Death death, const ChildLimits& limits) {
     if (death == Death::crash) return "glslang crashes on";
     if (death == Death::killed) return "glslang was killed, perhaps for want of memory, on";
     if (death == Death::time)
-        return fmt::format("glslang takes more than {} s of processor time for", limits.processor_seconds);
+        return fmt::format("glslang takes more than {} s of processor time, or {} s by the clock, for",
+                           limits.processor_seconds, limits.wall_seconds);
     return fmt::format("glslang takes more than {} GB of memory for", limits.memory >> 30);
 }
 
@@ -230,20 +231,31 @@ class Validator {
             const int stage = note - 1;
             const std::string what =
                 fmt::format("{} the {} stage", reason, name_of(composition_.stage(stage).kind));
-            return given_up_.try_emplace(note, fail(template_of(stage), "", what, help).value()).second;
+            const bool is_new =
+                given_up_.try_emplace(note, fail(template_of(stage), "", what, help).value()).second;
+            if (is_new) keep_stopped(stage);
+            return is_new;
         }
         if (note < 0) {
             const auto program = static_cast<std::size_t>(-1 - note);
             const std::string what = fmt::format("{} linking the stages", reason);
-            return given_up_
-                .try_emplace(note, fail(template_of(work_[program].back()), "", what, help).value())
-                .second;
+            const bool is_new =
+                given_up_.try_emplace(note, fail(template_of(work_[program].back()), "", what, help).value())
+                    .second;
+            for (const int stage : work_[program])
+                if (is_new) keep_stopped(stage);
+            return is_new;
         }
         const Diagnostics fault = fail(Fault::internal, "a child process died between two stages").value();
         for (const int stage : batches_[batch].own) of_stage(stage).diagnostics = fault;
         for (const std::size_t work : batches_[batch].programs)
             if (!is_alone(work)) of_programs_[numbers_of_work_[work]] = fault;
         return false;
+    }
+
+    void keep_stopped(int stage) {
+        const Stage& stopped = composition_.stage(stage);
+        validated_.stopped.push_back({stopped.kind, source_of(composition_, stopped)});
     }
 
     [[nodiscard]] OfStage& of_stage(int stage) { return of_stages_[static_cast<std::size_t>(stage)]; }
@@ -280,7 +292,7 @@ class Validator {
 
     const Composition& composition_;
     const ValidateOptions& options_;
-    const ChildLimits limits_;
+    const ChildLimits limits_{.wall_seconds = 120};
     /// The distinct ones, in the order in which the permutations first need them.
     std::vector<Program> programs_;
     std::map<StageNumbers, std::size_t> numbers_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -25,10 +26,17 @@ struct ValidatedStage {
     Diagnostics diagnostics;  ///< what glslang lets pass within this stage: warnings
 };
 
+/// The text of a stage that crashed glslang, or took it too much time or memory.
+struct StoppedStage {
+    StageKind kind = StageKind::vertex;
+    std::string text;
+};
+
 /// The stages in the order of Composition::stages.
 struct Validated {
     std::vector<ValidatedStage> stages;  ///< those of failed permutations are empty
     Diagnostics diagnostics;             ///< errors and warnings, grouped over permutations
+    std::vector<StoppedStage> stopped;
     std::size_t compiled = 0;  ///< how many stages went through glslang; the others were in the cache
 
     [[nodiscard]] const ValidatedStage& stage(int number) const {

@@ -2,7 +2,6 @@
 // the renderer draws with the evaluation, pixel by pixel.
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -22,24 +21,10 @@ namespace {
 
 struct TestOptions : SelectionOptions {
     std::string folder;  ///< for the worst points of keys that fail; empty: they are not kept
-    std::string shard;
     std::string figures_file;
     bool render = false;
     std::string backend = "osmesa";
 };
-
-/// The I-th of every N keys, for "I/N". The parts of all I together hold each key once.
-Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
-    if (text.empty()) return keys;
-    const std::string help = "write its number and how many there are, such as 2/4";
-    GOBO_TRY(const auto shard, read_pair(text, '/', std::numeric_limits<int>::max(), "shard", help));
-    const auto [number, count] = shard;
-    if (number > count) return fail(Fault::usage, fmt::format("'{}' is not a valid shard", text), help);
-    std::vector<Key> part;
-    for (auto i = static_cast<std::size_t>(number) - 1; i < keys.size(); i += static_cast<std::size_t>(count))
-        part.push_back(keys[i]);
-    return part;
-}
 
 /// A file name of letters, digits and '_' for a key.
 std::string file_name(const std::string& key, StageKind stage, const std::string& point) {
@@ -277,10 +262,16 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
     return outcome;
 }
 
+/// The figures, and which shard's they are: gobo merge takes that out again.
+std::string figures_of_shard(std::string figures, const std::string& shard) {
+    constexpr std::string_view first_member = "{\n";
+    if (!shard.empty()) figures.insert(first_member.size(), fmt::format(" \"shard\": \"{}\",\n", shard));
+    return figures;
+}
+
 Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family));
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
-    GOBO_TRY(keys, shard_of(std::move(keys), options.shard));
     verify::VerifyOptions verify_options;
     if (!options.render) {  // behind the keys stand those that relations compare them with
         const auto partners = verify::partners(family.family, keys, name_of(family.dialect));
@@ -306,7 +297,8 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     Diagnostics diagnostics = report_failures(world, options, family.family, report);
     if (!options.figures_file.empty()) {
         const auto written =
-            world.disk.write(options.figures_file, verify::figures_json(family.family, report));
+            world.disk.write(options.figures_file,
+                             figures_of_shard(verify::figures_json(family.family, report), options.shard));
         if (!written) append(diagnostics, written.error());
     }
     return Outcome{
@@ -323,7 +315,6 @@ Command test_command() {
             {family_argument(options->family),
              keep_option(options->folder,
                          "the worst points of keys that fail, as inputs of gobo eval, or their pictures,"),
-             {"--shard", "I/N", "Only every N-th key, from the I-th on", &options->shard},
              {"--render", "", "Draw every key instead, 64 x 64, and compare each pixel with the evaluation",
               &options->render},
              {"--figures",
