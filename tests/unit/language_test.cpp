@@ -167,6 +167,10 @@ const Row taken[] = {
     row("case_of_uint_400", "400",
         "out vec4 c;\nvoid main() { c = vec4(1.0); uint i = 1u; switch (i) { case 0: break; } }\n", ""),
     row("a_name_called_flat_of_members", "450", with_main("struct S { float smoothness; };\n"), ""),
+    row("macros_that_gobo_has_too", "330 core",
+        "#define SAMPLER(n) uniform sampler2D n\n#define BLOCK 16\n#define OUTPUT out\nSAMPLER(map);\n"
+        "OUTPUT vec4 c;\nvoid main() { c = texture(map, vec2(BLOCK)); }\n",
+        ""),
     row("depth_range", "330 core", with_main("", "gl_DepthRange.diff + gl_DepthRange.near"), ""),
     row("depth_range_in_es", "300 es",
         with_main("float f(gl_DepthRangeParameters r) { return r.far; }\n", "f(gl_DepthRange)"), ""),
@@ -275,6 +279,16 @@ const StagesRow stages[] = {
      "430",
      {{StageKind::compute, "layout(local_size_x = 64, local_size_y = 32) in;\nvoid main() {}\n"}},
      "tiny.comp:2: error: invocations of a work group: 2048, OpenGL guarantees only 1024"},
+    {"interpolation_before_a_macro_and_a_layout",
+     "430",
+     {{StageKind::vertex,
+       "#define INTERFACE(n) layout(location = n) out\nflat INTERFACE(1) int a;\n"
+       "flat layout(location = 2) out int b;\n"
+       "void main() { a = b = 1; gl_Position = vec4(0.0); }\n"},
+      {StageKind::fragment,
+       "layout(location = 1) flat in int a;\nflat layout(location = 2) in int b;\nout vec4 c;\n"
+       "void main() { c = vec4(a + b); }\n"}},
+     ""},
     {"storage_binding",
      "430",
      {{StageKind::compute,

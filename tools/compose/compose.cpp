@@ -1,6 +1,7 @@
 #include "compose/compose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -50,8 +51,22 @@ class Composer {
         if (placement.placed.empty()) return -1;
         const bool is_fragment = placement.stage == StageKind::fragment;
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
+        // What the shaders define themselves means what they say, though gobo's pieces use the same word.
+        const auto defines = [&](std::string_view name) {
+            return std::ranges::any_of(placement.placed, [&](int piece) {
+                const Source* source = library_.source_of(piece);
+                return source != nullptr &&
+                       std::ranges::any_of(source->directives, [&](const Directive& found) {
+                           return found.word == "define" && macro_name(found.rest) == name;
+                       });
+            });
+        };
+        constexpr std::array<std::string_view, 6> own = {"BLOCK",  "VARYING", "ATTRIBUTE",
+                                                         "OUTPUT", "SAMPLER", "DEPTH"};
         const auto mentions = [&](std::string_view name) {
-            return (declares && name == "VARYING") || library_.mentions(placement.placed, name);
+            if (declares && name == "VARYING") return true;
+            return library_.mentions(placement.placed, name) &&
+                   (std::ranges::find(own, name) == own.end() || !defines(name));
         };
         Piece prologue{"prologue", "prologue",
                        stage_prologue(family_, composition_.dialect, placement, mentions), false};

@@ -292,8 +292,11 @@ class LanguageCheck {
     /// `flat vec3 v;`, which is neither in nor out.
     void check_interpolation(std::size_t begin, std::size_t end) {
         std::size_t qualifier = end;
+        int brackets = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            if (at(i) == "{" || at(i) == "=") break;
+            if (at(i) == "(") ++brackets;
+            if (at(i) == ")") --brackets;
+            if (brackets == 0 && (at(i) == "{" || at(i) == "=")) break;
             if (is_macro(i)) return;  // it may stand for what is looked for
             if (is_any(at(i), {"in", "out", "varying", "invariant", "precise"})) return;
             if (is_any(at(i), {"flat", "smooth", "noperspective", "centroid"}) && i + 2 < end &&
