@@ -60,7 +60,7 @@ Taint::Taint(const evaluate::Program& program) : program_(program), states_(prog
     for (std::size_t i = 0; i < program.variables.size(); ++i) causes_.push_back({Cause::Kind::unwritten, i});
     for (std::size_t i = 0; i < program.undefined.size(); ++i) causes_.push_back({Cause::Kind::no_return, i});
     causes_.push_back({Cause::Kind::constant, 0});
-    fixed_causes_ = causes_.size();
+    fixed_causes_ = static_cast<CauseId>(causes_.size());
     first_uses_.resize(fixed_causes_);
 }
 
@@ -130,7 +130,7 @@ void Taint::mark(const Step& step, Lanes lanes, const Cause& cause) {
     const std::uint32_t count = is_address ? 1 : result.count;
     for (std::uint32_t at = first; at < first + count; ++at) {
         State state{lanes, 0, id, 0};
-        state.add(states_[at]);
+        state.add(states_[at], fixed_causes_);
         states_[at] = state;
     }
 }
@@ -142,7 +142,7 @@ Taint::CauseId Taint::id_of(const Cause& cause) {
     return static_cast<CauseId>(causes_.size() - 1);
 }
 
-void Taint::State::add(const State& more) {
+void Taint::State::add(const State& more, CauseId told) {
     if (lanes == 0) {
         *this = more;
         return;
@@ -152,8 +152,8 @@ void Taint::State::add(const State& more) {
     lanes |= fresh;
     const auto join = [&](Lanes some, CauseId id) {
         if (some == 0 || id == cause) return;
+        if (others == 0 || other_cause < told) other_cause = id;
         others |= some;
-        other_cause = id;
     };
     join(fresh & ~more.others, more.cause);
     join(fresh & more.others, more.other_cause);
@@ -203,7 +203,7 @@ void Taint::copy(std::uint32_t to, std::uint32_t from, std::uint32_t count, Lane
     if (to == from) return;
     for (std::uint32_t i = 0; i < count; ++i) {
         State state = states_[from + i].within(lanes);
-        state.add(states_[to + i].within(~lanes));
+        state.add(states_[to + i].within(~lanes), fixed_causes_);
         states_[to + i] = state;
     }
 }
@@ -216,9 +216,9 @@ void Taint::gather(const Step& step, const Operation& operation) {
             if (!has(step.lanes, lane)) continue;
             const State& from =
                 states_[address(step, operation.operands[0], operation.operands[1], lane) + component];
-            result.add(from.within(Lanes{1} << lane));
+            result.add(from.within(Lanes{1} << lane), fixed_causes_);
         }
-        result.add(offset.within(step.lanes));
+        result.add(offset.within(step.lanes), fixed_causes_);
         scratch_.push_back(result);
     }
     std::copy(scratch_.begin(), scratch_.end(), states_.begin() + operation.result);
@@ -244,8 +244,8 @@ void Taint::select(const Step& step, const Operation& operation) {
         const State& first = states_[operation.operands[1] + i];
         const State& second = states_[operation.operands[2] + i];
         State result = first.within(holds);
-        result.add(second.within(~holds));
-        result.add(asked);
+        result.add(second.within(~holds), fixed_causes_);
+        result.add(asked, fixed_causes_);
         used |= asked.lanes;
         scratch_.push_back(result);
     }
@@ -258,7 +258,7 @@ void Taint::compute_address(const Operation& operation, const Step& step) {
     const std::uint32_t before = program_.words[operation.extra];
     State result = before == 0 ? State{} : states_[before - 1];
     for (const Slice& operand : step.info().operands) {
-        result.add(states_[operand.slot]);
+        result.add(states_[operand.slot], fixed_causes_);
     }
     if ((result.lanes & step.lanes) != 0) note_use(step, result.lanes & step.lanes);
     states_[operation.result] = result;
@@ -284,7 +284,7 @@ void Taint::compute(const Step& step) {
             const bool is_single = is_by_component && (operand.count == count || has_two_results);
             const std::uint32_t first = is_single ? i % operand.count : 0;
             for (std::uint32_t c = first; c < (is_single ? first + 1 : operand.count); ++c) {
-                result.add(states_[operand.slot + c]);
+                result.add(states_[operand.slot + c], fixed_causes_);
             }
         }
         scratch_.push_back(result);

@@ -70,7 +70,8 @@ class Taint {
     [[nodiscard]] Lanes conditions(const evaluate::Step<float>& step, const evaluate::Slice& condition,
                                    std::uint32_t component) const;
 
-    /// What is known of a slot: lanes of one cause, and others of a second. A third counts as the second.
+    /// What is known of a slot: lanes of one cause, and others of a second. A third counts as the second,
+    /// unless only that one has been told of already: a trap is never taken for a value that nobody wrote.
     struct State {
         Lanes lanes = 0;
         Lanes others = 0;  ///< of `lanes`, those of the other cause
@@ -84,15 +85,15 @@ class Taint {
             if ((lanes & some & ~others) == 0) return {lanes & some, 0, other_cause, 0};  // room for another
             return {lanes & some, others & some, cause, other_cause};
         }
-        /// Adds the lanes that are not known yet.
-        void add(const State& more);
+        /// Adds the lanes that are not known yet. Causes from `told` on are traps.
+        void add(const State& more, CauseId told);
     };
     const evaluate::Program& program_;
     std::vector<State> states_;   ///< of each slot
     std::vector<State> scratch_;  ///< an operation's result may share slots with its operands
     Lanes used_ = 0;
-    std::vector<Cause> causes_;     ///< by id; 0 is none
-    std::size_t fixed_causes_ = 0;  ///< ids below are of variables, undefined values and constants
+    std::vector<Cause> causes_;  ///< by id; 0 is none
+    CauseId fixed_causes_ = 0;   ///< ids below are of variables, undefined values and constants
     std::vector<std::vector<std::uint32_t>> first_uses_;  ///< by id: of each lane an operation plus 1, or 0
 };
 
