@@ -2,7 +2,8 @@
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
 #                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
-#                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300] [COMMENTS] [LIBRARY folder])
+#                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300|vulkan|gl_spirv]
+#                       [OPTIMIZE] [DEBUG] [COMMENTS] [LIBRARY folder])
 #
 # Has gobo write the header of the selected permutations and puts it on the include path of TARGET (or of what TARGET is an
 # alias of): of it alone (PRIVATE), of those who link it too (PUBLIC), or of those alone (INTERFACE). By default an executable's
@@ -10,7 +11,8 @@
 # "engine/shaders.hpp". FAMILY is a shipped name or a .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
 # pieces before the family's own. LIBRARY holds shader_lib and templates, by default those that came with gobo.
 #
-# The shaders' comments stay out of the header unless COMMENTS is given.
+# The shaders' comments stay out of the header unless COMMENTS is given. DIALECT vulkan and gl_spirv put SPIR-V into it: OPTIMIZE makes
+# that faster, DEBUG keeps names and lines in it.
 #
 # MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
 # choose by, by default the study that came with the family.
@@ -27,7 +29,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;PRIVATE;PUBLIC;INTERFACE"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;OPTIMIZE;DEBUG;PRIVATE;PUBLIC;INTERFACE"
                         "FAMILY;HEADER;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
@@ -195,7 +197,7 @@ function(_gobo_command_line arguments_variable inputs_variable)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
   endforeach()
-  foreach(option ALL EXCLUDED COMMENTS)
+  foreach(option ALL EXCLUDED COMMENTS OPTIMIZE DEBUG)
     if(arg_${option})
       string(TOLOWER "--${option}" flag)
       list(APPEND arguments ${flag})

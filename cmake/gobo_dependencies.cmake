@@ -2,6 +2,7 @@
 find_package(Threads REQUIRED)  # before glslang, whose package file forgets to ask for it
 find_package(glslang REQUIRED CONFIG)
 find_package(SPIRV-Tools REQUIRED CONFIG)
+find_package(SPIRV-Tools-opt REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
 find_package(tomlplusplus REQUIRED CONFIG)
 find_path(GOBO_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)

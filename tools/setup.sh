@@ -6,7 +6,7 @@ packages=(
   ca-certificates g++ clang cmake make ninja-build ccache git dpkg-dev file
   libexpected-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libxxhash-dev libglm-dev
   glslang-dev glslang-tools spirv-tools spirv-headers spirv-cross glslc
-  libosmesa6 libegl1 libgl1-mesa-dri libvulkan-dev mesa-vulkan-drivers libtinyobjloader-dev libopenexr-dev liblodepng-dev libjpeg62-turbo-dev
+  libosmesa6 libegl1 libgl1-mesa-dri libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers libtinyobjloader-dev libopenexr-dev liblodepng-dev libjpeg62-turbo-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   libglfw3-dev libgl1 libglx-mesa0 xvfb xdotool
 )

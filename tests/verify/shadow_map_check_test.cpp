@@ -47,7 +47,9 @@ verify::ShadowMapReport compare(const verify::ShadowPass& drawn, const verify::S
     const glm::dmat4 view = demo_camera().view();
     const ShadowMaps maps = draw_shadow_maps(context, drawn.pass, lights(), objects, view).value();
     const ShadowPlan plan = shadow_plan(lights(), objects, view, evaluated.pass.side);
-    return verify::compare_shadow_maps(maps, evaluated, plan.cameras, objects);
+    std::vector<Image> layers;
+    for (std::size_t i = 0; i < plan.cameras.size(); ++i) layers.push_back(maps.layer(static_cast<int>(i)));
+    return verify::compare_shadow_maps(layers, evaluated, plan.cameras, objects);
 }
 
 TEST(ShadowMapCheck, PassesWhatAgrees) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "compose/placing.hpp"
+#include "compose/specialized_counts.hpp"
 #include "compose/stage_prologue.hpp"
 #include "compose/varyings.hpp"
 #include "family/key.hpp"
@@ -19,10 +20,10 @@ class Composer {
   public:
     Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments)
         : family_(family),
+          composition_(composition_for(dialect)),
           library_(family, search, comments, composition_),
-          placer_(family, library_, composition_) {
-        composition_.dialect = dialect;
-    }
+          placer_(family, library_, composition_),
+          specializer_(family, dialect) {}
 
     Result<void> add(const Key& key) {
         // The fragment stage comes first: the vertex stage writes what it reads.
@@ -30,24 +31,41 @@ class Composer {
         GOBO_TRY_DO(placer_.follow_templates(fragment));
         const std::vector<int> read = varyings_read(family_, library_, fragment.placed);
         Permutation permutation{key};
+        std::vector<Placement> placements;
         for (const StageNames& stage : kStages) {
-            Placement placement{key, stage.kind, stage.kind == StageKind::vertex ? &read : nullptr};
-            const bool is_fragment = stage.kind == StageKind::fragment;
-            if (!is_fragment) GOBO_TRY_DO(placer_.follow_templates(placement));
-            permutation.stages[stage.kind] = finish(is_fragment ? fragment : placement, read);
+            if (stage.kind == StageKind::fragment) {
+                placements.push_back(std::move(fragment));
+                continue;
+            }
+            const std::vector<int>* const written = stage.kind == StageKind::vertex ? &read : nullptr;
+            placements.push_back(Placement{key, stage.kind, written});
+            GOBO_TRY_DO(placer_.follow_templates(placements.back()));
         }
+        GOBO_TRY(const auto specialized, specializer_.in_stages(key, placements, read, library_));
+        for (const auto& [feature, id] : specialized)
+            permutation.specialized.push_back({id, family_.features[feature].lowest + key[feature]});
+        for (const Placement& placement : placements)
+            permutation.stages[placement.stage] = finish(placement, read, specialized);
         composition_.permutations.push_back(std::move(permutation));
         return {};
     }
 
     Composition result() && {
         library_.add_warnings();
+        composition_.notes = specializer_.notes();
         return std::move(composition_);
     }
 
   private:
+    static Composition composition_for(Dialect dialect) {
+        Composition composition;
+        composition.dialect = dialect;
+        return composition;
+    }
+
     /// Puts the prologue in front and gives the stage its number; equal lists are the same stage.
-    int finish(const Placement& placement, const std::vector<int>& read) {
+    int finish(const Placement& placement, const std::vector<int>& read,
+               const std::map<int, int>& specialized) {
         if (placement.placed.empty()) return -1;
         const bool is_fragment = placement.stage == StageKind::fragment;
         const bool declares = !read.empty() && (is_fragment || placement.wants_varyings);
@@ -68,8 +86,9 @@ class Composer {
             return library_.mentions(placement.placed, name) &&
                    (std::ranges::find(own, name) == own.end() || !defines(name));
         };
-        Piece prologue{"prologue", "prologue",
-                       stage_prologue(family_, composition_.dialect, placement, mentions), false};
+        Piece prologue{
+            "prologue", "prologue",
+            stage_prologue(family_, composition_.dialect, placement, mentions, library_, specialized), false};
         for (const auto& [name, extension] : placement.extensions) {
             const auto at =
                 prologue.text.begin() +
@@ -104,6 +123,7 @@ class Composer {
     Composition composition_;
     PieceLibrary library_;
     Placer placer_;
+    CountSpecializer specializer_;
     std::map<std::pair<StageKind, std::vector<int>>, int> numbers_;  ///< one file may be both templates
 };
 

@@ -14,11 +14,18 @@ namespace gobo {
 
 /// The GLSL dialect that a permutation is composed for.
 enum class Dialect {
-    own,      ///< the #version that the family's templates state themselves; 450 where they state none
-    glsl450,  ///< desktop OpenGL 4.5
-    glsl330,  ///< desktop OpenGL 3.3
-    es300,    ///< OpenGL ES 3.0 and WebGL 2
+    own,       ///< the #version that the family's templates state themselves; 450 where they state none
+    glsl450,   ///< desktop OpenGL 4.5
+    glsl330,   ///< desktop OpenGL 3.3
+    es300,     ///< OpenGL ES 3.0 and WebGL 2
+    vulkan,    ///< GLSL 4.50 for Vulkan, shipped as SPIR-V
+    gl_spirv,  ///< the same text as glsl450, shipped as SPIR-V for OpenGL 4.6
 };
+
+/// Whether headers hold the stages' SPIR-V instead of their texts.
+[[nodiscard]] inline bool is_spirv(Dialect dialect) {
+    return dialect == Dialect::vulkan || dialect == Dialect::gl_spirv;
+}
 
 /// Whether a composition's texts keep the comments of the files. Lines and columns are the same either way.
 enum class Comments { remove, keep };
@@ -51,10 +58,19 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
+/// A count that is a specialisation constant of a permutation's stages.
+struct SpecializedCount {
+    int id = 0;     ///< the constant_id
+    int value = 0;  ///< the permutation's
+
+    friend bool operator==(const SpecializedCount&, const SpecializedCount&) = default;
+};
+
 /// A canonical key with its stages.
 struct Permutation {
     Key key;
     StageNumbers stages = {};  ///< indices into Composition::stages
+    std::vector<SpecializedCount> specialized = {};
 };
 
 /// The permutations of one family, with every distinct piece and stage once.
@@ -67,6 +83,7 @@ struct Composition {
     /// dialects' text cannot carry them.
     std::map<std::string, int> stated_bindings;
     Diagnostics warnings;  ///< of the pieces, by path and line
+    Diagnostics notes;     ///< why keys keep counts as literals that the family wants specialised
     Dialect dialect = Dialect::own;
 
     [[nodiscard]] const Piece& piece(int number) const { return pieces[static_cast<std::size_t>(number)]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@ struct Macro {
     std::string_view glsl450;
     std::string_view glsl330;
     std::string_view es300;
+    std::string_view vulkan;
 };
 
 constexpr std::string_view kBoundBlock = "layout(std140, binding = binding_) uniform name_";
@@ -27,14 +29,17 @@ constexpr std::string_view kBoundSampler = "layout(binding = binding_) uniform t
 constexpr std::string_view kInput = "layout(location = location_) in";
 constexpr std::string_view kOutput = "layout(location = location_) out";
 constexpr std::string_view kDepth = "layout(qualifier_)";
+// Places are macros of the prologue: by the block's name, by the sampler's number.
+constexpr std::string_view kPlacedBlock = "layout(std140, PLACE_##name_) uniform name_";
+constexpr std::string_view kPlacedSampler = "layout(PLACE_OF_SAMPLER_##binding_) uniform type_";
 constexpr Macro kMacros[] = {
-    {"BLOCK", "binding_, name_", {}, kBoundBlock, kPlainBlock, kPlainBlock},
-    {"VARYING", "location_", StageKind::vertex, kOutput, "out", "out"},
-    {"VARYING", "location_", StageKind::fragment, kInput, "in", "in"},
-    {"ATTRIBUTE", "location_", {}, kInput, kInput, kInput},
-    {"OUTPUT", "location_", {}, kOutput, kOutput, kOutput},
-    {"SAMPLER", "binding_, type_", {}, kBoundSampler, "uniform type_", "uniform highp type_"},
-    {"DEPTH", "qualifier_", {}, kDepth, kDepth, kDepth},
+    {"BLOCK", "binding_, name_", {}, kBoundBlock, kPlainBlock, kPlainBlock, kPlacedBlock},
+    {"VARYING", "location_", StageKind::vertex, kOutput, "out", "out", kOutput},
+    {"VARYING", "location_", StageKind::fragment, kInput, "in", "in", kInput},
+    {"ATTRIBUTE", "location_", {}, kInput, kInput, kInput, kInput},
+    {"OUTPUT", "location_", {}, kOutput, kOutput, kOutput, kOutput},
+    {"SAMPLER", "binding_, type_", {}, kBoundSampler, "uniform type_", "uniform highp type_", kPlacedSampler},
+    {"DEPTH", "qualifier_", {}, kDepth, kDepth, kDepth, kDepth},
 };
 
 struct DialectRow {
@@ -48,6 +53,8 @@ constexpr DialectRow kDialects[] = {
     {Dialect::glsl450, "450", "450 core", &Macro::glsl450},
     {Dialect::glsl330, "330", "330 core", &Macro::glsl330},
     {Dialect::es300, "es300", "300 es", &Macro::es300},
+    {Dialect::vulkan, "vulkan", "450", &Macro::vulkan},
+    {Dialect::gl_spirv, "gl_spirv", "450 core", &Macro::glsl450},
 };
 
 /// That of Dialect::own is 450's.
@@ -58,7 +65,7 @@ const DialectRow& row_of(Dialect dialect) {
 
 /// The extension that the DEPTH macro's qualifiers need before 4.2, where they became core.
 std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
-    if (dialect == Dialect::glsl450 || !mentions("DEPTH")) return "";
+    if (dialect == Dialect::glsl450 || is_spirv(dialect) || !mentions("DEPTH")) return "";
     if (mentions("early_fragment_tests")) return "GL_ARB_shader_image_load_store";
     return dialect == Dialect::es300 ? "GL_EXT_conservative_depth" : "GL_ARB_conservative_depth";
 }
@@ -74,6 +81,23 @@ Dialect spelling_of(std::string_view version_line) {
 
 std::string_view name_of(Dialect dialect) {
     return row_of(dialect).name;
+}
+
+std::string dialect_words() {
+    std::vector<std::string> words;
+    for (const DialectRow& row : kDialects) words.emplace_back(row.name);
+    return join(words, "|");
+}
+
+DescriptorPlace descriptor_place(const Family& family, std::string name, int number, bool is_sampler) {
+    for (std::size_t set = 0; set < family.descriptor_sets.size(); ++set) {
+        const std::vector<std::string>& holds = family.descriptor_sets[set].holds;
+        const auto found = std::ranges::find(holds, name);
+        if (found != holds.end())
+            return {std::move(name), number, is_sampler, static_cast<int>(set),
+                    static_cast<int>(found - holds.begin())};
+    }
+    return {std::move(name), number, is_sampler, 0, number};
 }
 
 std::optional<Dialect> dialect_of(std::string_view name) {
@@ -107,7 +131,8 @@ bool add_extension(Extensions& extensions, const std::string& name, Extension ex
 }
 
 std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
-                             Extensions extensions, const Mentions& mentions) {
+                             Extensions extensions, const Mentions& mentions,
+                             const std::vector<DescriptorPlace>& places) {
     const bool is_own = dialect == Dialect::own && !own_version.empty();
     std::string text = fmt::format("#version {}\n", is_own ? own_version : row_of(dialect).version);
     const DialectRow& row = row_of(is_own ? spelling_of(text) : dialect);
@@ -118,6 +143,13 @@ std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view 
     for (const auto& [name, extension] : extensions)
         text += fmt::format("#extension {} : {}\n", name, extension.behavior);
     if (dialect == Dialect::es300) text += "precision highp float;\nprecision highp int;\n";
+    std::set<std::string> defined;  // two samplers may state one number: their places are compared later
+    for (const DescriptorPlace& place : places) {
+        const std::string macro = place.is_sampler ? fmt::format("PLACE_OF_SAMPLER_{}", place.number)
+                                                   : fmt::format("PLACE_{}", place.name);
+        if (dialect == Dialect::vulkan && defined.insert(macro).second)
+            text += fmt::format("#define {} set = {}, binding = {}\n", macro, place.set, place.binding);
+    }
     for (const Macro& macro : kMacros)
         if (macro.stage.value_or(stage) == stage && mentions(macro.name))
             text += fmt::format("#define {}({}) {}\n", macro.name, macro.parameters, macro.*row.spelling);

@@ -6,6 +6,7 @@
 
 #include "compose/conditions.hpp"
 #include "compose/piece_marks.hpp"
+#include "compose/specialized_counts.hpp"
 #include "compose/subroutines.hpp"
 #include "core/text.hpp"
 
@@ -29,20 +30,28 @@ const Feature* feature_defined_by(const Directive& directive, const Family& fami
 
 PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, Comments comments,
                            Composition& composition)
-    : family_(family), search_(search), comments_(comments), composition_(composition) {
+    : family_(family),
+      search_(search),
+      comments_(comments),
+      composition_(composition),
+      specialized_(specialized_counts(family, composition.dialect)),
+      is_vulkan_(composition.dialect == Dialect::vulkan) {
     for (const Feature& feature : family.features) {
         if (!feature.macro.empty()) interest_.push_back(feature.macro);
         if (!feature.substituted.empty()) has_substitutions_ = true;
         if (feature.kind == FeatureKind::choice) chosen_functions_.insert(feature.macro);
     }
     for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
-    if (!family.substitutions.empty() || family.compatibility) has_substitutions_ = true;
+    if (!family.substitutions.empty() || family.compatibility || is_vulkan_) has_substitutions_ = true;
     if (family.compatibility) interest_.insert(interest_.end(), legacy_names().begin(), legacy_names().end());
 }
 
 void PieceLibrary::substitute_for(const Key& key, StageKind stage) {
     if (!has_substitutions_) return;
     substitutions_ = substitutions_of(family_, key, stage);
+    if (is_vulkan_ && stage == StageKind::vertex)
+        substitutions_.insert(substitutions_.end(),
+                              {{"gl_VertexID", "gl_VertexIndex"}, {"gl_InstanceID", "gl_InstanceIndex"}});
     const auto next = static_cast<int>(variants_.size());
     variant_ = variants_.try_emplace(substitutions_, next).first->second;
 }
@@ -75,6 +84,15 @@ int PieceLibrary::round(int piece, const LoopHead& head, int index) {
 void PieceLibrary::add_warnings() {
     for (const auto& [path, warning] : heads_)
         if (warning) composition_.warnings.push_back(*warning);
+}
+
+std::vector<StatedBinding> PieceLibrary::bindings(const std::vector<int>& pieces) const {
+    std::map<std::string, StatedBinding> by_name;
+    for (const int piece : pieces)
+        for (const StatedBinding& stated : entry(piece).bindings) by_name.try_emplace(stated.name, stated);
+    std::vector<StatedBinding> sorted;
+    for (auto& [name, stated] : by_name) sorted.push_back(std::move(stated));
+    return sorted;
 }
 
 int PieceLibrary::add(Piece piece, Entry entry) {
@@ -126,6 +144,10 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
     source.version_line = std::move(scanned.version_line);
     source.includes = std::move(scanned.includes);
     source.directives = std::move(scanned.directives);
+    for (std::size_t i = 0; i < source.directives.size(); ++i)
+        for (const auto& [feature, id] : specialized_)
+            if (identifiers_of(source.directives[i].rest).contains(family_.features[feature].macro))
+                source.asks_for_counts.emplace_back(feature, i);
     source.extensions = std::move(scanned.extensions);
     source.is_once = scanned.is_once;
     source.guard = std::move(scanned.guard);
@@ -147,7 +169,9 @@ void PieceLibrary::note_head(const Piece& piece) {
 }
 
 void PieceLibrary::add_pieces(Source& source, const Piece& file, const ScannedPiece& scanned) {
-    std::string_view text = comments_ == Comments::keep ? scanned.text : scanned.code;
+    const std::string asking =
+        with_largest_counts(comments_ == Comments::keep ? scanned.text : scanned.code, family_, specialized_);
+    std::string_view text = asking;
     std::string_view code = scanned.code;
     int line = 1;  // the first of what is left
     const auto add_up_to = [&](int last) {
@@ -160,6 +184,7 @@ void PieceLibrary::add_pieces(Source& source, const Piece& file, const ScannedPi
         Entry entry{{}, &source};
         for (const std::string& identifier : interest_)
             entry.mentions.push_back(identifiers.contains(identifier) ? 1 : 0);
+        if (is_vulkan_) entry.bindings = stated_bindings(code.substr(0, code_size));
         source.pieces.push_back(add(std::move(piece), std::move(entry)));
         text.remove_prefix(size);
         code.remove_prefix(code_size);

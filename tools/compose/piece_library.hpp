@@ -43,6 +43,8 @@ struct Source {
     Extensions extensions;
     bool is_once = false;
     std::string guard;
+    /// Directives, by number, that mention a count which is to be specialised, by feature.
+    std::vector<std::pair<int, std::size_t>> asks_for_counts;
     /// Whatever the macros are: one piece, its extensions under no condition, no macro of a feature defined.
     bool is_fixed = true;
 };
@@ -85,11 +87,15 @@ class PieceLibrary {
                std::ranges::any_of(pieces, [&](int piece) { return entry(piece).mentions[index] != 0; });
     }
 
+    /// What the pieces declare by BLOCK and SAMPLER, sorted by name; for Vulkan alone.
+    [[nodiscard]] std::vector<StatedBinding> bindings(const std::vector<int>& pieces) const;
+
   private:
     /// What the composer asks of a piece.
     struct Entry {
         std::vector<char> mentions;  ///< per identifier of interest
         const Source* source;
+        std::vector<StatedBinding> bindings = {};  ///< for Vulkan alone
     };
 
     [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
@@ -120,6 +126,8 @@ class PieceLibrary {
     Comments comments_;
     std::map<std::string, std::optional<Diagnostic>> heads_;  ///< by path; nothing where it is included
     Composition& composition_;
+    std::map<int, int> specialized_;  ///< counts, by feature
+    bool is_vulkan_;
     /// What mentions() is asked for.
     std::vector<std::string> interest_ = {"BLOCK",   "VARYING", "ATTRIBUTE",           "OUTPUT",
                                           "SAMPLER", "DEPTH",   "early_fragment_tests"};

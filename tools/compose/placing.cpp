@@ -206,8 +206,8 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
 
 Result<void> Placer::catch_up(Placement& placement) {
     if (!placement.conditions)
-        placement.conditions.emplace(
-            stage_prologue(family_, composition_.dialect, placement, [](std::string_view) { return true; }));
+        placement.conditions.emplace(stage_prologue(
+            family_, composition_.dialect, placement, [](std::string_view) { return true; }, library_));
     for (; placement.walked < placement.placed.size(); ++placement.walked) {
         const Source* source = library_.source_of(placement.placed[placement.walked]);
         if (source == nullptr) continue;

@@ -40,13 +40,13 @@ bool are(Tokens tokens, std::initializer_list<std::string_view> pattern) {
 }
 
 /// The bindings stated by BLOCK(3, Fog) and SAMPLER(2, sampler2D) shadowMap.
-std::map<std::string, int> bindings_of(Tokens tokens) {
-    std::map<std::string, int> bindings;
+std::vector<StatedBinding> bindings_of(Tokens tokens) {
+    std::vector<StatedBinding> bindings;
     for (; tokens.size() > 4; tokens = tokens.subspan(1)) {
-        std::string_view name;
-        if (are(tokens, {"BLOCK", "(", "number", ",", "name", ")"})) name = tokens[4];
-        if (are(tokens, {"SAMPLER", "(", "number", ",", "name", ")", "name"})) name = tokens[6];
-        if (!name.empty()) bindings[std::string(name)] = std::stoi(std::string(tokens[2]));
+        const bool is_sampler = are(tokens, {"SAMPLER", "(", "number", ",", "name", ")", "name"});
+        if (is_sampler || are(tokens, {"BLOCK", "(", "number", ",", "name", ")"}))
+            bindings.push_back(
+                {std::string(tokens[is_sampler ? 6 : 4]), std::stoi(std::string(tokens[2])), is_sampler});
     }
     return bindings;
 }
@@ -101,7 +101,8 @@ class Scanner {
         drop_semicolons();
         const std::vector<std::string_view> tokens = tokens_of(clean_.code);
         GOBO_TRY_DO(check_growth(tokens));
-        result_.bindings = bindings_of(tokens);
+        for (StatedBinding& stated : bindings_of(tokens))
+            result_.bindings[std::move(stated.name)] = stated.binding;
         result_.warnings = unstated_layouts(tokens, clean_.code, file_, path_);
         for (const int line : clean_.joined_comments)
             result_.warnings.push_back(warning({path_, line, 0}, line_of(file_, line),
@@ -347,6 +348,10 @@ bool add_extension(Extensions& extensions, const Directive& directive, bool is_c
     const bool is_weaker = tokens[2] == "require" && !is_certain;
     return add_extension(extensions, std::string(tokens[0]),
                          {is_weaker ? "enable" : std::string(tokens[2]), directive.place, directive.line});
+}
+
+std::vector<StatedBinding> stated_bindings(std::string_view code) {
+    return bindings_of(tokens_of(code));
 }
 
 std::set<std::string_view> identifiers_of(std::string_view code) {

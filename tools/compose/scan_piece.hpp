@@ -59,6 +59,14 @@ struct ScannedPiece {
     return scan_piece(text, path, text);
 }
 
+/// A block or sampler declared by BLOCK(binding, name) or SAMPLER(binding, type) name.
+struct StatedBinding {
+    std::string name;
+    int binding = 0;
+    bool is_sampler = false;
+};
+[[nodiscard]] std::vector<StatedBinding> stated_bindings(std::string_view code);
+
 /// What an include names.
 [[nodiscard]] Result<Include> read_include(const Directive& directive);
 

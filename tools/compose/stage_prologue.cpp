@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "compose/specialized_counts.hpp"
+
 namespace gobo {
 namespace {
 
 /// The macros of the features that the stage mentions, or that the text of another one does.
-std::vector<std::string> macros_of(const Family& family, const Placement& placement,
-                                   const Mentions& mentions) {
+std::vector<std::string> macros_of(const Family& family, Dialect dialect, const Placement& placement,
+                                   const Mentions& mentions, const std::map<int, int>& specialized) {
     std::vector<std::string> definitions(family.features.size());
     std::set<std::string, std::less<>> mentioned;  // by texts
     for (bool goes_on = true; std::exchange(goes_on, false);) {
@@ -24,6 +26,11 @@ std::vector<std::string> macros_of(const Family& family, const Placement& placem
             const std::optional<std::string> text = feature.text_of(placement.key[i]);
             if (!text) continue;
             definitions[i] = fmt::format("#define {}{}{}\n", feature.macro, text->empty() ? "" : " ", *text);
+            if (feature.is_specialized && is_spirv(dialect)) {
+                const auto id = specialized.find(static_cast<int>(i));
+                definitions[i] = count_text(
+                    feature, *text, id == specialized.end() ? std::nullopt : std::optional(id->second));
+            }
             for (const std::string_view name : identifiers_of(*text))
                 goes_on = mentioned.emplace(name).second || goes_on;
         }
@@ -34,11 +41,16 @@ std::vector<std::string> macros_of(const Family& family, const Placement& placem
 }  // namespace
 
 std::string stage_prologue(const Family& family, Dialect dialect, const Placement& placement,
-                           const Mentions& mentions) {
+                           const Mentions& mentions, const PieceLibrary& library,
+                           const std::map<int, int>& specialized) {
+    std::vector<DescriptorPlace> places;
+    for (const StatedBinding& stated : library.bindings(placement.placed))
+        places.push_back(descriptor_place(family, stated.name, stated.binding, stated.is_sampler));
     std::string text = dialect_prologue(
         dialect, placement.stage, placement.version.empty() ? placement.version_beside : placement.version,
-        placement.extensions, mentions);
-    for (const std::string& definition : macros_of(family, placement, mentions)) text += definition;
+        placement.extensions, mentions, places);
+    for (const std::string& definition : macros_of(family, dialect, placement, mentions, specialized))
+        text += definition;
     return text;
 }
 }  // namespace gobo

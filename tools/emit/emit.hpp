@@ -2,8 +2,10 @@
 // its depfile.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,8 @@ struct EmitInput {
     std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
     /// What permutations declare differently; `declared` goes by their order in the composition.
     std::vector<Differing> differing = {};
+    /// By stage of the composition, for dialects of SPIR-V: what the header holds instead of texts.
+    std::vector<std::span<const std::uint32_t>> modules = {};
 };
 
 /// The templates that a generated header is filled from, by name: "header", and "struct" and others for what
@@ -65,8 +69,8 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 [[nodiscard]] std::string emit_depfile(const std::vector<std::string>& outputs,
                                        const std::vector<std::string>& files);
 
-/// The GLSL version of the stages: "450", "330", "es300", or what the #version of a family with its own
-/// dialect states.
+/// The GLSL version of the stages: "450", "330", "es300", "vulkan", "gl_spirv", or what the #version of a
+/// family with its own dialect states.
 [[nodiscard]] std::string version_of(const Composition& composition);
 
 }  // namespace gobo

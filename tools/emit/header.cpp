@@ -64,7 +64,8 @@ std::string contents_name(const HeaderTemplates& templates, const TemplateValues
 
 Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
     HeaderTemplates templates;
-    for (const char* name : {"bytes", "check", "elements", "header", "struct", "taker"}) {
+    for (const char* name : {"bytes", "check", "elements", "header", "modules", "spirv", "spirv_tables",
+                             "struct", "taker", "texts"}) {
         TextTemplate& part = templates[name];
         part.name = fmt::format("{}/{}.hpp.in", folder, name);
         GOBO_TRY(part.text, files.read(part.name));
@@ -94,9 +95,16 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     TemplateValues values;
     values["family"] = cpp_comment(family.name);
     GOBO_TRY(values["namespace"], namespace_of(input));
-    values["dialect"] = cpp_comment(version_of(input.composition));
+    const Dialect dialect = input.composition.dialect;
+    values["dialect"] = dialect == Dialect::vulkan     ? "SPIR-V for Vulkan"
+                        : dialect == Dialect::gl_spirv ? "SPIR-V for OpenGL"
+                                                       : "GLSL " + cpp_comment(version_of(input.composition));
 
-    const std::vector<std::string> taken = split(kHeaderNames, ' ');
+    std::vector<std::string> taken = split(kHeaderNames, ' ');
+    if (is_spirv(dialect))
+        for (const char* name : {"descriptors", "descriptor_set", "push_constants", "specialization",
+                                 "specialization_constants", "vertex_inputs"})
+            taken.emplace_back(name);
     CppScope scope({taken.begin(), taken.end()});
     const CppKey key = name_key(family, scope);
     std::vector<Rule> rules;
@@ -107,9 +115,10 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     const Interface interface = with_places(input.interface);
     const Declarations declarations(input);
     GOBO_TRY_DO(block_section(interface, family.domains, declarations, templates, scope, values));
-    interface_section(interface, family.domains, declarations, values);
+    interface_section(interface, family.domains, declarations, dialect, values);
     declaration_section(declarations, interface, values);
-    permutation_section(input.composition, key, declarations, values);
+    GOBO_TRY_DO(permutation_section(input.composition, key, declarations, input.modules, templates, values));
+    GOBO_TRY_DO(spirv_section(input, interface, key, declarations, templates, values));
     values["contents"] = contents_name(templates, values);
     return fill(templates.at("header"), values);
 }

@@ -163,8 +163,7 @@ int number_of(const std::vector<Item>& items, const Item& item) {
 template <class Item>
 std::string only_of(const std::vector<Item>& items, const Item& item, std::string_view kind,
                     const Declarations& declarations) {
-    const auto differing = declarations.find(kind, item.name);
-    return differing ? fmt::format(", {{{}, {}}}", *differing, number_of(items, item)) : std::string();
+    return only_text(kind, item.name, number_of(items, item), declarations);
 }
 
 /// Name, type, place and, where each element takes a place, how many: as the header's tables have them.
@@ -273,6 +272,12 @@ class UniformConstants {
 
 }  // namespace
 
+std::string only_text(std::string_view kind, std::string_view name, int number,
+                      const Declarations& declarations) {
+    const auto differing = declarations.find(kind, name);
+    return differing ? fmt::format(", {{{}, {}}}", *differing, number) : std::string();
+}
+
 Interface with_places(Interface interface) {
     const auto is_built_in = [](const Variable& variable) { return variable.name.starts_with("gl_"); };
     std::erase_if(interface.inputs, is_built_in);
@@ -288,7 +293,11 @@ Interface with_places(Interface interface) {
 }
 
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
-                       const Declarations& declarations, TemplateValues& values) {
+                       const Declarations& declarations, Dialect dialect, TemplateValues& values) {
+    const bool is_vulkan = dialect == Dialect::vulkan;
+    values["attribute_use"] = is_vulkan ? "gobo::vulkan::vertex_attributes()" : "gobo::gl::point_to()";
+    values["sampler_use"] =
+        is_vulkan ? "their places in descriptor sets" : "their texture units, for gobo::gl::bind_texture()";
     values["attribute_constants"] = constants_of(interface.inputs, domains, [](const Variable& input) {
         return Constant{
             fmt::format("gobo::AttributePlace<{}{}>", value_type(input.type), extent_of(input.array)),
@@ -297,7 +306,9 @@ void interface_section(const Interface& interface, const std::vector<Domain>& do
     values["output_constants"] = constants_of(interface.outputs, domains, [](const Variable& output) {
         return Constant{"int", fmt::format(" = {}", output.location)};
     });
-    values["sampler_constants"] = constants_of(interface.samplers, {}, [&interface](const Sampler& sampler) {
+    values["sampler_constants"] = constants_of(interface.samplers, {}, [&](const Sampler& sampler) {
+        if (is_vulkan)
+            return Constant{"gobo::DescriptorPlace", fmt::format("{{{}, {}}}", sampler.set, sampler.binding)};
         // Declarations of a name share the row of the first: its location is that of the name.
         const auto first = std::ranges::find(interface.samplers, sampler.name, &Sampler::name);
         return Constant{fmt::format("gobo::SamplerPlace<detail::Tables, {}{}>", target_of(sampler.type),

@@ -155,17 +155,48 @@ void add_members(const HeaderStages& stages, TemplateValues& values) {
 
 }  // namespace
 
-void permutation_section(const Composition& composition, const CppKey& key, const Declarations& declarations,
-                         TemplateValues& values) {
-    std::set<int> used;  // stages
-    std::vector<std::pair<PackedKey, const Permutation*>> sorted;
-    for (const Permutation& permutation : composition.permutations) {
-        for (const int stage : permutation.stages.values)
-            if (stage >= 0) used.insert(stage);
-        sorted.emplace_back(pack(permutation.key, key), &permutation);
-    }
-    std::ranges::sort(sorted);
+namespace {
 
+/// The numbers by which the header knows the stages of the composition; a stage that is lacking is -1.
+using HeaderNumbers = std::map<int, std::size_t>;
+
+/// Each distinct module once.
+Result<HeaderNumbers> modules_section(const std::set<int>& used, bool some_lack,
+                                      const std::vector<std::span<const std::uint32_t>>& modules,
+                                      const HeaderTemplates& templates, TemplateValues& values) {
+    constexpr std::size_t kWordsInRow = 12;
+    HeaderNumbers numbers;
+    std::map<std::vector<std::uint32_t>, std::size_t> by_words;
+    std::vector<std::string> rows;
+    TemplateValues own;
+    for (const int stage : used) {
+        const std::span<const std::uint32_t> words = modules[static_cast<std::size_t>(stage)];
+        const auto [place, is_new] =
+            by_words.try_emplace(std::vector<std::uint32_t>(words.begin(), words.end()), rows.size());
+        numbers.emplace(stage, place->second);
+        if (!is_new) continue;
+        std::string& text = own["words"];
+        text += fmt::format("    static constexpr std::uint32_t words_{}[] = {{", rows.size());
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            text += i % kWordsInRow == 0 ? "\n        " : " ";
+            text += fmt::format("{:#x},", words[i]);
+        }
+        text += "\n    };\n";
+        rows.push_back(fmt::format("{{words_{}, {}}}", rows.size(), words.size()));
+    }
+    if (some_lack) {
+        numbers.emplace(-1, rows.size());
+        rows.emplace_back("{nullptr, 0}");
+    }
+    own.try_emplace("words", "");
+    add_table(own, "module", rows);
+    GOBO_TRY(values["stage_data"], fill(templates.at("modules"), own));
+    return numbers;
+}
+
+/// Texts once, and stages as lists of them.
+Result<HeaderNumbers> texts_section(const Composition& composition, const std::set<int>& used, bool some_lack,
+                                    const HeaderTemplates& templates, TemplateValues& values) {
     std::set<int> pieces;
     std::map<StageKind, std::vector<int>> by_kind;
     for (const int stage : used) {
@@ -181,7 +212,7 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
         texts_of[number] = texts.add(piece, cut.contains(piece.name));
     }
 
-    std::map<int, std::size_t> stage_numbers;
+    HeaderNumbers stage_numbers;
     std::vector<std::string> tables;
     Numbers digits;
     Numbers first_lists;
@@ -209,12 +240,41 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
         }
     }
     list_begins.push_back(list_pieces.size());
-    const HeaderStages stages = stages_of(composition);
-    if (stages.some_lack) {  // a stage without texts
+    if (some_lack) {  // a stage without texts
         tables.push_back(fmt::format("{{{}, 0, 0, 0}}", stage_numbers.size()));
         stage_numbers.emplace(-1, stage_numbers.size());
     }
+    TemplateValues own;
+    own["stage_digits"] = numbers_text("stage_digits", digits);
+    own["first_lists"] = numbers_text("first_lists", first_lists);
+    own["list_begins"] = numbers_text("list_begins", list_begins);
+    own["list_pieces"] = numbers_text("list_pieces", list_pieces);
+    add_table(own, "stage_table", tables);
+    add_table(own, "piece", texts.rows());
+    GOBO_TRY(values["stage_data"], fill(templates.at("texts"), own));
+    return stage_numbers;
+}
+
+}  // namespace
+
+Result<void> permutation_section(const Composition& composition, const CppKey& key,
+                                 const Declarations& declarations,
+                                 const std::vector<std::span<const std::uint32_t>>& modules,
+                                 const HeaderTemplates& templates, TemplateValues& values) {
+    std::set<int> used;  // stages
+    std::vector<std::pair<PackedKey, const Permutation*>> sorted;
+    for (const Permutation& permutation : composition.permutations) {
+        for (const int stage : permutation.stages.values)
+            if (stage >= 0) used.insert(stage);
+        sorted.emplace_back(pack(permutation.key, key), &permutation);
+    }
+    std::ranges::sort(sorted);
+    const HeaderStages stages = stages_of(composition);
     add_members(stages, values);
+    GOBO_TRY(const HeaderNumbers stage_numbers,
+             is_spirv(composition.dialect)
+                 ? modules_section(used, stages.some_lack, modules, templates, values)
+                 : texts_section(composition, used, stages.some_lack, templates, values));
 
     std::vector<std::string> keys;
     std::vector<std::string> rows;
@@ -229,14 +289,9 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
             numbers += fmt::format(", {{{}}}", stage_numbers.at(permutation->stages[kind]));
         rows.push_back(fmt::format("{{{}{}{}}}", rows.size(), numbers, combination));
     }
-    values["stage_digits"] = numbers_text("stage_digits", digits);
-    values["first_lists"] = numbers_text("first_lists", first_lists);
-    values["list_begins"] = numbers_text("list_begins", list_begins);
-    values["list_pieces"] = numbers_text("list_pieces", list_pieces);
-    add_table(values, "stage_table", tables);
     values["keys"] = cpp_list(keys);
-    add_table(values, "piece", texts.rows());
     add_table(values, "permutation", rows);
+    return {};
 }
 
 }  // namespace gobo

@@ -75,8 +75,21 @@ void declaration_section(const Declarations& declarations, const Interface& inte
 
 /// Packed keys, stages as lists of pieces, texts. Only stages and pieces that a permutation uses are written,
 /// in the order of the composition; permutations are sorted by packed key.
-void permutation_section(const Composition& composition, const CppKey& key, const Declarations& declarations,
-                         TemplateValues& values);
+/// Instead of texts each distinct module once where `modules` has them, by stage of the composition.
+[[nodiscard]] Result<void> permutation_section(const Composition& composition, const CppKey& key,
+                                               const Declarations& declarations,
+                                               const std::vector<std::span<const std::uint32_t>>& modules,
+                                               const HeaderTemplates& templates, TemplateValues& values);
+
+/// What pipelines are made with, for dialects of SPIR-V; nothing for others. Two resources of different
+/// permutations at one place of a descriptor set are an error (Fault::input).
+[[nodiscard]] Result<void> spirv_section(const EmitInput& input, const Interface& interface,
+                                         const CppKey& key, const Declarations& declarations,
+                                         const HeaderTemplates& templates, TemplateValues& values);
+
+/// ", {2, 1}" where an entry is that declaration, from 1, of a name that permutations declare differently.
+[[nodiscard]] std::string only_text(std::string_view kind, std::string_view name, int number,
+                                    const Declarations& declarations);
 
 /// A copy in which every block, sampler and attribute has a place: where the source states none, the lowest
 /// that is free, in the order of names, the same for all declarations of a name; a single output stands at 0.
@@ -85,7 +98,7 @@ void permutation_section(const Composition& composition, const CppKey& key, cons
 
 /// Where attributes, outputs, samplers, uniforms and blocks are bound. `interface` has places.
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
-                       const Declarations& declarations, TemplateValues& values);
+                       const Declarations& declarations, Dialect dialect, TemplateValues& values);
 
 /// A struct for every layout of a block and for every struct within one, inner ones first, each name claimed
 /// in `scope`; and for each block `check(block)`: what of it lies outside the ranges that the family

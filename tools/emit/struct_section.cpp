@@ -161,6 +161,8 @@ class StructWriter {
         if (number > 1) identifier += fmt::format("_{}", number);
         StructText structure{scope_.claim(identifier, "_block")};
         structure.scope = CppScope({structure.name, "binding", "size", "bytes"});
+        const bool is_pushed = block.layout.binding < 0;  // push constants: all others have a place by now
+        if (block.layout.set >= 0) structure.scope.claim("set");
         if (block.count > 0) structure.scope.claim("count");
         std::vector<Member> members = block.layout.members;
         std::optional<Member> tail;
@@ -177,13 +179,15 @@ class StructWriter {
         } else {
             structure.close(size);
         }
-        std::string constants =
-            fmt::format("\n    static constexpr int binding = {};\n", block.layout.binding);
+        std::string constants = "\n";
+        if (block.layout.set >= 0)
+            constants += fmt::format("    static constexpr int set = {};\n", block.layout.set);
+        if (!is_pushed)
+            constants += fmt::format("    static constexpr int binding = {};\n", block.layout.binding);
         if (block.count > 0)
             constants += fmt::format(
-                "    static constexpr int count = {};  ///< blocks in the array, at bindings from that one "
-                "on\n",
-                block.count);
+                "    static constexpr int count = {};  ///< blocks in the array, at {}\n", block.count,
+                block.layout.set >= 0 ? "that binding" : "bindings from that one on");
         constants += fmt::format("    static constexpr std::size_t size = {};\n", size);
         if (const Member* last = last_array(block.layout)) {
             GOBO_TRY(const std::string bytes,
@@ -198,7 +202,7 @@ class StructWriter {
             GOBO_TRY(const std::string elements, elements_of(structure, *tail, block));
             constants += elements;
         }
-        const std::string_view kind = block.is_storage ? "storage" : "uniform";
+        const std::string_view kind = is_pushed ? "push constant" : block.is_storage ? "storage" : "uniform";
         GOBO_TRY_DO(append(structure, fmt::format("The {} block {}{}.", kind, cpp_comment(block.name), users),
                            constants));
         return structure;
@@ -451,6 +455,8 @@ Result<void> block_section(const Interface& interface, const std::vector<Domain>
     GOBO_TRY_DO(
         add_blocks(interface.blocks, false, domains, declarations, templates.at("check"), writer, checks));
     GOBO_TRY_DO(add_blocks(interface.storage_blocks, true, domains, declarations, templates.at("check"),
+                           writer, checks));
+    GOBO_TRY_DO(add_blocks(interface.push_constants, true, domains, declarations, templates.at("check"),
                            writer, checks));
     values["structs"] = writer.text();
     return {};

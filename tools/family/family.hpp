@@ -41,6 +41,7 @@ struct Feature {
     std::vector<std::string> stages;  ///< those whose prologue has the macro; empty: all
     Place place;                      ///< where the family declares it
     std::string enum_name;            ///< of a choice in generated headers; empty: its own in PascalCase
+    bool is_specialized = false;      ///< of a count: one SPIR-V module serves all that are above 0
 
     std::vector<std::string> old_names;             ///< by which it went before
     std::map<std::string, std::string> old_values;  ///< a name by which a value went before: its name now
@@ -129,6 +130,13 @@ struct Relation {
     Place place;
 };
 
+/// What Vulkan binds together: its number is its place among the family's sets.
+struct DescriptorSet {
+    std::string name;                ///< such as "frame": what it changes with
+    std::vector<std::string> holds;  ///< blocks and samplers; the binding of each is its place here
+    Place place;
+};
+
 /// Text that the family puts in front of its stages.
 struct PrologueText {
     std::string stage;  ///< "vertex", "fragment"; empty: all
@@ -185,6 +193,7 @@ struct Family {
     std::vector<Rule> rules;
     std::vector<Varying> varyings;  ///< single ones by location, then counted ones by name
     std::vector<Domain> domains;    ///< sorted by name
+    std::vector<DescriptorSet> descriptor_sets;
     std::vector<RenderValue> render;
     std::vector<Relation> relations;             ///< in the order of the file
     std::optional<Selection> default_selection;  ///< where the command line names no keys

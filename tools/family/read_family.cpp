@@ -202,6 +202,29 @@ std::map<std::string, std::string> read_substitutions(const TomlTable& root) {
     return substitutions;
 }
 
+/// `[[descriptor_sets]]`.
+std::vector<DescriptorSet> read_descriptor_sets(const TomlTable& root) {
+    std::vector<DescriptorSet> sets;
+    std::map<std::string, std::string> set_of;  // by resource
+    for (const TomlTable& table : root.tables("descriptor_sets", "a descriptor set")) {
+        table.only({"name", "holds"});
+        DescriptorSet set{table.required_string("name"), table.strings("holds"), table.place_of()};
+        if (!root.reader.failed() && !is_identifier(set.name))
+            table.error("name", fmt::format("has the name '{}'", set.name),
+                        "use letters, digits and _: it names a C++ constant");
+        for (const DescriptorSet& other : sets)
+            if (other.name == set.name)
+                table.error("name", fmt::format("has the name '{}', as another has", set.name),
+                            "give each descriptor set a name of its own");
+        for (const std::string& resource : set.holds)
+            if (const auto [other, is_new] = set_of.try_emplace(resource, set.name); !is_new)
+                table.error("holds", fmt::format("holds '{}', which '{}' does", resource, other->second),
+                            "list each block and sampler once");
+        sets.push_back(std::move(set));
+    }
+    return sets;
+}
+
 std::optional<Selection> read_default_set(const TomlTable& root, const Family& family) {
     const auto table = root.table("default_set");
     if (!table) return std::nullopt;
@@ -325,9 +348,9 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.path = path;
     const TomlTable root(reader, reader.root(), "the family");
     std::vector<std::string> known = {
-        "name",     "extends",    "without",      "programs",      "version",     "prologue",
-        "includes", "substitute", "unroll_loops", "compatibility", "features",    "rules",
-        "varyings", "domain",     "render",       "relations",     "default_set", "renamed"};
+        "name",       "extends",      "without",       "programs", "version",        "prologue", "includes",
+        "substitute", "unroll_loops", "compatibility", "features", "rules",          "varyings", "domain",
+        "render",     "relations",    "default_set",   "renamed",  "descriptor_sets"};
     for (const StageNames& stage : kStages) known.emplace_back(stage.name);
     root.only(known);
     for (const std::string& name : unknown)
@@ -358,6 +381,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
     family.varyings = read_varyings(root, family.features);
     refuse_varyings_across_stages(root, family);
     family.domains = read_domains(root);
+    family.descriptor_sets = read_descriptor_sets(root);
     family.render = read_render_values(root, "render");
     family.relations = std::move(inherited.relations);
     for (Relation& relation : read_relations(root, family.features))

@@ -144,7 +144,7 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
     const TomlTable table(reader, *node.as_table(), what);
     if (table.has("retired")) table.error("retired", "has retired values", "'retired' is now 'excluded'");
     table.only({"role", "values", "default", "excluded", "enum", "count", "constant", "define", "text",
-                "substitute", "stages"});
+                "substitute", "stages", "specialize"});
     constexpr std::array roles = {Role::effect, Role::quality, Role::pipeline};
     feature.role = roles[table.one_of("role", {"effect", "quality", "pipeline"}).value_or(0)];
     const bool is_choice = table.has("values"), is_count = table.has("count");
@@ -167,6 +167,10 @@ Feature read_feature(TomlReader& reader, std::string name, const toml::node& nod
         feature.values = {"off", "on"};
     }
     read_macro(table, feature);
+    feature.is_specialized = table.boolean("specialize").value_or(false);
+    if (feature.is_specialized && (!is_count || feature.macro.empty() || table.has("text")))
+        table.error("specialize", "cannot be specialised",
+                    "only a count with a constant can: the constant becomes Vulkan's");
     return feature;
 }
 
@@ -255,7 +259,7 @@ Rule read_rule(const TomlTable& table, const std::vector<Feature>& features) {
     for (const std::string& name : table.strings("default"))
         rule.defaults.push_back(read_feature_name(table.called("the rule"), "default", name, features));
     rule.dialects = table.strings("dialects");
-    const std::vector<std::string> known = {"450", "330", "es300"};
+    const std::vector<std::string> known = {"450", "330", "es300", "vulkan", "gl_spirv"};
     for (const std::string& dialect : rule.dialects)
         if (std::ranges::count(known, dialect) == 0)
             table.reader.error(table.place_of("dialects"), fmt::format("unknown dialect '{}'", dialect),

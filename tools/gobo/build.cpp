@@ -49,6 +49,16 @@ United united_interface(const Composition& composition, const Validated& validat
     return united;
 }
 
+/// ", 12 modules of 34567 bytes" of SPIR-V.
+std::string modules_text(const std::vector<std::span<const std::uint32_t>>& modules) {
+    std::set<std::vector<std::uint32_t>> distinct;
+    std::size_t words = 0;
+    for (const std::span<const std::uint32_t> module : modules)
+        if (!module.empty() && distinct.emplace(module.begin(), module.end()).second) words += module.size();
+    if (distinct.empty()) return "";
+    return fmt::format(", {} modules of {} bytes", distinct.size(), words * sizeof(std::uint32_t));
+}
+
 }  // namespace
 
 Result<Built> build(const BuildOptions& options, const World& world) {
@@ -65,12 +75,23 @@ Result<Built> build(const BuildOptions& options, const World& world) {
         keys.assign(chosen.begin(), chosen.end());
     }
     GOBO_TRY(Composition composition, compose_keys(family, keys));
-    GOBO_TRY(Validated validated, compile(world, family, composition));
+    if ((options.optimize || options.debug) && !is_spirv(family.dialect))
+        return fail(Fault::usage, fmt::format("--{} is for SPIR-V", options.optimize ? "optimize" : "debug"),
+                    "add --dialect vulkan or --dialect gl_spirv");
+    ValidateOptions validate_options;
+    validate_options.keep_spirv = is_spirv(family.dialect);
+    validate_options.optimize = options.optimize;
+    validate_options.debug_information = options.debug;
+    validate_options.strip = !options.debug;
+    GOBO_TRY(Validated validated, compile(world, family, composition, validate_options));
+    append(validated.diagnostics, composition.notes);
     const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,
              read_header_templates(world.library(), world.in_library("templates/header")));
-    const EmitInput input{family.family,         composition,          united.interface,
-                          options.cpp_namespace, std::move(qualities), united.differing};
+    EmitInput input{family.family,         composition,          united.interface,
+                    options.cpp_namespace, std::move(qualities), united.differing};
+    if (is_spirv(family.dialect))
+        for (const ValidatedStage& stage : validated.stages) input.modules.emplace_back(stage.spirv);
     GOBO_TRY(const std::string header, emit_header(input, templates));
 
     std::set<std::string> files(family.files.begin(), family.files.end());
@@ -84,8 +105,8 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     Outcome outcome{
         {},
         std::move(validated.diagnostics),
-        fmt::format("{}.hpp: {} permutations, {} stages, {} pieces", stem, composition.permutations.size(),
-                    composition.stages.size(), composition.pieces.size()),
+        fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", stem, composition.permutations.size(),
+                    composition.stages.size(), composition.pieces.size(), modules_text(input.modules)),
         {},
         world.cache == nullptr ? -1 : static_cast<int>(validated.compiled)};
     const bool is_printed = options.folder == kStandardOutput;
@@ -119,6 +140,9 @@ std::vector<Option> build_arguments(BuildOptions& options) {
              "compare times",
              &options.depfile_target},
             comments_option(options.comments),
+            {"--optimize", "", "Let SPIRV-Tools' optimizer make the SPIR-V of vulkan and gl_spirv faster",
+             &options.optimize},
+            {"--debug", "", "Keep names and lines in the SPIR-V of vulkan and gl_spirv", &options.debug},
             dialect_option(options.dialect)};
 }
 
@@ -135,6 +159,7 @@ Command build_command() {
             "  gobo build lit --cover 3 --where 'point <= 2' -o out\n"
             "  gobo build lit --keys-from recorded.txt --namespace game::shaders --dialect 330 -o generated\n"
             "  gobo build lit --key 'directional=1 specular=blinn' --max-error 0.01 -o generated\n"
+            "  gobo build lit --cover 2 --dialect vulkan --optimize -o generated\n"
             "  gobo build game.toml --all -I my_pieces -o generated",
             [options](const World& world) -> Result<Outcome> {
                 GOBO_TRY(Built built, build(*options, world));

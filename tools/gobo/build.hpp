@@ -18,6 +18,8 @@ struct BuildOptions : SelectionOptions {
     std::string depfile_target;
     bool glslc_depfile = false;
     bool comments = false;
+    bool optimize = false;
+    bool debug = false;  ///< names and lines in SPIR-V
 };
 
 /// What -o says to have the header printed.

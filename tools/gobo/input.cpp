@@ -54,7 +54,7 @@ Result<Dialect> read_dialect(const std::string& name) {
     if (name.empty()) return Dialect::own;
     if (const auto dialect = dialect_of(name)) return *dialect;
     return fail(Fault::usage, fmt::format("unknown dialect '{}'", name),
-                suggestion(name, {"450", "330", "es300"}));
+                suggestion(name, split(dialect_words(), '|')));
 }
 
 void add_include_folders(const World& world, SearchPath& search) {
@@ -253,8 +253,10 @@ Option comments_option(bool& comments) {
 }
 
 Option dialect_option(std::string& name) {
-    return {"--dialect", "450|330|es300",
-            "GLSL dialect; by default the #version that the family's templates state, or 450", &name};
+    return {"--dialect", dialect_words(),
+            "GLSL dialect; by default the #version that the family's templates state, or 450; vulkan and "
+            "gl_spirv make SPIR-V",
+            &name};
 }
 
 std::vector<std::string> shipped_families(const World& world) {

@@ -102,11 +102,21 @@ bool serve_both(Entry& entry, const Entry& other) {
     const int place = place_of(entry);
     const int other_place = place_of(other);
     if (place >= 0 && other_place >= 0 && place != other_place) return false;
+    if constexpr (requires { entry.set; })
+        if (entry.set != other.set) return false;
     if (!absorb(entry, other)) return false;
     place_of(entry) = std::max(place, other_place);
     entry.usage.unused = entry.usage.unused && other.usage.unused;
     if constexpr (requires { entry.stages; }) add_stages(entry.stages, other.stages);
     return true;
+}
+
+/// Adds the constants that a list lacks.
+void add_constants(std::vector<SpecializationConstant>& list,
+                   const std::vector<SpecializationConstant>& more) {
+    for (const SpecializationConstant& constant : more)
+        if (std::ranges::find(list, constant) == list.end()) list.push_back(constant);
+    std::ranges::sort(list, {}, [](const auto& constant) { return std::pair(constant.name, constant.id); });
 }
 
 /// Unites one list of all programs.
@@ -196,6 +206,8 @@ Interface merge(std::vector<Interface> stages) {
         add_entries(program.storage_blocks, stage.storage_blocks);
         add_entries(program.uniforms, stage.uniforms);
         add_entries(program.samplers, stage.samplers);
+        add_entries(program.push_constants, stage.push_constants);
+        add_constants(program.specialization_constants, stage.specialization_constants);
     }
     program.inputs = std::move(stages.front().inputs);
     program.outputs = std::move(stages.back().outputs);
@@ -204,13 +216,17 @@ Interface merge(std::vector<Interface> stages) {
 
 United unite(const std::vector<Interface>& programs) {
     United united;
-    for (const Interface& program : programs) add_stages(united.interface.stages, program.stages);
+    for (const Interface& program : programs) {
+        add_stages(united.interface.stages, program.stages);
+        add_constants(united.interface.specialization_constants, program.specialization_constants);
+    }
     unite_list("uniform block", &Interface::blocks, programs, united);
     unite_list("storage block", &Interface::storage_blocks, programs, united);
     unite_list("uniform", &Interface::uniforms, programs, united);
     unite_list("sampler", &Interface::samplers, programs, united);
     unite_list("input", &Interface::inputs, programs, united);
     unite_list("output", &Interface::outputs, programs, united);
+    unite_list("push constant block", &Interface::push_constants, programs, united);
     return united;
 }
 

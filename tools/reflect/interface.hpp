@@ -1,6 +1,7 @@
 // The interface of a program as applications see it: blocks, uniforms, samplers, inputs and outputs.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -52,6 +53,7 @@ struct Block {
     std::vector<std::string> stages;  ///< "vertex", "fragment", sorted as the pipeline runs
     std::vector<Member> members;
     Usage usage = {};
+    int set = -1;  ///< Vulkan's descriptor set; -1: OpenGL has none
 
     friend bool operator==(const Block&, const Block&) = default;
 };
@@ -76,6 +78,7 @@ struct Sampler {
     std::vector<int> array;
     std::vector<std::string> stages;
     Usage usage = {};
+    int set = -1;  ///< Vulkan's descriptor set; -1: OpenGL has none
 
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
@@ -95,6 +98,16 @@ struct Variable {
     friend bool operator==(const Variable&, const Variable&) = default;
 };
 
+/// A number or boolean that is chosen when a pipeline is made of the SPIR-V.
+struct SpecializationConstant {
+    std::string name;
+    std::string type;         ///< "int", "uint", "float" or "bool"
+    int id = 0;               ///< its constant_id
+    std::uint32_t value = 0;  ///< the bits of its default
+
+    friend bool operator==(const SpecializationConstant&, const SpecializationConstant&) = default;
+};
+
 /// Of one stage, or of a linked program. Each list is sorted by name.
 struct Interface {
     std::vector<std::string> stages;
@@ -102,8 +115,10 @@ struct Interface {
     std::vector<Block> storage_blocks;  ///< shader storage blocks; a last array without a size has extent 0
     std::vector<Uniform> uniforms;
     std::vector<Sampler> samplers;
-    std::vector<Variable> inputs;   ///< of the first stage
-    std::vector<Variable> outputs;  ///< of the last stage
+    std::vector<Variable> inputs;       ///< of the first stage
+    std::vector<Variable> outputs;      ///< of the last stage
+    std::vector<Block> push_constants;  ///< Vulkan's, each a block without binding
+    std::vector<SpecializationConstant> specialization_constants;
 
     friend bool operator==(const Interface&, const Interface&) = default;
 };

@@ -36,8 +36,13 @@ Json json_of(const Block& block) {
                  {"size", block.size},
                  {"stages", block.stages},
                  {"members", array_of(block.members)}};
+    if (block.set >= 0) json["set"] = block.set;
     if (block.usage.unused) json["unused"] = true;
     return json;
+}
+
+Json json_of(const SpecializationConstant& constant) {
+    return {{"name", constant.name}, {"type", constant.type}, {"id", constant.id}, {"value", constant.value}};
 }
 
 /// A uniform, sampler, input or output.
@@ -46,6 +51,8 @@ Json json_of(const Entry& entry) {
     Json json = {{"name", entry.name}, {"type", entry.type}, {kPlaceName<Entry>, place_of(entry)}};
     if (!std::is_same_v<Entry, Variable> || !entry.array.empty()) json["array"] = entry.array;
     if constexpr (std::is_same_v<Entry, Uniform>) json["members"] = array_of(entry.members);
+    if constexpr (std::is_same_v<Entry, Sampler>)
+        if (entry.set >= 0) json["set"] = entry.set;
     if constexpr (std::is_same_v<Entry, Variable>) {
         if (entry.per_vertex) json["per_vertex"] = true;
         if (entry.patch) json["patch"] = true;
@@ -91,7 +98,11 @@ std::string with_extents(const std::string& name, const std::vector<int>& array)
 /// "binding 3", or empty where the number is unknown.
 template <class Entry>
 std::string stated_place(const Entry& entry) {
-    return place_of(entry) < 0 ? std::string() : fmt::format("{} {}", kPlaceName<Entry>, place_of(entry));
+    if (place_of(entry) < 0) return {};
+    std::string set;
+    if constexpr (requires { entry.set; })
+        if (entry.set >= 0) set = fmt::format("set {}, ", entry.set);
+    return fmt::format("{}{} {}", set, kPlaceName<Entry>, place_of(entry));
 }
 
 std::string strides(const Member& member) {
@@ -148,6 +159,13 @@ std::string entries_text(std::string_view kind, const std::vector<Entry>& entrie
     return rows.empty() ? std::string() : fmt::format("{}:\n{}", kind, table(rows));
 }
 
+std::string constants_text(const std::vector<SpecializationConstant>& constants) {
+    std::vector<Row> rows;
+    for (const SpecializationConstant& constant : constants)
+        rows.push_back({constant.type, constant.name, fmt::format("constant_id {}", constant.id)});
+    return rows.empty() ? std::string() : fmt::format("specialisation constants:\n{}", table(rows));
+}
+
 }  // namespace
 
 Json to_json(const Interface& interface) {
@@ -157,6 +175,9 @@ Json to_json(const Interface& interface) {
     json["samplers"] = array_of(interface.samplers);
     json["inputs"] = array_of(interface.inputs);
     json["outputs"] = array_of(interface.outputs);
+    if (!interface.push_constants.empty()) json["push_constants"] = array_of(interface.push_constants);
+    if (!interface.specialization_constants.empty())
+        json["specialization_constants"] = array_of(interface.specialization_constants);
     return json;
 }
 
@@ -167,7 +188,9 @@ std::string to_text(const Interface& interface) {
                                          entries_text("uniforms", interface.uniforms),
                                          entries_text("samplers", interface.samplers),
                                          entries_text("inputs", interface.inputs),
-                                         entries_text("outputs", interface.outputs)};
+                                         entries_text("outputs", interface.outputs),
+                                         blocks_text("push constants", interface.push_constants),
+                                         constants_text(interface.specialization_constants)};
     std::erase(sections, "");
     return join(sections, "\n");
 }

@@ -142,7 +142,8 @@ std::vector<Member> members_of(const Module& module, Id structure) {
     return members;
 }
 
-/// Every element of an array of blocks is a block of its own to OpenGL, on the binding points that follow.
+/// Every element of an array of blocks is a block of its own to OpenGL, on the binding points that follow. In
+/// Vulkan they share one binding.
 std::vector<Block> elements_of(const Block& block, const std::vector<int>& extents,
                                std::size_t dimension = 0) {
     if (dimension == extents.size()) return {block};
@@ -151,7 +152,8 @@ std::vector<Block> elements_of(const Block& block, const std::vector<int>& exten
         Block element = block;
         element.name += fmt::format("[{}]", i);
         for (Block& inner : elements_of(element, extents, dimension + 1)) {
-            if (block.binding >= 0) inner.binding = block.binding + static_cast<int>(elements.size());
+            if (block.binding >= 0 && block.set < 0)
+                inner.binding = block.binding + static_cast<int>(elements.size());
             elements.push_back(std::move(inner));
         }
     }
@@ -161,7 +163,8 @@ std::vector<Block> elements_of(const Block& block, const std::vector<int>& exten
 /// Reads one stage; what it finds is added to an Interface.
 class Reflection {
   public:
-    Reflection(const Module& module, const spirv::Usage& usage) : module_(module), used_(usage) {}
+    Reflection(const Module& module, const spirv::Usage& usage, Api api)
+        : module_(module), used_(usage), api_(api) {}
 
     Result<Interface> run() {
         if (module_.entry_points.empty())
@@ -173,6 +176,7 @@ class Reflection {
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
         if (!problem_.empty()) return fail(fault_, problem_);
+        add_constants();
         sort(interface_.blocks, interface_.storage_blocks, interface_.uniforms, interface_.samplers,
              interface_.inputs, interface_.outputs);
         return std::move(interface_);
@@ -192,10 +196,31 @@ class Reflection {
         return usage;
     }
 
+    /// glslang states a set for OpenGL too, where there are none.
+    [[nodiscard]] int set_of(Id variable) const {
+        return api_ == Api::opengl ? -1 : decorated(module_, spv::DecorationDescriptorSet, variable);
+    }
+
+    void add_constants() {
+        for (const spirv::Instruction& instruction : module_.instructions) {
+            const auto is = [&](spv::Op opcode) { return instruction.opcode == opcode; };
+            const auto id = module_.decoration(instruction.result, spv::DecorationSpecId);
+            if (!id || instruction.result == Id::none) continue;
+            const std::uint32_t value = is(spv::OpSpecConstant)       ? instruction.word(3)
+                                        : is(spv::OpSpecConstantTrue) ? 1
+                                                                      : 0;
+            interface_.specialization_constants.push_back({module_.name(instruction.result),
+                                                           type_name(module_, instruction.type),
+                                                           static_cast<int>(*id), value});
+        }
+        std::ranges::stable_sort(interface_.specialization_constants, {}, &SpecializationConstant::name);
+    }
+
     void add(const spirv::Variable& variable) {
         switch (variable.storage) {
             case spv::StorageClassUniform:
             case spv::StorageClassStorageBuffer:
+            case spv::StorageClassPushConstant:
                 return add_block(variable);
             case spv::StorageClassUniformConstant:
             case spv::StorageClassAtomicCounter:
@@ -223,13 +248,17 @@ class Reflection {
         for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
         if (count > kMostPlaces) return stop("block '{}' is an array of too many blocks", block.name);
         block.binding = stated(module_, spv::DecorationBinding, variable.id);
+        const bool is_pushed = variable.storage == spv::StorageClassPushConstant;
+        block.set = is_pushed ? -1 : set_of(variable.id);
         block.size = static_cast<int>(size);
         block.stages = interface_.stages;
         block.usage = usage_of(variable.id);
         block.usage.anonymous = module_.name(variable.id).empty();
         const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
                                 module_.decoration(structure, spv::DecorationBufferBlock);
-        std::vector<Block>& blocks = is_storage ? interface_.storage_blocks : interface_.blocks;
+        std::vector<Block>& blocks = is_pushed    ? interface_.push_constants
+                                     : is_storage ? interface_.storage_blocks
+                                                  : interface_.blocks;
         for (Block& element : elements_of(block, extents)) blocks.push_back(std::move(element));
     }
 
@@ -241,7 +270,7 @@ class Reflection {
         const Usage usage = usage_of(variable.id);
         if (is_opaque(element)) {
             interface_.samplers.push_back({name, type, stated(module_, spv::DecorationBinding, variable.id),
-                                           array, interface_.stages, usage});
+                                           array, interface_.stages, usage, set_of(variable.id)});
             return;
         }
         if (holds_opaque(element)) {
@@ -362,6 +391,7 @@ class Reflection {
 
     const Module& module_;
     const spirv::Usage& used_;
+    Api api_;
     Interface interface_;
     std::string problem_;
     Fault fault_ = Fault::input;
@@ -388,8 +418,8 @@ Result<Interface> reflect_stage(std::span<const std::uint32_t> words) {
     return reflect_stage(module, spirv::usage_of(module));
 }
 
-Result<Interface> reflect_stage(const Module& module, const spirv::Usage& usage) {
-    return Reflection(module, usage).run();
+Result<Interface> reflect_stage(const Module& module, const spirv::Usage& usage, Api api) {
+    return Reflection(module, usage, api).run();
 }
 
 }  // namespace gobo

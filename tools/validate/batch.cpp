@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <spirv-tools/libspirv.hpp>
 
+#include "spirv/transform.hpp"
 #include "validate/glslang_stage.hpp"
 
 namespace gobo {
@@ -21,6 +22,17 @@ void append(Diagnostics& all, const Diagnostics& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
+/// The module as it is shipped.
+Result<SpirvModule> shipped(SpirvModule module, const ValidateOptions& options, spv_target_env environment) {
+    if (options.optimize) {
+        GOBO_TRY(module, spirv::optimized(module, environment));
+    }
+    if (options.strip) {
+        GOBO_TRY(module, spirv::without_names(module));
+    }
+    return module;
+}
+
 /// FNV-1a, word by word.
 std::uint64_t hash_of(const SpirvModule& module) {
     std::uint64_t hash = 0xcbf29ce484222325;
@@ -28,15 +40,19 @@ std::uint64_t hash_of(const SpirvModule& module) {
     return hash;
 }
 
-/// What SPIRV-Tools' validator says of a module under OpenGL 4.5's rules, as a second opinion on what glslang
-/// made; empty where it is valid.
-Diagnostics spirv_val(const SpirvModule& module, const Place& place) {
+spv_target_env environment_of(Dialect dialect) {
+    return dialect == Dialect::vulkan ? SPV_ENV_VULKAN_1_0 : SPV_ENV_OPENGL_4_5;
+}
+
+/// What SPIRV-Tools' validator says of a module, as a second opinion on what glslang made; empty where it is
+/// valid.
+Diagnostics spirv_val(const SpirvModule& module, const Place& place, spv_target_env environment) {
     Diagnostics found;
     const auto add = [&](std::string message) {
         append(found, fail(place, "", std::move(message)).value());
         found.back().fault = Fault::internal;
     };
-    spvtools::SpirvTools tools(SPV_ENV_OPENGL_4_5);
+    spvtools::SpirvTools tools(environment);
     tools.SetMessageConsumer(
         [&](spv_message_level_t level, const char*, const spv_position_t& position, const char* message) {
             if (level <= SPV_MSG_ERROR)
@@ -130,8 +146,8 @@ BatchWorker::Parsed& BatchWorker::parsed(int stage, const GivenUp& given_up, Not
         parsed.diagnostics = reason->second;
         return parsed;
     }
-    parsed.glslang =
-        std::make_unique<GlslangStage>(composition_.stage(stage).kind, pieces_of(composition_, stage));
+    parsed.glslang = std::make_unique<GlslangStage>(composition_.stage(stage).kind,
+                                                    pieces_of(composition_, stage), composition_.dialect);
     parsed.diagnostics = parsed.glslang->parse();
     parsed.is_fine = exit_status(parsed.diagnostics) == 0;
     return parsed;
@@ -162,10 +178,21 @@ BatchResult::OfStage BatchWorker::generate(int stage, Note& note) {
         return result;
     }
     append(result.diagnostics, generated->diagnostics);
-    if (options_.spirv_val)
-        append(result.diagnostics,
-               spirv_val(generated->spirv, {pieces_of(composition_, stage).back()->path, 0, 0}));
+    const spv_target_env environment = environment_of(composition_.dialect);
+    const bool is_shipped = is_spirv(composition_.dialect);
     generated->hash = hash_of(generated->spirv);
+    if (is_shipped) {
+        auto ready = shipped(std::move(generated->spirv), options_, environment);
+        if (!ready) {
+            append(result.diagnostics, ready.error());
+            result.is_fine = false;
+            return result;
+        }
+        generated->spirv = *std::move(ready);
+    }
+    if (options_.spirv_val || is_shipped)
+        append(result.diagnostics,
+               spirv_val(generated->spirv, {pieces_of(composition_, stage).back()->path, 0, 0}, environment));
     if (!options_.keep_spirv) generated->spirv = {};
     result.validated = *std::move(generated);
     return result;

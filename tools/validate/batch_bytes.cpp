@@ -17,24 +17,29 @@ static void fields(auto& archive, OneOf<Member> auto& value) {
     archive(name, type, offset, array, array_stride, matrix_stride, row_major, members);
 }
 static void fields(auto& archive, OneOf<Block> auto& value) {
-    auto& [name, binding, size, stages, members, usage] = value;
-    archive(name, binding, size, stages, members, usage);
+    auto& [name, binding, size, stages, members, usage, set] = value;
+    archive(name, binding, size, stages, members, usage, set);
 }
 static void fields(auto& archive, OneOf<Uniform> auto& value) {
     auto& [name, type, location, array, members, stages, usage] = value;
     archive(name, type, location, array, members, stages, usage);
 }
 static void fields(auto& archive, OneOf<Sampler> auto& value) {
-    auto& [name, type, binding, array, stages, usage] = value;
-    archive(name, type, binding, array, stages, usage);
+    auto& [name, type, binding, array, stages, usage, set] = value;
+    archive(name, type, binding, array, stages, usage, set);
 }
 static void fields(auto& archive, OneOf<Variable> auto& value) {
     auto& [name, type, location, array, component, interpolation, per_vertex, patch, usage] = value;
     archive(name, type, location, array, component, interpolation, per_vertex, patch, usage);
 }
+static void fields(auto& archive, OneOf<SpecializationConstant> auto& value) {
+    auto& [name, type, id, bits] = value;
+    archive(name, type, id, bits);
+}
 static void fields(auto& archive, OneOf<Interface> auto& value) {
-    auto& [stages, blocks, storage_blocks, uniforms, samplers, inputs, outputs] = value;
-    archive(stages, blocks, storage_blocks, uniforms, samplers, inputs, outputs);
+    auto& [stages, blocks, storage_blocks, uniforms, samplers, inputs, outputs, push_constants, constants] =
+        value;
+    archive(stages, blocks, storage_blocks, uniforms, samplers, inputs, outputs, push_constants, constants);
 }
 static void fields(auto& archive, OneOf<ValidatedStage> auto& value) {
     auto& [spirv, hash, interface, diagnostics] = value;

@@ -77,6 +77,18 @@ void explain(Diagnostic& diagnostic) {
             "make each subroutine uniform a feature: [features.NAME] with define = \"UNIFORM\" and values = "
             "[\"FUNCTION\", \"FUNCTION\"]";
     }
+    if (diagnostic.message.starts_with("'non-opaque uniforms outside a block' : not allowed when using")) {
+        diagnostic.message = "a uniform outside of blocks, which Vulkan does not have";
+        diagnostic.help =
+            "put it into a block, such as layout(std140, set = 0, binding = 0) uniform Settings { vec4 tint; "
+            "} settings;, or into push constants";
+    }
+    if (diagnostic.message.find("require") != std::string::npos &&
+        diagnostic.message.find("layout(binding=X)") != std::string::npos)
+        diagnostic.help =
+            "declare it by BLOCK(N, name) or SAMPLER(N, type), or write layout(set = S, binding = N)";
+    if (diagnostic.message.starts_with("'location' : SPIR-V requires location"))
+        diagnostic.help = "write layout(location = N): where there is SPIR-V, names do not count";
     // The alignment of an array, a struct or a matrix is left to the reader.
     if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
     const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);

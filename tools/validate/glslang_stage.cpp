@@ -14,6 +14,7 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "reflect/reflect.hpp"
+#include "spirv/transform.hpp"
 #include "validate/declaration.hpp"
 #include "validate/glslang_log.hpp"
 #include "validate/language_rules.hpp"
@@ -27,8 +28,9 @@
 namespace gobo {
 namespace {
 
-EShMessages rules(bool for_spirv) {
-    return for_spirv ? EShMsgSpvRules : EShMsgDefault;
+EShMessages rules(bool for_spirv, bool is_vulkan) {
+    return static_cast<EShMessages>((for_spirv ? EShMsgSpvRules : EShMsgDefault) |
+                                    (is_vulkan ? EShMsgVulkanRules : EShMsgDefault));
 }
 
 EShLanguage language_of(StageKind kind) {
@@ -153,15 +155,20 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     glslang::TShader& shader = shader_->shader;
     shader.setStringsWithLengthsAndNames(shader_->texts.data(), shader_->lengths.data(),
                                          shader_->names.data(), static_cast<int>(shader_->texts.size()));
-    if (for_spirv) {
+    const bool is_vulkan = dialect_ == Dialect::vulkan;
+    if (is_vulkan) {
+        shader.setEnvInput(glslang::EShSourceGlsl, language_of(kind_), glslang::EShClientVulkan, 100);
+        shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_0);
+        shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+    } else if (for_spirv) {
         shader.setEnvInput(glslang::EShSourceGlsl, language_of(kind_), glslang::EShClientOpenGL, 100);
         shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
         shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
     }
-    shader.setAutoMapLocations(true);
+    shader.setAutoMapLocations(!is_spirv(dialect_));
     shader.setAutoMapBindings(map_bindings);
     bindings_mapped_ = map_bindings;
-    const auto messages = static_cast<EShMessages>(rules(for_spirv) | further_messages_);
+    const auto messages = static_cast<EShMessages>(rules(for_spirv, is_vulkan) | further_messages_);
     const bool is_fine = shader.parse(GetDefaultResources(), 110, false, messages);
     const Place place{pieces_.back()->path, 0, 0};
     Diagnostics found = with_macros(
@@ -189,6 +196,7 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
                                 version.es ? " es" : ""))
             .value();
     if (makes_spirv(version)) {
+        if (is_spirv(dialect_)) return parse_as(prologue, true, false);
         const bool can_state_bindings = version.number >= (version.es ? 310 : 420);
         const Diagnostics found = parse_as(prologue, true, !can_state_bindings);
         // That a binding is not stated is an error unless glslang may choose it.
@@ -223,7 +231,8 @@ Diagnostics GlslangStage::parse() {
     }
     drop_consequences(found);
     if (has_errors(found)) return found;
-    Diagnostics more = check_language(kind_, pieces_);
+    // Vulkan's language is what glslang takes.
+    Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_);
     std::ranges::move(more, std::back_inserter(found));
     if (has_switches) {
         more = check_switches(shader_->shader.getInfoDebugLog(), pieces_);
@@ -247,7 +256,8 @@ Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
     for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
-    const bool is_fine = program.link(rules(true));
+    const bool is_vulkan = stages.front()->dialect_ == Dialect::vulkan;
+    const bool is_fine = program.link(rules(true, is_vulkan));
     std::vector<const Piece*> earlier;
     for (std::size_t i = 0; i + 1 < stages.size(); ++i)
         earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
@@ -262,7 +272,8 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
 Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool places_vertices) {
     glslang::TProgram program;
     program.addShader(&shader_->shader);
-    if (!program.link(rules(true))) {
+    const bool is_vulkan = dialect_ == Dialect::vulkan;
+    if (!program.link(rules(true, is_vulkan))) {
         if (std::string_view(program.getInfoLog()).find("Missing entry point") != std::string_view::npos)
             return fail(Place{pieces_.back()->path, 0, 0}, "",
                         fmt::format("the {} stage has no main()", name_of(kind_)),
@@ -275,17 +286,21 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
+    if (is_spirv(dialect_)) {
+        GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv));
+    }
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
     if (!read) return placed(std::move(read).error(), pieces_);
     const spirv::Module& module = *read;
     const spirv::Usage usage = spirv::usage_of(module);
-    Result<Interface> interface = reflect_stage(module, usage);
+    Result<Interface> interface = reflect_stage(module, usage, is_vulkan ? Api::vulkan : Api::opengl);
     if (!interface) return placed(std::move(interface).error(), pieces_);
     stage.interface = *std::move(interface);
     std::erase_if(stage.interface.uniforms,
                   [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
-    stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices);
-    const bool asks_for_bindings = bindings_mapped_ || may_lack_bindings(stage.interface);
+    stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices, dialect_);
+    const bool asks_for_bindings =
+        !is_spirv(dialect_) && (bindings_mapped_ || may_lack_bindings(stage.interface));
     if (asks_for_bindings || may_hold_bools(stage.interface)) {
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |
                                 EShReflectionSeparateBuffers);
@@ -296,7 +311,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
         forget_assigned(stage.interface.blocks, stated, pieces_);
         forget_assigned(stage.interface.samplers, stated, pieces_);
     }
-    if (bindings_mapped_ || lacks_locations(stage.interface)) {
+    if (!is_spirv(dialect_) && (bindings_mapped_ || lacks_locations(stage.interface))) {
         is_changed_ = true;
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());
         stage.spirv = spirv_of(intermediate, debug_information);

@@ -16,12 +16,13 @@ namespace gobo {
 /// A parsed stage. The pieces must outlive it. Not safe for use by two threads at once.
 class GlslangStage {
   public:
-    GlslangStage(StageKind kind, std::vector<const Piece*> pieces)
-        : kind_(kind), pieces_(std::move(pieces)) {}
+    GlslangStage(StageKind kind, std::vector<const Piece*> pieces, Dialect dialect = Dialect::own)
+        : kind_(kind), pieces_(std::move(pieces)), dialect_(dialect) {}
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
-    /// own rules, then raised. What glslang says of it, and where it is content what check_language() and
-    /// check_switches() do.
+    /// own rules, then raised. For Vulkan under the rules of Vulkan 1.0. Where SPIR-V is shipped, locations
+    /// and bindings must be stated. What glslang says of it, and where it is content what check_language()
+    /// and check_switches() do.
     Diagnostics parse();
 
     /// The SPIR-V of the parsed stage, unstated locations and bindings assigned, and its interface, where
@@ -53,6 +54,7 @@ class GlslangStage {
 
     StageKind kind_;
     std::vector<const Piece*> pieces_;
+    Dialect dialect_;
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;

@@ -113,7 +113,8 @@ void KnownResults::digest_pieces() {
 KnownResults::OfStage KnownResults::digests_of(int stage, bool is_placing) const {
     const StageKind kind = composition_.stage(stage).kind;
     std::string text = to_bytes(kFormat, identity_, std::string("stage"), kind, is_placing,
-                                options_.keep_spirv, options_.debug_information, options_.spirv_val);
+                                options_.keep_spirv, options_.debug_information, options_.spirv_val,
+                                options_.optimize, options_.strip, composition_.dialect);
     std::string declarations = to_bytes(kind);
     std::string places;
     bool knows_lines = options_.debug_information;
@@ -132,7 +133,7 @@ KnownResults::OfStage KnownResults::digests_of(int stage, bool is_placing) const
 }
 
 Digest KnownResults::key_of_link(std::size_t program, Digest OfStage::*part) const {
-    std::string text = to_bytes(kFormat, identity_, std::string("link"));
+    std::string text = to_bytes(kFormat, identity_, std::string("link"), composition_.dialect);
     for (const int stage : programs_[program]) text += digits(stages_[static_cast<std::size_t>(stage)].*part);
     return digest_of(text);
 }

@@ -70,6 +70,8 @@ class LimitCheck {
         is_es_ = version.es;
         block_bindings_ = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
         units_ = is_es_ ? 32 : version.number < 400 ? 48 : 80;
+        if (dialect == Dialect::vulkan)
+            block_bindings_ = units_ = kMostComponents;  // bindings are mere names
     }
 
     Diagnostics run() {

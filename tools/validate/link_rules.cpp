@@ -359,7 +359,7 @@ class LinkCheck {
             std::vector<Taken> places;
             for (const StageView& stage : stages_)
                 for (const Block& block : stage.interface.*blocks)
-                    if (block.binding >= 0 && !block.usage.unused)
+                    if (block.binding >= 0 && block.set < 0 && !block.usage.unused)
                         places.push_back({block.name, "", block.binding, 1, &stage});
             for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t binding) {
                 if (root_of(one.name) == root_of(other.name)) return;
@@ -375,7 +375,7 @@ class LinkCheck {
         std::vector<Taken> places;
         for (const StageView& stage : stages_)
             for (const Sampler& sampler : stage.interface.samplers)
-                if (sampler.binding >= 0 && !sampler.usage.unused &&
+                if (sampler.binding >= 0 && sampler.set < 0 && !sampler.usage.unused &&
                     sampler.type.find("sampler") != std::string::npos)
                     places.push_back(
                         {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), &stage});

@@ -19,11 +19,12 @@ using spirv::Part;
 class StageCheck {
   public:
     StageCheck(const spirv::Module& module, const spirv::Usage& usage, const Interface& interface,
-               const std::vector<const Piece*>& pieces)
+               const std::vector<const Piece*>& pieces, Dialect dialect)
         : module_(module),
           usage_(usage),
           interface_(interface),
           pieces_(pieces),
+          dialect_(dialect),
           kind_(static_cast<StageKind>(module.entry_points.front().model)) {}
 
     Diagnostics run(bool places_vertices) {
@@ -54,10 +55,11 @@ class StageCheck {
     /// What glslang takes although OpenGL, or the version, has it not.
     void check_language() {
         for (const auto& [place, literal] : module_.decorations)
-            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId)
+            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId && !is_spirv(dialect_))
                 return refuse(use_of("constant_id", pieces_),
                               "OpenGL's GLSL has no constant_id: it is Vulkan's",
-                              "write a #define, or make it a count or a choice of the family");
+                              "write a #define, make it a count or a choice of the family, or build for "
+                              "--dialect vulkan or gl_spirv");
         const std::string& prologue = pieces_.front()->text;
         const GlslVersion version = version_of(prologue);
         if (version.es || version.number >= 400) return;
@@ -239,6 +241,7 @@ class StageCheck {
     const spirv::Usage& usage_;
     const Interface& interface_;
     const std::vector<const Piece*>& pieces_;
+    Dialect dialect_;
     StageKind kind_;
     Diagnostics found_;
 };
@@ -246,8 +249,8 @@ class StageCheck {
 }  // namespace
 
 Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage, const Interface& interface,
-                        const std::vector<const Piece*>& pieces, bool places_vertices) {
-    return StageCheck(module, usage, interface, pieces).run(places_vertices);
+                        const std::vector<const Piece*>& pieces, bool places_vertices, Dialect dialect) {
+    return StageCheck(module, usage, interface, pieces, dialect).run(places_vertices);
 }
 
 }  // namespace gobo

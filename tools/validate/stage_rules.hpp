@@ -16,6 +16,6 @@ namespace gobo {
 /// stage writes to gl_Position is where its vertices are drawn.
 [[nodiscard]] Diagnostics check_stage(const spirv::Module& module, const spirv::Usage& usage,
                                       const Interface& interface, const std::vector<const Piece*>& pieces,
-                                      bool places_vertices);
+                                      bool places_vertices, Dialect dialect);
 
 }  // namespace gobo

@@ -44,7 +44,7 @@ void build_tables(const Composition& composition) {
     }
     for (const std::string& version : versions) {
         const Piece piece{"", "", version + "void main() {}\n"};
-        GlslangStage(StageKind::vertex, {&piece}).parse();
+        GlslangStage(StageKind::vertex, {&piece}, composition.dialect).parse();
     }
 }
 
@@ -283,6 +283,7 @@ class Validator {
         const Diagnostics found = check_link(views);
         if (exit_status(found) != 0) all.clear();
         append(all, found);
+        if (composition_.dialect == Dialect::vulkan) append(all, check_descriptors(views));
         if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }
 

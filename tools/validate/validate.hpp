@@ -52,7 +52,9 @@ struct ValidateOptions {
     /// glslang runs in as many child processes instead: what crashes it, or takes it too much time or memory,
     /// is an error at its stage.
     bool child_processes = false;
-    bool spirv_val = false;  ///< also ask SPIRV-Tools' validator
+    bool spirv_val = false;  ///< also ask SPIRV-Tools' validator; SPIR-V that is shipped is asked always
+    bool optimize = false;   ///< SPIR-V for speed, by SPIRV-Tools' optimizer
+    bool strip = false;      ///< SPIR-V without names
     /// What is known there of stages and programs is not found out again; what is not is put there. Null:
     /// nothing is known.
     ResultCache* cache = nullptr;

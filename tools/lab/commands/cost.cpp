@@ -1,6 +1,7 @@
 // gobo cost: what permutations cost on GPUs, as the compilers of their drivers estimate it.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/study_cycles.hpp"
 #include "lab/render/render.hpp"
+#include "spirv/transform.hpp"
 
 namespace gobo {
 namespace {
@@ -25,6 +27,7 @@ struct CostCommandOptions : SelectionOptions {
     bool csv = false;
     bool isa = false;
     bool cycles = false;
+    bool specialized = false;
     std::string against;   ///< a key
     std::string baseline;  ///< a CSV file
     double tolerance = 2;  ///< percent
@@ -255,6 +258,100 @@ Result<Outcome> cost_study(const World& world, const CostCommandOptions& options
     return Outcome{csv_text(cost::with_cycles(study, costs)), std::move(diagnostics)};
 }
 
+/// Distinct modules without their names, and their bytes.
+struct Modules {
+    std::set<cost::Words> distinct;
+    std::size_t bytes = 0;
+
+    Result<void> add(const SpirvModule& words) {
+        GOBO_TRY(cost::Words bare, spirv::without_names(words));
+        const std::size_t size = bare.size() * sizeof(bare[0]);
+        if (distinct.insert(std::move(bare)).second) bytes += size;
+        return {};
+    }
+};
+
+/// Every key twice: with its counts as literals, and with those that the family wants specialised as
+/// constants of the pipeline. What assembly the drivers make of both, and what is saved of SPIR-V.
+Result<Outcome> compare_specialized(const World& world, const CostCommandOptions& options,
+                                    const std::vector<cost::Chip>& chips) {
+    if (options.names.size() != 1)
+        return fail(Fault::usage, "--specialized goes with one family",
+                    "name it: gobo cost lit --specialized --gpu "
+                    "navi21");
+    struct Side {
+        Composition composition;
+        Validated validated;
+        Modules modules;
+    };
+    const auto compiled = [&](const std::string& dialect) -> Result<Side> {
+        GOBO_TRY(const Subject subject, load_subject(world, options.names, {}, dialect, &options));
+        GOBO_TRY_DO(
+            refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
+        Side side;
+        GOBO_TRY(side.validated, compile(world, subject, {.keep_spirv = true}));
+        for (const ValidatedStage& stage : side.validated.stages) GOBO_TRY_DO(side.modules.add(stage.spirv));
+        side.composition = subject.composition;
+        return side;
+    };
+    GOBO_TRY(const LoadedFamily family, load_family(world, options.names.front()));
+    GOBO_TRY(const Side literal, compiled("450"));
+    GOBO_TRY(const Side specialized, compiled("gl_spirv"));
+    // Of each permutation that has such counts the literal pipeline, then the specialised one.
+    std::vector<cost::Pipeline> pipelines;
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < literal.composition.permutations.size(); ++i) {
+        const Permutation& counted = specialized.composition.permutations[i];
+        if (counted.specialized.empty()) continue;
+        keys.push_back(key_text(family.family, counted.key));
+        for (const Side* side : {&literal, &specialized}) {
+            const auto [vertex, fragment] = pair_of(side->composition.permutations[i]);
+            GOBO_TRY(cost::Pipeline pipeline, cost::pipeline_of(side->validated.stage(vertex).spirv,
+                                                                side->validated.stage(fragment).spirv));
+            pipelines.push_back(std::move(pipeline));
+        }
+        for (const SpecializedCount& count : counted.specialized)
+            pipelines.back().constants.emplace_back(count.id, count.value);
+    }
+    std::string text = fmt::format(
+        "{} keys, of which {} have specialised counts\n"
+        "{} modules of {} bytes instead of {} of {}\n",
+        literal.composition.permutations.size(), keys.size(), specialized.modules.distinct.size(),
+        specialized.modules.bytes, literal.modules.distinct.size(), literal.modules.bytes);
+    Diagnostics diagnostics;
+    const auto answers =
+        cost::compile_on_chips(world.disk, chips, pipelines, compile_options(options, world));
+    for (std::size_t chip = 0; chip < chips.size(); ++chip) {
+        if (!answers[chip]) {
+            append(diagnostics, answers[chip].error());
+            continue;
+        }
+        std::size_t same = 0;
+        std::size_t stages = 0;
+        std::string others;
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const auto& plain = answers[chip]->pipelines[2 * i];
+            const auto& counted = answers[chip]->pipelines[2 * i + 1];
+            for (const auto* answer : {&plain, &counted})
+                if (!*answer)
+                    append(diagnostics, report_failure(world, options, chips[chip],
+                                                       pipelines[2 * i + (answer == &plain ? 0 : 1)], keys[i],
+                                                       answer->error()));
+            if (!plain || !counted) continue;
+            for (std::size_t stage = 0; stage < std::min(plain->size(), counted->size()); ++stage) {
+                ++stages;
+                if ((*plain)[stage].assembly == (*counted)[stage].assembly)
+                    ++same;
+                else
+                    others += fmt::format("  {} stage of '{}'\n", (*plain)[stage].stage, keys[i]);
+            }
+        }
+        text += fmt::format("{}: {} of {} stages have the assembly of the literal counts ({})\n{}",
+                            chips[chip].name, same, stages, answers[chip]->driver, others);
+    }
+    return Outcome{std::move(text), std::move(diagnostics)};
+}
+
 Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
@@ -263,6 +360,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");
     if (!options.study.empty()) return cost_study(world, options, chips);
+    if (options.specialized) return compare_specialized(world, options, chips);
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     if (subject.composition.permutations.empty())
         return Outcome{{},
@@ -387,6 +485,11 @@ Command cost_command() {
          {"--study", "FILE",
           "Print this study.csv with cycles and fronts of the chips, for gobo build --max-error --gpu",
           &options->study},
+         {"--specialized", "",
+          "Compile each key with its counts as specialisation constants too: what assembly differs, and how "
+          "many "
+          "modules and bytes that saves",
+          &options->specialized},
          {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
          {"--cycles", "", "Print cycles only: a row for each key and stage, a column for each chip",
           &options->cycles},
@@ -398,6 +501,7 @@ Command cost_command() {
         "  gobo cost lit --cover 2 --gpu polaris10,vega10,navi21\n"
         "  gobo cost lit --key 'point=1 specular=blinn' --gpu navi21 --isa\n"
         "  gobo cost lit --key 'point=2 light_sum=compensated' --against point=2 --gpu navi21\n"
+        "  gobo cost lit --cover 2 --specialized --gpu navi21\n"
         "  gobo cost game.vert game.frag --gpu navi21\n"
         "  gobo cost lit --gpu navi21 --baseline costs.csv --update\n"
         "  gobo cost --gpu list",

@@ -91,7 +91,8 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
     };
     if (std::none_of(composition.permutations.begin(), composition.permutations.end(), has_shadows))
         return std::nullopt;
-    GOBO_TRY(LoadedFamily depth, load_family(world, "depth"));
+    const bool is_vulkan = composition.dialect == Dialect::vulkan;
+    GOBO_TRY(LoadedFamily depth, load_family(world, "depth", is_vulkan ? "vulkan" : ""));
     GOBO_TRY(const Composition stages, compose_selection(world, depth, {}));
     GOBO_TRY(const Validated validated, compile(world, depth, stages, {.keep_spirv = true}));
     const Permutation& permutation = stages.permutations.front();
@@ -102,6 +103,21 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
     pass.vertex = validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::vertex])].spirv;
     pass.fragment = validated.stages[static_cast<std::size_t>(permutation.stages[StageKind::fragment])].spirv;
     return pass;
+}
+
+Result<std::string> dialect_for(const std::string& backend, const std::string& dialect) {
+    if (backend != kVulkanBackend) {
+        if (dialect == "vulkan" || dialect == "gl_spirv")
+            return fail(
+                Fault::usage, fmt::format("--dialect {} is not drawn by --backend {}", dialect, backend),
+                dialect == "vulkan" ? "add --backend vulkan" : "draw --dialect 450: its text is the same");
+        GOBO_TRY_DO(backend_of(backend));
+        return dialect;
+    }
+    if (!dialect.empty() && dialect != "vulkan")
+        return fail(Fault::usage, fmt::format("--backend vulkan does not draw --dialect {}", dialect),
+                    "leave --dialect out, or draw by --backend osmesa");
+    return "vulkan";
 }
 
 Result<void> refuse_other_stages(const Family& family, const Composition& composition,

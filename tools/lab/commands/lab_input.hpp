@@ -45,10 +45,18 @@ using CubeImages = std::map<std::string, Image>;
 [[nodiscard]] std::vector<Interface> interfaces_of(const Composition& composition,
                                                    const Validated& validated);
 
-/// The default key of the family `depth`, which draws shadow maps; nothing where no key has shadows.
+/// The default key of the family `depth`, which draws shadow maps, for the composition's dialect where that
+/// is vulkan; nothing where no key has shadows.
 [[nodiscard]] Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world,
                                                                          const Family& family,
                                                                          const Composition& composition);
+
+/// The renderers that --backend names.
+inline constexpr const char* kBackends = "osmesa|egl|vulkan";
+inline constexpr std::string_view kVulkanBackend = "vulkan";
+/// The dialect that a backend draws: `dialect`, and vulkan where the backend is. Fault::usage where the two
+/// do not go together, or there is no such backend.
+[[nodiscard]] Result<std::string> dialect_for(const std::string& backend, const std::string& dialect);
 
 /// An error where a key has a stage that the lab does not evaluate, or where `wants_pair` not both of those
 /// that it does. `what` the lab does: "gobo test evaluates".

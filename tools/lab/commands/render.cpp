@@ -12,6 +12,7 @@
 #include "lab/gallery/gallery.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
+#include "lab/vulkan/picture.hpp"
 #include "scene/read_scene.hpp"
 
 namespace gobo {
@@ -188,10 +189,54 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     return {};
 }
 
+/// Draws each key with the demonstration mesh, by Vulkan.
+Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, const World& world,
+                                                LoadedFamily& family, const vulkan::Device& device,
+                                                const PictureOptions& pictures) {
+    if (!options.scenes.empty())
+        return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
+    GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
+    GOBO_TRY(const Composition composition, compose_selection(world, family, options));
+    GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
+    const std::vector<Interface> interfaces = interfaces_of(composition, validated);
+    GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
+    GOBO_TRY(const auto environment, load_environment(world, options.environment, interfaces));
+    vulkan::PictureOptions own{pictures.view, pictures.format, pictures.folder, pictures.smooth};
+    for (const auto& [sampler, image] : environment) own.textures[sampler] = vulkan::cube_texels(image);
+    vulkan::ShadowPass pass;
+    if (shadow_pass) {
+        pass.stages = {{StageKind::vertex, shadow_pass->vertex, {}},
+                       {StageKind::fragment, shadow_pass->fragment, {}}};
+        pass.interface = shadow_pass->pass.interface;
+        pass.values = shadow_pass->pass.values;
+        own.shadow_pass = &pass;
+    }
+    std::vector<std::span<const std::uint32_t>> modules;
+    for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
+    return vulkan::render_selection(device, family.family, composition, modules, interfaces,
+                                    demo_objects(std::move(mesh)), own, world.disk);
+}
+
+Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pictures,
+                   const std::string& renderer) {
+    const auto drawn = std::count_if(rendered.files.begin(), rendered.files.end(),
+                                     [](const std::string& file) { return !file.ends_with("/index.html"); });
+    return {
+        rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n", rendered.diagnostics,
+        fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
+                    pictures.view.width / pictures.smooth, pictures.view.height / pictures.smooth, renderer)};
+}
+
 Result<Outcome> render(const RenderOptions& options, const World& world) {
     GOBO_TRY(const PictureOptions pictures, picture_options(options));
+    GOBO_TRY(const std::string dialect, dialect_for(options.backend, options.dialect));
+    GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
+    if (options.backend == kVulkanBackend) {
+        GOBO_TRY(const vulkan::Device device, vulkan::open_device());
+        GOBO_TRY(const auto rendered, render_keys_by_vulkan(options, world, family, device, pictures));
+        return outcome_of(rendered, pictures, device.name());
+    }
     GOBO_TRY(const Backend backend, backend_of(options.backend));
-    GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const Context context, open_context(backend));
     RenderedSelection rendered;
     for (const std::string& path : options.scenes)
@@ -201,13 +246,7 @@ Result<Outcome> render(const RenderOptions& options, const World& world) {
         rendered.files.insert(rendered.files.end(), keys.files.begin(), keys.files.end());
         append(rendered.diagnostics, keys.diagnostics);
     }
-    const auto drawn = std::count_if(rendered.files.begin(), rendered.files.end(),
-                                     [](const std::string& file) { return !file.ends_with("/index.html"); });
-    return Outcome{rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n",
-                   std::move(rendered.diagnostics),
-                   fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
-                               pictures.view.width / pictures.smooth, pictures.view.height / pictures.smooth,
-                               context.renderer())};
+    return outcome_of(rendered, pictures, context.renderer());
 }
 
 /// In a process that a driver may end.
@@ -231,7 +270,8 @@ Command render_command() {
              {"--size", "WxH", "Pixels; by default 640x480, and 400x300 on a page", &options->size},
              {"--smooth", "N", "Make each pixel the average of N x N; without a page", &options->smooth,
               between(1, 8)},
-             {"--backend", "osmesa|egl", "What draws", &options->backend},
+             {"--backend", kBackends, "What draws; vulkan draws keys without a page, and no scenes",
+              &options->backend},
              {"--format", "png|exr|pfm", "png is sRGB for the eye; exr and pfm hold linear floats",
               &options->format},
              {"--mesh", "teapot|sphere|torus|plane|FILE.obj", "What stands on the plane", &options->mesh},
@@ -249,6 +289,7 @@ Command render_command() {
             "  gobo render lit --key 'directional=1 specular=blinn' -o pictures\n"
             "  gobo render lit --cover 2 --where 'point <= 2' -o pictures --size 320x240 --backend egl\n"
             "  gobo render lit --key 'spot=1' -o pictures --format exr --mesh torus --dialect 330\n"
+            "  gobo render lit --key 'point=3' -o pictures --backend vulkan\n"
             "  gobo render game.toml --all -o pictures",
             [options](const World& world) { return run(*options, world); },
             "Prints the paths of the pictures. Pictures of --all, --cover or the default set come with a "

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
@@ -188,6 +189,24 @@ Diagnostics report_picture(const World& world, const std::string& folder, const 
     return diagnostics;
 }
 
+/// Of a permutation that the driver dies of, the SPIR-V of its stages.
+void keep_modules(const World& world, const std::string& folder, const std::string& key,
+                  const Validated& validated, const Permutation& permutation, Diagnostics& problems) {
+    std::vector<std::string> files;
+    for (const StageNames& stage : kStages) {
+        const int number = permutation.stages[stage.kind];
+        if (number < 0) continue;
+        files.push_back(fmt::format("{}/{}.{}.spv", folder, picture_name(key), stage.infix));
+        if (folder.empty()) continue;
+        const SpirvModule& words = validated.stage(number).spirv;
+        const std::string_view bytes(reinterpret_cast<const char*>(words.data()),
+                                     words.size() * sizeof(words[0]));
+        append(problems, keep_file(world, files.back(), bytes));
+    }
+    problems.front().help =
+        folder.empty() ? "keep its SPIR-V with -o DIR" : "its SPIR-V is in " + join(files, " and ");
+}
+
 /// `totals` are of all pictures together.
 std::string totals_text(const raster::PictureReport& totals, std::size_t permutations,
                         const std::string& renderer) {
@@ -231,7 +250,6 @@ std::string maps_text(const std::optional<verify::ShadowMapReport>& report, Diag
 /// stage.
 Result<Outcome> compare_pictures(const World& world, const TestOptions& options, const Family& family,
                                  const Composition& composition, const Validated& validated) {
-    GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
     verify::CrossCheckScene scene;  // what gobo render shows, smaller
     scene.objects = demo_objects(std::move(teapot));
@@ -245,20 +263,29 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         shadow_pass->pass.side = kMapSide;
         scene.shadow_pass = &*shadow_pass;
     }
-    GOBO_TRY(const Context context, open_context(backend));
-    const auto report = verify::cross_check(context, composition, validated, scene, world.jobs());
+    verify::CrossCheckReport report;
+    if (options.backend == kVulkanBackend) {
+        GOBO_TRY(report, verify::cross_check_by_vulkan(composition, validated, scene, world.jobs()));
+    } else {
+        GOBO_TRY(const Backend backend, backend_of(options.backend));
+        GOBO_TRY(const Context context, open_context(backend));
+        report = verify::cross_check(context, composition, validated, scene, world.jobs());
+    }
     Outcome outcome;
     outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     raster::PictureReport totals;
-    for (const raster::PictureReport& picture : report.pictures) {
+    for (std::size_t i = 0; i < report.pictures.size(); ++i) {
+        const raster::PictureReport& picture = report.pictures[i];
         const std::string key = key_text(family, picture.key);
         Diagnostics problems = picture.diagnostics;
+        if (std::ranges::count(report.crashed, i) > 0)
+            keep_modules(world, options.folder, key, validated, composition.permutations[i], problems);
         for (Diagnostic& problem : problems) problem.subject = key;
         if (picture.fails()) problems = report_picture(world, options.folder, key, picture);
         append(outcome.diagnostics, problems);
         add(picture, totals);
     }
-    outcome.output += totals_text(totals, composition.permutations.size(), context.renderer());
+    outcome.output += totals_text(totals, composition.permutations.size(), report.renderer);
     return outcome;
 }
 
@@ -270,7 +297,8 @@ std::string figures_of_shard(std::string figures, const std::string& shard) {
 }
 
 Result<Outcome> run(const TestOptions& options, const World& world) {
-    GOBO_TRY(LoadedFamily family, load_family(world, options.family));
+    GOBO_TRY(const std::string dialect, dialect_for(options.backend, ""));
+    GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     verify::VerifyOptions verify_options;
     if (!options.render) {  // behind the keys stand those that relations compare them with
@@ -281,6 +309,8 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(const Composition composition, compose_keys(family, keys));
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
+    if (options.render && options.backend == kVulkanBackend)  // draws in children of its own
+        return compare_pictures(world, options, family.family, composition, validated);
     if (options.render)
         // A key takes less than a second; nothing is told between them.
         return run_guarded(
@@ -322,11 +352,12 @@ Command test_command() {
               "Write each key's points and largest errors to this file, as JSON",
               &options->figures_file,
               {.excludes = "--render"}},
-             {"--backend", "osmesa|egl", "What draws", &options->backend, {.needs = "--render"}}},
+             {"--backend", kBackends, "What draws", &options->backend, {.needs = "--render"}}},
             {selection_options(*options)},
             "  gobo test lit                               the family's default set\n"
             "  gobo test lit --cover 3\n"
             "  gobo test lit --cover 2 --render            every key drawn, too\n"
+            "  gobo test lit --cover 2 --render --backend vulkan\n"
             "  gobo test lit --figures figures.json\n"
             "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
             "  gobo test game.toml -o build/failed_points",

@@ -259,6 +259,15 @@ Result<VkPipeline> Driver::Device::pipeline_of(const Pipeline& pipeline, VkShade
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     stages[1].module = fragment;
     stages[0].pName = stages[1].pName = "main";
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    for (const auto& [id, value] : pipeline.constants) {
+        entries.push_back({id, static_cast<std::uint32_t>(sizeof(value) * values.size()), sizeof(value)});
+        values.push_back(value);
+    }
+    const VkSpecializationInfo constants{size_of(entries), entries.data(),
+                                         sizeof(std::uint32_t) * values.size(), values.data()};
+    stages[0].pSpecializationInfo = stages[1].pSpecializationInfo = &constants;
     auto info = made<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &targets);
     info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR |
                  VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;

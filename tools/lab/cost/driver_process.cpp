@@ -62,11 +62,10 @@ Words words_in(const json& content) {
 }
 
 json to_json(const Pipeline& pipeline) {
-    json content = {{"vertex", to_json(pipeline.vertex)},
-                    {"fragment", to_json(pipeline.fragment)},
-                    {"descriptors", json::array()},
-                    {"inputs", json::array()},
-                    {"outputs", json::array()}};
+    json content = {{"vertex", to_json(pipeline.vertex)}, {"fragment", to_json(pipeline.fragment)},
+                    {"descriptors", json::array()},       {"inputs", json::array()},
+                    {"outputs", json::array()},           {"constants", json::array()}};
+    for (const auto& [id, value] : pipeline.constants) content["constants"].push_back({id, value});
     for (const Descriptor& descriptor : pipeline.descriptors)
         content["descriptors"].push_back({static_cast<int>(descriptor.kind), descriptor.count});
     for (const VertexInput& input : pipeline.inputs)
@@ -87,6 +86,8 @@ Pipeline pipeline_in(const json& content) {
         const int scalar = output.get<int>();
         pipeline.outputs.push_back(scalar < 0 ? std::nullopt : std::optional(static_cast<Scalar>(scalar)));
     }
+    for (const json& constant : content["constants"])
+        pipeline.constants.emplace_back(constant[0], constant[1]);
     return pipeline;
 }
 

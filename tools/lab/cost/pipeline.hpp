@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -35,6 +36,8 @@ struct Pipeline {
     /// Whether a stage has a loop whose turns the driver guesses (has_varying_loop()).
     bool vertex_loop_varies = false;
     bool fragment_loop_varies = false;
+    /// Specialisation constants of both stages: constant_id and value.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
 };
 
 /// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one

@@ -36,28 +36,39 @@ Result<void> SharedTextures::add(const Interface& interface, const std::vector<R
             cube != cubes.end() && sampler.type == "samplerCube") {
             if (auto added = cubes_.add(sampler.name, cube->second); !added) return added;
             given_[sampler.name] = cubes_.textures().at(sampler.name);
-            images_[sampler.name] =
-                image_of(evaluate::CubeTexels{cube->second.width, colors_of(cube->second)});
+            images_[sampler.name] = colors_of_cube(cube->second);
         } else if (value != nullptr && !value->source.empty() && sampler.type == "sampler2D") {
             const TextureSource source{value->source, value->numbers};
             const auto texture = make_texture(flat_.context(), sampler.type, source, TextureLevels::one);
             if (!texture) continue;
-            const Image picture = texture_texels(source);
             given_[sampler.name] = *texture;
             flat_.adopt(*texture);
-            images_[sampler.name] =
-                image_of(evaluate::ColorTexels{picture.width, picture.height, colors_of(picture)});
+            images_[sampler.name] = colors_of_picture(texture_texels(source));
         }
     }
     return {};
 }
 
+evaluate::Image colors_of_cube(const Image& faces) {
+    return image_of(evaluate::CubeTexels{faces.width, colors_of(faces)});
+}
+
+evaluate::Image colors_of_picture(const Image& picture) {
+    return image_of(evaluate::ColorTexels{picture.width, picture.height, colors_of(picture)});
+}
+
 evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
+    int count = 0;
+    for (const ShadowLight& light : lights) count += light.kind == ShadowLight::Kind::point ? 6 : 1;
+    std::vector<Image> layers;
+    for (int i = 0; i < count; ++i) layers.push_back(maps.layer(i));
+    return depths_of(layers);
+}
+
+evaluate::Image depths_of(const std::vector<Image>& layers) {
     evaluate::DepthTexels texels;
-    texels.layers = 0;
-    for (const ShadowLight& light : lights) texels.layers += light.kind == ShadowLight::Kind::point ? 6 : 1;
-    for (int i = 0; i < texels.layers; ++i) {
-        const Image layer = maps.layer(i);
+    texels.layers = static_cast<int>(layers.size());
+    for (const Image& layer : layers) {
         texels.width = layer.width;
         texels.height = layer.height;
         texels.depths.insert(texels.depths.end(), layer.values.begin(), layer.values.end());

@@ -38,5 +38,9 @@ class SharedTextures {
 /// What the sampler of the lights' maps answers: the depths of every layer, read back, as the renderer's own
 /// lookups see them.
 [[nodiscard]] evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
+[[nodiscard]] evaluate::Image depths_of(const std::vector<Image>& layers);
+/// What a sampler of a cube map answers, of six faces one below the other, or of a flat picture that repeats.
+[[nodiscard]] evaluate::Image colors_of_cube(const Image& faces);
+[[nodiscard]] evaluate::Image colors_of_picture(const Image& picture);
 
 }  // namespace gobo::raster

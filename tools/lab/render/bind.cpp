@@ -344,9 +344,10 @@ std::vector<Value> values_as(Scalar scalar, const std::vector<double>& numbers) 
 
 std::vector<Leaf> leaves_of(const Interface& interface) {
     std::vector<Leaf> leaves;
-    for (const Block& block : interface.blocks)
-        for (const Member& member : block.members)
-            flatten(member, block.name, block.name + "." + member.name, member.offset, 0, leaves);
+    for (const auto blocks : {&Interface::blocks, &Interface::push_constants})
+        for (const Block& block : interface.*blocks)
+            for (const Member& member : block.members)
+                flatten(member, block.name, block.name + "." + member.name, member.offset, 0, leaves);
     for (const Uniform& uniform : interface.uniforms) {
         Member member;
         member.name = uniform.name;

@@ -1,7 +1,8 @@
-// The evaluator cross-checked by the renderer: permutations drawn by both, compared pixel by pixel.
+// The evaluator cross-checked by a renderer: permutations drawn by both, compared pixel by pixel.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -26,6 +27,8 @@ struct CrossCheckScene {
 struct CrossCheckReport {
     std::vector<raster::PictureReport> pictures;  ///< in the composition's order
     std::optional<ShadowMapReport> shadow_maps;   ///< of all lights that cast shadows in any key
+    std::string renderer;                         ///< that drew them, with its driver
+    std::vector<std::size_t> crashed;             ///< the permutations of which the driver died
 };
 
 /// Draws every permutation of the composition in the context, and compares by `jobs` threads. `validated`
@@ -34,5 +37,13 @@ struct CrossCheckReport {
 [[nodiscard]] CrossCheckReport cross_check(const Context& context, const Composition& composition,
                                            const Validated& validated, const CrossCheckScene& scene,
                                            int jobs);
+
+/// The same by Vulkan, in `jobs` child processes: a driver that crashes costs only the permutation that it
+/// was about. The calling process must have no other threads. An error where there is no device. Composition
+/// and shadow pass are of the dialect vulkan; the SPIR-V that is drawn is the one that is evaluated, counts
+/// that are specialisation constants at the permutation's value.
+[[nodiscard]] Result<CrossCheckReport> cross_check_by_vulkan(const Composition& composition,
+                                                             const Validated& validated,
+                                                             const CrossCheckScene& scene, int jobs);
 
 }  // namespace gobo::verify

@@ -98,13 +98,13 @@ Result<DepthLayers> evaluated(const raster::Pipeline& pipeline, const DepthPass&
     return layers;
 }
 
-Result<void> compare(const ShadowMaps& drawn, const ShadowPass& pass,
+Result<void> compare(const std::vector<Image>& drawn, const ShadowPass& pass,
                      const std::vector<ShadowCamera>& cameras, const std::vector<Object>& objects,
                      ShadowMapReport& report) {
     GOBO_TRY(const auto pipeline, raster::pipeline_of(pass.vertex, pass.fragment));
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         GOBO_TRY(const DepthLayers layers, evaluated(pipeline, pass.pass, cameras[i], objects));
-        const Image map = drawn.layer(static_cast<int>(i));
+        const Image& map = drawn[i];
         for (int y = 0; y < map.height; ++y)
             for (int x = 0; x < map.width; ++x)
                 layers.judge(x, y, static_cast<double>(map.at(x, y, 0)), report);
@@ -120,7 +120,7 @@ bool ShadowMapReport::fails() const {
            static_cast<double>(edges) > raster::kLargestEdgePixelShare * static_cast<double>(texels);
 }
 
-ShadowMapReport compare_shadow_maps(const ShadowMaps& drawn, const ShadowPass& pass,
+ShadowMapReport compare_shadow_maps(const std::vector<Image>& drawn, const ShadowPass& pass,
                                     const std::vector<ShadowCamera>& cameras,
                                     const std::vector<Object>& objects) {
     ShadowMapReport report;

@@ -35,8 +35,8 @@ struct ShadowMapReport {
     [[nodiscard]] bool fails() const;
 };
 
-/// The maps of `cameras`, in their order, drawn by `pass`.
-[[nodiscard]] ShadowMapReport compare_shadow_maps(const ShadowMaps& drawn, const ShadowPass& pass,
+/// The maps of `cameras`, in their order, drawn by `pass`; row 0 of each is that at t = 0.
+[[nodiscard]] ShadowMapReport compare_shadow_maps(const std::vector<Image>& drawn, const ShadowPass& pass,
                                                   const std::vector<ShadowCamera>& cameras,
                                                   const std::vector<Object>& objects);
 

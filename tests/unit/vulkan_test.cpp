@@ -1,0 +1,202 @@
+// The dialects that ship SPIR-V: where Vulkan binds what a stage declares, and counts as specialisation
+// constants.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compose/compose.hpp"
+#include "compose/dialect.hpp"
+#include "family/key.hpp"
+#include "reflect/reflect.hpp"
+#include "small_families.hpp"
+#include "spirv/transform.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A family whose templates are given, composed for keys and validated.
+struct Built {
+    Family family;
+    Composition composition;
+    Validated validated;
+};
+
+Built built(const std::string& body, const std::string& vertex, const std::string& fragment,
+            const std::vector<std::string>& keys, Dialect dialect = Dialect::vulkan) {
+    Built result;
+    result.family = family_of(body);
+    MemoryFileSystem files;
+    files.write("tiny.vert", vertex);
+    files.write("tiny.frag", fragment);
+    files.write("lamp/lamp.glsl", "void addLamps() {}\n");
+    SearchPath search;
+    search.add(files, "", "", false);
+    std::vector<Key> list;
+    for (const std::string& key : keys) list.push_back(parse_key(result.family, key).value());
+    auto composition = compose(result.family, list, search, dialect);
+    EXPECT_TRUE(composition) << (composition ? "" : first_text(composition.error()));
+    result.composition = composition.value();
+    result.validated = validate(result.family, result.composition, {.keep_spirv = true});
+    EXPECT_EQ(first_text(result.validated.diagnostics), "");
+    return result;
+}
+
+const std::string kVertex = "void main() { gl_Position = vec4(float(gl_VertexID), 0.0, 0.0, 1.0); }\n";
+
+std::string fragment_of(const Built& built, std::size_t permutation = 0) {
+    const int stage = built.composition.permutations[permutation].stages[StageKind::fragment];
+    return source_of(built.composition, built.composition.stage(stage));
+}
+
+TEST(VulkanPrologue, PlacesWhatTheStageDeclares) {
+    const Built tiny = built(
+        "[[descriptor_sets]]\nname = \"frame\"\nholds = [\"Fog\", \"shadows\"]\n"
+        "[[descriptor_sets]]\nname = \"object\"\nholds = [\"Unused\", \"Transform\"]\n",
+        kVertex,
+        "BLOCK(3, Transform) { vec4 a; } transform;\nBLOCK(7, Other) { vec4 a; } other;\n"
+        "SAMPLER(3, sampler2D) shadows;\nOUTPUT(0) vec4 color;\n"
+        "void main() { color = transform.a + other.a + texture(shadows, vec2(0.0)); }\n",
+        {"default"});
+    EXPECT_THAT(fragment_of(tiny),
+                testing::StartsWith(
+                    "#version 450\n"
+                    "#define PLACE_Other set = 0, binding = 7\n"
+                    "#define PLACE_Transform set = 1, binding = 1\n"
+                    "#define PLACE_OF_SAMPLER_3 set = 0, binding = 1\n"
+                    "#define BLOCK(binding_, name_) layout(std140, PLACE_##name_) uniform name_\n"
+                    "#define OUTPUT(location_) layout(location = location_) out\n"
+                    "#define SAMPLER(binding_, type_) layout(PLACE_OF_SAMPLER_##binding_) uniform type_\n"));
+    const Interface interface = interface_of(tiny.validated, tiny.composition.permutations[0]);
+    ASSERT_EQ(interface.blocks.size(), 2u);
+    EXPECT_EQ(interface.blocks[0].set, 0);
+    EXPECT_EQ(interface.blocks[0].binding, 7);
+    EXPECT_EQ(interface.blocks[1].set, 1);
+    EXPECT_EQ(interface.blocks[1].binding, 1);
+    ASSERT_EQ(interface.samplers.size(), 1u);
+    EXPECT_EQ(interface.samplers[0].set, 0);
+    EXPECT_EQ(interface.samplers[0].binding, 1);
+}
+
+TEST(VulkanPrologue, CountsVerticesByVulkansName) {
+    const Built tiny =
+        built("", kVertex, "OUTPUT(0) vec4 color;\nvoid main() { color = vec4(1.0); }\n", {"default"});
+    const int stage = tiny.composition.permutations[0].stages[StageKind::vertex];
+    EXPECT_THAT(source_of(tiny.composition, tiny.composition.stage(stage)),
+                HasSubstr("float(gl_VertexIndex)"));
+}
+
+TEST(VulkanInterface, HasPushConstantsApartFromBlocks) {
+    const Built tiny = built("", kVertex,
+                             "layout(push_constant) uniform Tint { vec4 tint; } pushed;\n"
+                             "OUTPUT(0) vec4 color;\nvoid main() { color = pushed.tint; }\n",
+                             {"default"});
+    const Interface interface = interface_of(tiny.validated, tiny.composition.permutations[0]);
+    EXPECT_THAT(interface.blocks, IsEmpty());
+    ASSERT_EQ(interface.push_constants.size(), 1u);
+    EXPECT_EQ(interface.push_constants[0].name, "Tint");
+    EXPECT_EQ(interface.push_constants[0].size, 16);
+}
+
+const std::string kLamps = "[features.lamp]\ncount = [0, 6]\nconstant = \"LAMPS\"\nspecialize = true\n";
+const std::string kLampFragment =
+    "#include <lamp>\n"
+    "#if LAMPS > 0\nBLOCK(0, Lamps) { vec4 lamps[LAMPS]; } lamps;\n#endif\n"
+    "OUTPUT(0) vec4 color;\n"
+    "void main() {\n    color = vec4(0.0);\n"
+    "#if LAMPS > 0\n    for (int i = 0; i < LAMPS; ++i) color += lamps.lamps[i];\n#endif\n}\n";
+
+class SpecializedCount : public testing::TestWithParam<Dialect> {};
+
+TEST_P(SpecializedCount, SharesOneStageButFor0) {
+    const Built lamps =
+        built(kLamps, kVertex, kLampFragment, {"lamp=1", "lamp=4", "lamp=6", "default"}, GetParam());
+    const auto stage = [&](std::size_t i) {
+        return lamps.composition.permutations[i].stages[StageKind::fragment];
+    };
+    EXPECT_EQ(stage(0), stage(1));
+    EXPECT_EQ(stage(0), stage(2));
+    EXPECT_NE(stage(0), stage(3));
+    EXPECT_THAT(fragment_of(lamps),
+                HasSubstr("#define LAMPS_LARGEST 6\nlayout(constant_id = 0) const int LAMPS = 6;\n"));
+    EXPECT_THAT(fragment_of(lamps), HasSubstr("#if LAMPS_LARGEST > 0\n"));
+    EXPECT_THAT(fragment_of(lamps, 3), HasSubstr("#define LAMPS 0\n#define LAMPS_LARGEST 0\n"));
+    EXPECT_THAT(lamps.composition.permutations[1].specialized, ElementsAre(gobo::SpecializedCount{0, 4}));
+    EXPECT_THAT(lamps.composition.permutations[3].specialized, IsEmpty());
+    EXPECT_THAT(lamps.composition.notes, IsEmpty());
+}
+
+TEST_P(SpecializedCount, LeavesArraysAtTheirLargest) {
+    const Built lamps = built(kLamps, kVertex, kLampFragment, {"lamp=2"}, GetParam());
+    const SpirvModule& words =
+        lamps.validated.stage(lamps.composition.permutations[0].stages[StageKind::fragment]).spirv;
+    const Interface largest = reflect_stage(words).value();
+    ASSERT_EQ(largest.specialization_constants.size(), 1u);
+    EXPECT_EQ(largest.specialization_constants[0], (SpecializationConstant{"LAMPS", "int", 0, 6}));
+    const SpirvModule two = spirv::specialized(words, {{0, 2}}).value();
+    const Interface specialized = reflect_stage(two).value();
+    EXPECT_THAT(specialized.specialization_constants, IsEmpty());
+    EXPECT_EQ(specialized.blocks, largest.blocks) << "6 lamps, however many are asked for";
+    EXPECT_THAT(specialized.blocks[0].members[0].array, ElementsAre(6));
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, SpecializedCount, testing::Values(Dialect::vulkan, Dialect::gl_spirv),
+                         [](const auto& row) { return std::string(name_of(row.param)); });
+
+TEST(SpecializedCountOfTexts, IsAMacroAsEver) {
+    const Built lamps = built(kLamps, kVertex, kLampFragment, {"lamp=1", "lamp=4"}, Dialect::glsl450);
+    EXPECT_THAT(fragment_of(lamps), HasSubstr("#define LAMPS 1\n"));
+    EXPECT_THAT(fragment_of(lamps), Not(HasSubstr("LARGEST")));
+    EXPECT_NE(lamps.composition.permutations[0].stages, lamps.composition.permutations[1].stages);
+}
+
+struct LiteralRow {
+    const char* name;
+    const char* body;
+    const char* fragment;
+    const char* note;
+};
+
+/// Where more hangs on a count than a loop and an array, its keys keep it as a literal.
+class LiteralCount : public testing::TestWithParam<LiteralRow> {};
+
+TEST_P(LiteralCount, IsNotedWithTheReason) {
+    const LiteralRow& row = GetParam();
+    const Built lamps = built(kLamps + row.body,
+                              "vec4[LAMPS] raysToLamps() {\n    vec4 rays[LAMPS];\n"
+                              "    for (int i = 0; i < LAMPS; ++i) rays[i] = vec4(float(i));\n"
+                              "    return rays;\n}\n#include <varyings>\n"
+                              "void main() {\n    gl_Position = raysToLamps()[0];\n    writeVaryings();\n}\n",
+                              row.fragment, {"lamp=1", "lamp=4"});
+    EXPECT_THAT(lamps.composition.permutations[0].specialized, IsEmpty());
+    EXPECT_NE(lamps.composition.permutations[0].stages, lamps.composition.permutations[1].stages);
+    EXPECT_THAT(fragment_of(lamps), HasSubstr("#define LAMPS 1\n#define LAMPS_LARGEST 1\n"));
+    ASSERT_EQ(lamps.composition.notes.size(), 1u);
+    EXPECT_EQ(to_text(lamps.composition.notes[0]), row.note);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, LiteralCount,
+    testing::Values(
+        LiteralRow{
+            "varyings", "[varyings.rays]\ncount = \"lamp\"\ntype = \"vec4\"\nvalue = \"raysToLamps()\"\n",
+            "OUTPUT(0) vec4 color;\n"
+            "void main() {\n    color = vec4(0.0);\n"
+            "    for (int i = 0; i < LAMPS; ++i) color += rays[i];\n}\n",
+            "tiny.toml:8:1: note: no specialisation constant, but a stage for each number of lamp: the "
+            "varying 'rays' has as many values [lamp=1, and 1 more key]\n"},
+        LiteralRow{"conditions", "",
+                   "#include <lamp>\nOUTPUT(0) vec4 color;\nvoid main() {\n    color = vec4(0.0);\n"
+                   "#if LAMPS > 2\n    color.r = 1.0;\n#endif\n}\n",
+                   "tiny.frag:5:1: note: no specialisation constant, but a stage for each number of lamp: this asks for "
+                   "more than whether there is one [lamp=1, and 1 more key]\n    #if LAMPS > 2\n    ^\n"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,180 @@
+// What differs between Vulkan's clip space and OpenGL's, as docs/vulkan.md says it: each on a picture that
+// looks different when it is turned over.
+#include <cstdlib>
+#include <optional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "compose/compose.hpp"
+#include "family/read_family.hpp"
+#include "lab/vulkan/picture.hpp"
+#include "lab/vulkan/state.hpp"
+#include "validate/validate.hpp"
+
+namespace gobo {
+namespace {
+
+constexpr int kSide = 32;
+
+/// With the validation layer: what it says is an error of every picture.
+vulkan::Device device_with_layer() {
+    ::setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 1);
+    auto device = vulkan::open_device();
+    EXPECT_TRUE(device) << (device ? "" : to_text(device.error().front()));
+    return std::move(device).value();
+}
+
+/// A triangle in its own space, which the vertex stage may take for clip space.
+Mesh triangle(const std::vector<glm::vec3>& corners) {
+    return {corners, std::vector(3, glm::vec3(0, 0, 1)), std::vector(3, glm::vec2(0)), {0, 1, 2}};
+}
+
+/// In clip space the corner where x and y are -1, counter-clockwise where y points down.
+const std::vector<glm::vec3> kCorner = {{-1, -1, 0.5F}, {-1, 0, 0.5F}, {0, -1, 0.5F}};
+
+/// One picture by a pair of stages. The camera looks along -z from z = 5 at a square from -1 to 1.
+Picture drawn(const std::string& vertex, const std::string& fragment, const std::vector<glm::vec3>& corners) {
+    MemoryFileSystem files;
+    EXPECT_TRUE(files.write("tiny.vert", vertex));
+    EXPECT_TRUE(files.write("tiny.frag", fragment));
+    SearchPath search;
+    search.add(files, "", "", false);
+    const Family family =
+        read_family("name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n", "tiny.toml", {})
+            .value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const Validated validated = validate(family, composition, {.keep_spirv = true});
+    for (const Diagnostic& diagnostic : validated.diagnostics) ADD_FAILURE() << to_text(diagnostic);
+    std::vector<std::span<const std::uint32_t>> modules;
+    for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
+    View view;
+    view.width = view.height = kSide;
+    view.camera.field_of_view = 2 * std::atan(0.2);
+    static const vulkan::Device device = device_with_layer();
+    const Permutation& permutation = composition.permutations.front();
+    auto picture = vulkan::render_permutation(
+        device, vulkan::modules_of(modules, permutation), interface_of(validated, permutation),
+        {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, view);
+    EXPECT_TRUE(picture) << (picture ? "" : to_text(picture.error().front()));
+    return picture ? *std::move(picture) : Picture{Image(kSide, kSide, 4), Image(kSide, kSide, 1), {}};
+}
+
+const std::string kInClipSpace =
+    "ATTRIBUTE(0) vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
+const std::string kWhite = "OUTPUT(0) vec4 color;\nvoid main() { color = vec4(1.0); }\n";
+
+std::string colored(const std::string& value) {
+    return "OUTPUT(0) vec4 color;\nvoid main() { color = " + value + "; }\n";
+}
+
+TEST(VulkanClipSpace, YPointsDown) {
+    const Picture picture = drawn(kInClipSpace, kWhite, kCorner);
+    EXPECT_EQ(picture.color.at(1, 1, 0), 1) << "upper left";
+    EXPECT_EQ(picture.color.at(1, kSide - 2, 0), 0) << "lower left";
+    EXPECT_EQ(picture.color.at(kSide - 2, 1, 0), 0) << "upper right";
+}
+
+TEST(VulkanClipSpace, DepthIsFrom0To1) {
+    std::vector<glm::vec3> corners = kCorner;
+    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).depth.at(1, 1, 0), 0.5F);
+    for (glm::vec3& corner : corners) corner.z = 0.25F;
+    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).depth.at(1, 1, 0), 0.25F) << "OpenGL stores 0.625";
+    for (glm::vec3& corner : corners) corner.z = -0.25F;
+    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).color.at(1, 1, 0), 0) << "OpenGL draws it";
+}
+
+TEST(VulkanClipSpace, FrontFacesRunCounterClockwiseInThePicture) {
+    const std::string sides = colored("gl_FrontFacing ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 1.0, 0.0, 1.0)");
+    EXPECT_EQ(drawn(kInClipSpace, sides, kCorner).color.at(1, 1, 0), 1);
+    EXPECT_EQ(drawn(kInClipSpace, sides, {kCorner[0], kCorner[2], kCorner[1]}).color.at(1, 1, 1), 1);
+}
+
+TEST(VulkanClipSpace, FragCoordCountsFromTheUpperLeft) {
+    const Picture picture = drawn(kInClipSpace, colored("gl_FragCoord"), kCorner);
+    EXPECT_EQ(picture.color.at(3, 1, 0), 3.5F);
+    EXPECT_EQ(picture.color.at(3, 1, 1), 1.5F) << "OpenGL says 30.5";
+    EXPECT_EQ(picture.color.at(3, 1, 2), 0.5F);
+}
+
+/// What a projection for OpenGL, put behind the matrix of the renderer, makes of a triangle in the lower
+/// left.
+const std::string kProjected =
+    "BLOCK(0, Transform) { mat4 modelView; mat4 projection; } transform;\nATTRIBUTE(0) vec3 position;\n"
+    "VARYING(0) float height;\n"
+    "void main() {\n    height = position.y;\n"
+    "    gl_Position = transform.projection * (transform.modelView * vec4(position, 1.0));\n}\n";
+const std::vector<glm::vec3> kLowerLeft = {{-1, -1, 0}, {0, -1, 0}, {-1, 0, 0}};
+
+TEST(VulkanClipSpace, DerivativesUpwardsAreNegative) {
+    const Picture picture = drawn(
+        kProjected, "VARYING(0) float height;\n" + colored("vec4(dFdx(height), dFdy(height), height, 1.0)"),
+        kLowerLeft);
+    EXPECT_NEAR(picture.color.at(2, kSide - 3, 2), -1 + 2.5F * 2 / kSide, 1e-3F) << "upright";
+    EXPECT_NEAR(picture.color.at(2, kSide - 3, 0), 0, 1e-6F);
+    EXPECT_NEAR(picture.color.at(2, kSide - 3, 1), -2.0F / kSide, 1e-4F) << "OpenGL says +1/16";
+}
+
+TEST(VulkanClipSpace, UprightPicturesKeepTheWindingOfOpenGl) {
+    const std::string fragment =
+        "VARYING(0) float height;\n" + colored("vec4(gl_FrontFacing ? 1.0 : 0.0, height, 0.0, 1.0)");
+    EXPECT_EQ(drawn(kProjected, fragment, kLowerLeft).color.at(2, kSide - 3, 0), 1);
+}
+
+TEST(VulkanClipSpace, CountsVerticesAndInstancesFrom0) {
+    const Picture picture = drawn(
+        "layout(location = 0) flat out vec2 numbers;\n"
+        "void main() {\n    numbers = vec2(gl_VertexID, gl_InstanceID);\n"
+        "    gl_Position = vec4(gl_VertexID == 2 ? 0.0 : -1.0, gl_VertexID == 1 ? 0.0 : "
+        "-1.0, 0.5, 1.0);\n}\n",
+        "layout(location = 0) flat in vec2 numbers;\n" + colored("vec4(numbers, 0.0, 1.0)"), kCorner);
+    EXPECT_EQ(picture.color.at(1, 1, 0), 2) << "the last vertex gives flat values, as OpenGL has it";
+    EXPECT_EQ(picture.color.at(1, 1, 1), 0);
+}
+
+/// The maps of lights are drawn with y upward: row 0, at t = 0, is where clip space has y = -1, as in OpenGL.
+TEST(VulkanClipSpace, ShadowMapsHaveTheirRowsAsOpenGl) {
+    MemoryFileSystem files;
+    EXPECT_TRUE(files.write("tiny.vert", kProjected));
+    EXPECT_TRUE(files.write("tiny.frag", "VARYING(0) float height;\nvoid main() {}\n"));
+    SearchPath search;
+    search.add(files, "", "", false);
+    const Family family =
+        read_family("name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n", "tiny.toml", {})
+            .value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const Validated validated = validate(family, composition, {.keep_spirv = true});
+    vulkan::ShadowPass pass;
+    pass.side = kSide;
+    pass.slope = pass.units = 0;
+    pass.interface = interface_of(validated, composition.permutations.front());
+    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
+        pass.stages.push_back(
+            {kind, validated.stage(composition.permutations.front().stages[kind]).spirv, {}});
+    ShadowPlan plan;
+    plan.cameras.push_back({});  // clip space is the world, as OpenGL has it: depth from -1 to 1
+    const auto maps = vulkan::draw_shadow_maps(device_with_layer(), pass, plan,
+                                               {{triangle(kLowerLeft), glm::dmat4(1), {}, false, true}});
+    ASSERT_TRUE(maps) << to_text(maps.error().front());
+    ASSERT_EQ(maps->size(), 1u);
+    EXPECT_EQ(maps->front().at(1, 1, 0), 0.5F) << "the lower left is in the first rows; z = 0 is half way";
+    EXPECT_EQ(maps->front().at(1, kSide - 2, 0), 1);
+}
+
+/// Else no message would mean nothing.
+TEST(VulkanValidation, IsListenedTo) {
+    const vulkan::Device device = device_with_layer();
+    const vulkan::Device::State& state = device.state();
+    EXPECT_EQ(device.messages().size(), 0u);
+    auto info = vulkan::made<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+    info.usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;  // but no size
+    VkBuffer buffer = VK_NULL_HANDLE;
+    if (state.vk.vkCreateBuffer(state.device, &info, nullptr, &buffer) == VK_SUCCESS)
+        state.vk.vkDestroyBuffer(state.device, buffer, nullptr);
+    const Diagnostics messages = device.messages();
+    ASSERT_EQ(messages.size(), 1u) << "apt-get install vulkan-validationlayers";
+    EXPECT_THAT(messages.front().message, testing::HasSubstr("VUID-VkBufferCreateInfo-size-00912"));
+}
+
+}  // namespace
+}  // namespace gobo

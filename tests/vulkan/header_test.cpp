@@ -1,0 +1,112 @@
+// A generated header for Vulkan: its tables, and the structs that <gobo/vulkan.hpp> makes of them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vulkan/vulkan_core.h>
+// clang-format off: behind Vulkan's own
+#include <gobo/vulkan.hpp>
+// clang-format on
+
+#include "lit.hpp"
+#include "spirv.hpp"
+
+namespace gobo {
+namespace {
+
+lit::Key key_of(int point) {
+    lit::Key key;
+    key.point = point;
+    key.fog = lit::Fog::linear;
+    return key;
+}
+
+TEST(VulkanHeader, SharesModulesBetweenCountsButFor0) {
+    const lit::Permutation* one = lit::find(key_of(1));
+    const lit::Permutation* three = lit::find(key_of(3));
+    const lit::Permutation* none = lit::find(key_of(0));
+    ASSERT_TRUE(one != nullptr && three != nullptr && none != nullptr);
+    EXPECT_EQ(one->vertex, three->vertex);
+    EXPECT_EQ(one->fragment, three->fragment);
+    EXPECT_NE(one->fragment, none->fragment);
+    EXPECT_EQ(one->fragment.words()[0], 0x07230203u) << "SPIR-V's magic number";
+    EXPECT_EQ(one->fragment.size(), 4 * one->fragment.word_count());
+    EXPECT_TRUE(one->fragment.exists());
+    const VkShaderModuleCreateInfo info = vulkan::module_info(three->fragment);
+    EXPECT_EQ(info.sType, VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    EXPECT_EQ(info.pCode, one->fragment.words());
+    EXPECT_EQ(info.codeSize, one->fragment.size());
+}
+
+TEST(VulkanHeader, SpecializesByTheKey) {
+    const lit::Permutation* three = lit::find(key_of(3));
+    ASSERT_EQ(lit::specialization_constants.size(), 1u);
+    EXPECT_EQ(lit::specialization_constants[0].name, "POINT_LIGHTS");
+    EXPECT_EQ(lit::specialization_constants[0].type, "int");
+    EXPECT_EQ(lit::specialization_constants[0].value, 8u) << "the most that the family has";
+    const vulkan::Specialization specialization(*three);
+    const VkSpecializationInfo& info = *specialization.info();
+    ASSERT_EQ(info.mapEntryCount, 1u);
+    EXPECT_EQ(info.pMapEntries[0].constantID, lit::specialization_constants[0].id);
+    EXPECT_EQ(info.pMapEntries[0].size, 4u);
+    EXPECT_EQ(static_cast<const std::uint32_t*>(info.pData)[info.pMapEntries[0].offset / 4], 3u);
+    const VkPipelineShaderStageCreateInfo stage =
+        vulkan::stage_info(runtime::StageKind::fragment, VK_NULL_HANDLE, &info);
+    EXPECT_EQ(stage.stage, VK_SHADER_STAGE_FRAGMENT_BIT);
+    EXPECT_STREQ(stage.pName, "main");
+    EXPECT_EQ(vulkan::stage_info(runtime::StageKind::compute, VK_NULL_HANDLE).stage,
+              VK_SHADER_STAGE_COMPUTE_BIT);
+}
+
+TEST(VulkanHeader, LaysSetsOutAsTheFamilySays) {
+    EXPECT_EQ(lit::descriptor_set::frame, 0u);
+    EXPECT_EQ(lit::descriptor_set::object, 2u);
+    EXPECT_EQ(vulkan::set_count(lit::descriptors), 3u);
+    EXPECT_EQ(lit::PointLights::set, 0);
+    EXPECT_EQ(lit::PointLights::binding, 1);
+    const auto frame = vulkan::layout_bindings(lit::descriptors, lit::descriptor_set::frame);
+    ASSERT_EQ(frame.size(), 3u) << "lights, ambient light, fog";
+    EXPECT_EQ(frame[0].binding, 1u);
+    EXPECT_EQ(frame[0].descriptorType, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    EXPECT_EQ(frame[0].descriptorCount, 1u);
+    EXPECT_EQ(frame[0].stageFlags, static_cast<VkShaderStageFlags>(VK_SHADER_STAGE_FRAGMENT_BIT));
+    const auto object =
+        vulkan::layout_bindings(lit::descriptors, lit::descriptor_set::object, *lit::find(key_of(0)));
+    ASSERT_EQ(object.size(), 1u);
+    EXPECT_EQ(object[0].stageFlags, static_cast<VkShaderStageFlags>(VK_SHADER_STAGE_VERTEX_BIT));
+    EXPECT_TRUE(vulkan::push_constant_ranges(lit::push_constants).empty());
+    const VkDescriptorBufferInfo buffer{};
+    const VkWriteDescriptorSet write = vulkan::write_block<lit::PointLights>(VK_NULL_HANDLE, buffer);
+    EXPECT_EQ(write.dstBinding, 1u);
+    EXPECT_EQ(write.pBufferInfo, &buffer);
+}
+
+struct Vertex {
+    float weight;
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+TEST(VulkanHeader, DescribesVertices) {
+    const auto normal = vulkan::vertex_attributes(lit::attribute::normal, &Vertex::normal, 2);
+    ASSERT_EQ(normal.size(), 1u);
+    EXPECT_EQ(normal[0].location, 1u);
+    EXPECT_EQ(normal[0].binding, 2u);
+    EXPECT_EQ(normal[0].format, VK_FORMAT_R32G32B32_SFLOAT);
+    EXPECT_EQ(normal[0].offset, 16u);
+    ASSERT_EQ(lit::vertex_inputs.size(), 2u);
+    EXPECT_EQ(lit::vertex_inputs[0].format, static_cast<std::uint32_t>(VK_FORMAT_R32G32B32_SFLOAT));
+    EXPECT_EQ(vulkan::detail::format_of<std::int32_t>(1), VK_FORMAT_R32_SINT);
+    EXPECT_EQ(vulkan::detail::format_of<std::uint32_t>(2), VK_FORMAT_R32G32_UINT);
+    EXPECT_EQ(vulkan::detail::format_of<double>(4), VK_FORMAT_R64G64B64A64_SFLOAT);
+}
+
+/// The header for OpenGL 4.6 has no sets, and the bindings and units of the texts for 4.5.
+TEST(OpenGlSpirvHeader, HoldsModules) {
+    const spirv::Permutation* found = spirv::find(spirv::Key{});
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->vertex.words()[0], 0x07230203u);
+    EXPECT_TRUE(spirv::descriptors.empty());
+    EXPECT_EQ(spirv::Transform::binding, 0);
+}
+
+}  // namespace
+}  // namespace gobo

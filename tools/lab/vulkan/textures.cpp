@@ -1,0 +1,63 @@
+#include <algorithm>
+
+#include "lab/vulkan/picture.hpp"
+
+namespace gobo::vulkan {
+
+std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const TextureSource& source,
+                                          TextureLevels levels) {
+    using enum TextureTexels::Shape;
+    struct Row {
+        std::string_view type;
+        TextureTexels::Shape shape;
+        bool is_depth;
+    };
+    constexpr Row kRows[] = {{"sampler2D", flat, false},      {"sampler2DArray", array, false},
+                             {"sampler3D", volume, false},    {"samplerCube", cube, false},
+                             {"sampler2DShadow", flat, true}, {"sampler2DArrayShadow", array, true}};
+    const auto* const row = std::find_if(std::begin(kRows), std::end(kRows),
+                                         [&](const Row& known) { return known.type == sampler_type; });
+    if (row == std::end(kRows)) return std::nullopt;
+    TextureTexels texels;
+    texels.shape = row->shape;
+    texels.is_depth = row->is_depth;
+    if (row->is_depth) {
+        texels.values = {source.numbers.empty() ? 1.0F : static_cast<float>(source.numbers.front())};
+        return texels;
+    }
+    const Image image = texture_texels(source);
+    texels.width = image.width;
+    texels.height = image.height;
+    texels.layers = row->shape == cube ? 6 : 1;
+    texels.has_levels = levels == TextureLevels::all && row->shape != volume;
+    for (int layer = 0; layer < texels.layers; ++layer)
+        texels.values.insert(texels.values.end(), image.values.begin(), image.values.end());
+    return texels;
+}
+
+TextureTexels cube_texels(const Image& faces) {
+    TextureTexels texels;
+    texels.shape = TextureTexels::Shape::cube;
+    texels.width = texels.height = faces.width;
+    texels.layers = 6;
+    for (int y = 0; y < faces.height; ++y)
+        for (int x = 0; x < faces.width; ++x)
+            for (int channel = 0; channel < 4; ++channel)
+                texels.values.push_back(channel < faces.channels ? faces.at(x, y, channel) : 1.0F);
+    return texels;
+}
+
+TextureTexels depth_texels(const std::vector<Image>& layers) {
+    TextureTexels texels;
+    texels.shape = TextureTexels::Shape::array;
+    texels.is_depth = true;
+    texels.repeats = false;
+    texels.width = layers.front().width;
+    texels.height = layers.front().height;
+    texels.layers = static_cast<int>(layers.size());
+    for (const Image& layer : layers)
+        texels.values.insert(texels.values.end(), layer.values.begin(), layer.values.end());
+    return texels;
+}
+
+}  // namespace gobo::vulkan

@@ -1,0 +1,31 @@
+// Changes to whole modules: what is shipped, and what a pipeline makes of one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <spirv-tools/libspirv.hpp>
+
+#include "core/diagnostic.hpp"
+
+namespace gobo::spirv {
+
+using Words = std::vector<std::uint32_t>;
+
+/// The module with arrays whose size is a specialisation constant as large as that constant's default makes
+/// them: their size is fixed then, whatever a pipeline chooses.
+[[nodiscard]] Result<Words> with_largest_arrays(std::span<const std::uint32_t> words);
+
+/// The module with its specialisation constants at the given values, by constant_id, and no longer to be
+/// chosen; others stand at their defaults.
+[[nodiscard]] Result<Words> specialized(const Words& words, const std::map<int, std::uint32_t>& values);
+
+/// The module made faster by SPIRV-Tools' optimizer; specialisation constants stay.
+[[nodiscard]] Result<Words> optimized(const Words& words, spv_target_env environment);
+
+/// The module without names, lines and source.
+[[nodiscard]] Result<Words> without_names(const Words& words);
+
+}  // namespace gobo::spirv

@@ -1,0 +1,91 @@
+// Where Vulkan binds the resources of a program: each place holds one.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "validate/declaration.hpp"
+#include "validate/link_rules.hpp"
+
+namespace gobo {
+namespace {
+
+/// What every device binds at least (Vulkan 1.0, table 53).
+constexpr int kGuaranteedSets = 4;
+constexpr int kGuaranteedPushConstants = 128;
+
+class DescriptorCheck {
+  public:
+    explicit DescriptorCheck(const std::vector<StageView>& stages) : stages_(stages) {}
+
+    Diagnostics run() {
+        for (const StageView& stage : stages_) {
+            for (const Block& block : stage.interface.blocks) add(stage, "uniform block", block);
+            for (const Block& block : stage.interface.storage_blocks) add(stage, "storage block", block);
+            for (const Sampler& sampler : stage.interface.samplers) add(stage, "sampler", sampler);
+            for (const Block& block : stage.interface.push_constants)
+                if (block.size > kGuaranteedPushConstants)
+                    add_warning(
+                        stage, block.name,
+                        fmt::format("the push constants '{}' take {} bytes", block.name, block.size),
+                        fmt::format("Vulkan guarantees {}: put some into a block", kGuaranteedPushConstants));
+        }
+        return std::move(found_);
+    }
+
+  private:
+    struct Taken {
+        std::string name;
+        const StageView* stage;
+    };
+
+    template <class Resource>
+    void add(const StageView& stage, const char* kind, const Resource& resource) {
+        const std::string name(root_of(resource.name));  // the elements of an array of blocks share a place
+        const auto place = std::pair(resource.set, resource.binding);
+        const auto [at, is_new] = taken_.try_emplace(place, Taken{name, &stage});
+        if (!is_new && at->second.name != name) {
+            refuse(stage, name,
+                   fmt::format("the {} '{}' is at set {}, binding {}, where {} binds '{}'", kind, name,
+                               resource.set, resource.binding,
+                               declaration_of(at->second.name, "", at->second.stage->pieces).text(),
+                               at->second.name));
+        }
+        const auto [known, is_first] = place_of_.try_emplace(name, place);
+        if (!is_first && known->second != place)
+            refuse(
+                stage, name,
+                fmt::format("'{}' is at set {}, binding {}, and in an earlier stage at set {}, binding {}",
+                            name, resource.set, resource.binding, known->second.first, known->second.second));
+        if (resource.set >= kGuaranteedSets && is_first)
+            add_warning(
+                stage, name, fmt::format("'{}' is in set {}", name, resource.set),
+                fmt::format("Vulkan guarantees {} sets, 0 to {}", kGuaranteedSets, kGuaranteedSets - 1));
+    }
+
+    void refuse(const StageView& stage, const std::string& name, std::string message) {
+        found_.push_back(diagnostic_at(declaration_of(name, "", stage.pieces), Severity::error,
+                                       std::move(message),
+                                       "Vulkan counts blocks and samplers together: list them under "
+                                       "[[descriptor_sets]] in the family, or state other numbers"));
+    }
+
+    void add_warning(const StageView& stage, const std::string& name, std::string message, std::string help) {
+        found_.push_back(diagnostic_at(declaration_of(name, "", stage.pieces), Severity::warning,
+                                       std::move(message), std::move(help)));
+    }
+
+    const std::vector<StageView>& stages_;
+    std::map<std::pair<int, int>, Taken> taken_;
+    std::map<std::string, std::pair<int, int>> place_of_;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_descriptors(const std::vector<StageView>& stages) {
+    return DescriptorCheck(stages).run();
+}
+
+}  // namespace gobo
