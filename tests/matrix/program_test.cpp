@@ -171,7 +171,7 @@ TEST(Shells, BashCompletesCommandsAndOptions) {
     };
     EXPECT_EQ(completed("gobo bu", 1), "build\n");
     EXPECT_EQ(completed("gobo build --na", 2), "--namespace\n");
-    EXPECT_EQ(completed("gobo build lit --dialect \"\"", 4), "450 330 es300\n");
+    EXPECT_EQ(completed("gobo build lit --dialect \"\"", 4), "450 330 es300 vulkan gl_spirv\n");
     EXPECT_EQ(completed("gobo sanitize lit --ro", 3), "--rounding\n");
 }
 
