@@ -52,7 +52,8 @@ bool await(const std::function<bool()>& is_so) {
 class Watch : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
-        folder = ::mkdtemp(folder.data());
+        around = ::mkdtemp(around.data());
+        folder = around + "/set";
         save(folder + "/tiny.toml",
              "name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n"
              "[features.fog]\nvalues = [\"none\", \"linear\"]\n");
@@ -67,7 +68,7 @@ class Watch : public testing::TestWithParam<const char*> {
     }
     void TearDown() override {
         stop(SIGTERM);
-        fs::remove_all(folder);
+        fs::remove_all(around);
     }
     [[nodiscard]] std::string socket() const { return folder + "/reload"; }
 
@@ -121,7 +122,8 @@ class Watch : public testing::TestWithParam<const char*> {
         return is_taken;
     }
 
-    std::string folder = "/tmp/gobo_watch_XXXXXX";
+    std::string around = "/tmp/gobo_watch_XXXXXX";
+    std::string folder;  ///< one below: others write into /tmp, which would be news
     pid_t process = -1;
     std::optional<Reload> application;
     std::map<std::string, ReloadedProgram> programs;
@@ -163,6 +165,22 @@ TEST_P(Watch, SeesFilesThatComeAndGo) {
     EXPECT_THAT(application->errors(), HasSubstr("tiny.frag"));
     fs::rename(folder + "/away", folder + "/tiny.frag");
     ASSERT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
+}
+
+TEST_P(Watch, SeesTheFileThatALinkLeadsTo) {
+    const std::string elsewhere = around + "/kept/family.toml";
+    std::string family = text_of(folder + "/tiny.toml");
+    save(elsewhere, family);
+    save(folder + "/other.frag",
+         "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(0.03); }\n");
+    save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.02); }\n");
+    fs::create_symlink(elsewhere, folder + "/link");
+    fs::rename(folder + "/link", folder + "/tiny.toml");
+    ASSERT_TRUE(takes([] {}, "fog=linear", "vec4(0.02)"));
+    // By then it waits: what is saved earlier is seen without being told.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    family.replace(family.find("tiny.frag"), 9, "other.frag");
+    EXPECT_TRUE(takes([&] { save(elsewhere, family); }, "fog=linear", "vec4(0.03)"));
 }
 
 TEST_P(Watch, EndsWhenItIsAskedTo) {

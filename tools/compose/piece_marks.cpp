@@ -27,6 +27,7 @@ int misspelt_mark(std::string_view text) {
     int found = 0;
     for_each_line(text, [&](std::string_view line) {
         ++number;
+        if (line.find('#') == std::string_view::npos) return true;
         const std::string_view rest = trim(line);
         if (!rest.starts_with('#') || is_name(marked(line).value_or(""))) return true;
         const std::string_view bare = trim(rest.substr(1));

@@ -7,6 +7,8 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include "core/text.hpp"
+
 namespace gobo {
 namespace {
 
@@ -39,22 +41,26 @@ void FileWatch::add(const std::string& folder) const {
 
 void FileWatch::follow(const std::vector<FileQuestion>& questions) {
     if (descriptor_ < 0) return;
-    std::set<std::string> folders;
+    std::set<std::string> asked;  // hundreds of files in a few folders
+    std::set<std::string> paths;
     std::error_code error;
     for (const FileQuestion& question : questions) {
-        const fs::path path = question.path;
         if (question.kind == FileQuestion::Kind::files_below) {
-            folders.insert(present(path).string());
-            fs::recursive_directory_iterator at(path, fs::directory_options::skip_permission_denied, error);
+            asked.insert(question.path);
+            fs::recursive_directory_iterator at(question.path, fs::directory_options::skip_permission_denied,
+                                                error);
             for (; !error && at != fs::recursive_directory_iterator(); at.increment(error))
-                if (at->is_directory(error)) folders.insert(at->path().string());
-        } else {
-            folders.insert(present(path.parent_path()).string());
+                if (at->is_directory(error)) asked.insert(at->path().string());
+        } else if (paths.insert(question.path).second) {
+            asked.insert(folder_of(question.path));
             // A link's file changes elsewhere.
-            const fs::path real = fs::weakly_canonical(path, error);
-            if (!error) folders.insert(present(real.parent_path()).string());
+            if (!fs::is_symlink(fs::symlink_status(question.path, error))) continue;
+            const fs::path real = fs::weakly_canonical(question.path, error);
+            if (!error) asked.insert(real.parent_path().string());
         }
     }
+    std::set<std::string> folders;
+    for (const std::string& folder : asked) folders.insert(present(folder).string());
     for (const std::string& folder : folders) add(folder);
 }
 
