@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <gobo/environment_brdf.hpp>
 #include <gobo/light_probes.hpp>
 #include <gobo/normal_matrix.hpp>
 #include <gobo/record.hpp>
