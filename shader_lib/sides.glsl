@@ -16,7 +16,10 @@ vec3 visibleNormal() { return surfaceNormal(); }
 #include "surface/side.glsl"
 
 /// The unit normal to shade with, on the side that is seen; zero where there is none.
-vec3 visibleNormal() { return isBackVisible() ? -surfaceNormal() : surfaceNormal(); }
+vec3 visibleNormal() {
+    vec3 normal = surfaceNormal();  // a picture of it has derivatives, which a branch would leave undefined
+    return isBackVisible() ? -normal : normal;
+}
 
 #piece two_materials
 #include "sides/two.glsl"
