@@ -31,8 +31,8 @@ float coatAlpha;
 
 /// Prepares the coat. To be called before all else of it, after beginSurface().
 void beginCoat() {
-    coatWeight = material.clearcoat * (0.04 + 0.96 * fifthPower(max(1.0 - surface.nv, 0.0)));  // guard: rounded out of its range
-    coatAlpha = max(material.clearcoatRoughness * material.clearcoatRoughness, 0.002);         // guard: peak beyond what directions resolve
+    coatWeight = material.clearcoat * (0.04 + 0.96 * fifthPower(1.0 - surface.nv));
+    coatAlpha = max(material.clearcoatRoughness * material.clearcoatRoughness, 0.002);  // guard: peak beyond what directions resolve
 }
 
 /// What of the radiance beneath gets through.

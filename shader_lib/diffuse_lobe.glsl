@@ -10,7 +10,7 @@
 
 /// The albedo of single scattering at a cosine of 0 to 1, at roughness `r`, before its norm.
 float singleScattering(float cosine, float r) {
-    float m = clamp(1.0 - cosine, 0.0, 1.0);  // guard: rounded out of its range
+    float m = 1.0 - cosine;
     return 1.0 + r * m * (0.05710853 + m * (0.49188188 + m * (-0.33218145 + m * 0.071443)));
 }
 
@@ -36,8 +36,8 @@ vec3 diffuseLobe(vec3 toLight, float nl, float vh) {
 /// What is scattered towards the viewer.
 vec3 diffuseLobe(vec3 toLight, float nl, float vh) {
     float edge = 2.0 * surface.roughness * vh * vh - 0.5;  // F_D90 - 1
-    float incoming = 1.0 + edge * fifthPower(max(1.0 - nl, 0.0));           // guard: rounded out of its range
-    float outgoing = 1.0 + edge * fifthPower(max(1.0 - surface.nv, 0.0));  // guard: rounded out of its range
+    float incoming = 1.0 + edge * fifthPower(1.0 - nl);
+    float outgoing = 1.0 + edge * fifthPower(1.0 - surface.nv);
     return (incoming * outgoing / 3.1415927) * surface.diffuse;
 }
 

@@ -46,7 +46,7 @@ vec3 fresnelReflectance(float vh) {
 
 /// The part of the light that is reflected, by channel.
 vec3 fresnelReflectance(float vh) {
-    float weight = min(exp2((-5.55473 * vh - 6.98316) * vh), 1.0);  // guard: rounded out of its range
+    float weight = exp2((-5.55473 * vh - 6.98316) * vh);
     return surface.f0 + (surface.f90 - surface.f0) * weight;
 }
 
@@ -58,7 +58,7 @@ vec3 fresnelReflectance(float vh) {
 vec3 fresnelReflectance(float vh) { return surface.f0; }
 
 #piece fifth_power
-/// x^5 for 0 to 1.
+/// x^5 for 0 to 1, and what a rounding leaves below 0.
 float fifthPower(float x) {
     float square = x * x;
     return square * square * x;

@@ -21,7 +21,7 @@ SAMPLER(4, samplerCube) specularMap;
 
 /// The mirrored direction in the map's axes, zero where there is none.
 vec3 mirroredDirection() {
-    if (surface.normal == vec3(0.0) || surface.toViewer == vec3(0.0)) return vec3(0.0);  // guard: zero vector
+    if (surface.normal == vec3(0.0)) return vec3(0.0);  // guard: zero vector
     return reflection.toMap * reflect(-surface.toViewer, surface.normal);
 }
 

@@ -475,7 +475,7 @@ bool is_about(const Case& tested, const HardCase& hard) {
 }
 
 std::vector<CaseFault> faults_of(const Case& tested, const Overlay& overlay, std::size_t most) {
-    const LitUnderTest lit(tested.where, tested.features, overlay);
+    const LitUnderTest lit(tested.where, tested.features, overlay, 0, tested.family);
     std::vector<CaseFault> faults;
     if (lit.size() == 0) faults.push_back({"", 0, 0, sanitize::Machine::ieee, "no key is concerned"});
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)

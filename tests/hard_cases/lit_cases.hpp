@@ -19,6 +19,7 @@ struct Case {
     Check check;
     std::vector<std::string> features = {"directional", "point", "spot",         "diffuse",
                                          "specular",    "fog",   "fog_distance", "shading"};
+    std::string family = "lit";
 };
 
 /// For messages of tests.

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "lit_guards.hpp"
+#include "pbr_guards.hpp"
 
 namespace gobo {
 namespace {
@@ -34,20 +35,48 @@ TEST_P(LitGuard, IsNeeded) {
 INSTANTIATE_TEST_SUITE_P(HardCases, LitGuard, testing::ValuesIn(lit_guards()),
                          [](const auto& tested) { return tested.param.name; });
 
+class PbrCase : public testing::TestWithParam<Case> {};
+
+TEST_P(PbrCase, GivesWhatIsDemanded) {
+    EXPECT_THAT(faults_of(GetParam()), testing::IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(HardCases, PbrCase, testing::ValuesIn(pbr_cases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+class PbrGuard : public testing::TestWithParam<Guard> {};
+
+TEST_P(PbrGuard, IsNeeded) {
+    const Guard& guard = GetParam();
+    const auto& cases = pbr_cases();
+    const auto tested = std::find_if(cases.begin(), cases.end(),
+                                     [&](const Case& each) { return each.name == guard.needed_by; });
+    ASSERT_NE(tested, cases.end()) << guard.needed_by;
+    EXPECT_THAT(faults_of(*tested, {{guard.piece, without_guard(guard)}}, 1),
+                testing::Not(testing::IsEmpty()));
+}
+
+INSTANTIATE_TEST_SUITE_P(HardCases, PbrGuard, testing::ValuesIn(pbr_guards()),
+                         [](const auto& tested) { return tested.param.name; });
+
 /// Nobody adds a guard without showing that it is needed.
 TEST(LitGuards, EachMarkedLineHasARow) {
     for (const GuardMark& mark : guard_marks()) {
-        const auto& guards = lit_guards();
-        const bool has_row = std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
+        const auto takes_away = [&](const Guard& guard) {
             return guard.piece == mark.piece && (mark.text.find(guard.guarded) != std::string::npos ||
                                                  mark.line_before.find(guard.guarded) != std::string::npos);
-        });
-        EXPECT_TRUE(has_row) << "shader_lib/" << mark.piece << ":" << mark.line << ": " << mark.text
-                             << "\n  is marked as a guard, but no row of tests/hard_cases/lit_guards.cpp "
-                                "takes it away. Add\n    {\"some_name\", \""
-                             << mark.piece
-                             << "\", \"the guarded text\", \"the plain text\", \"a_case\"},\n  where the "
-                                "case, a row of lit_cases.cpp, fails with the plain text in its place.";
+        };
+        const auto holds_one = [&](const std::vector<Guard>& guards) {
+            return std::any_of(guards.begin(), guards.end(), takes_away);
+        };
+        const bool has_row = holds_one(lit_guards()) || holds_one(pbr_guards());
+        EXPECT_TRUE(has_row)
+            << "shader_lib/" << mark.piece << ":" << mark.line << ": " << mark.text
+            << "\n  is marked as a guard, but no row of tests/hard_cases/lit_guards.cpp "
+               "or pbr_guards.cpp takes it away. Add\n    {\"some_name\", \""
+            << mark.piece
+            << "\", \"the guarded text\", \"the plain text\", \"a_case\"},\n  where the "
+               "case, a row of lit_cases.cpp or pbr_guards.cpp, fails with the plain text in its place.";
     }
 }
 

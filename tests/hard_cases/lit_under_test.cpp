@@ -85,6 +85,22 @@ const Inputs& ordinary_inputs() {
         {"Reflection.toMap", {1, 0, 0, 0, 1, 0, 0, 0, 1}},
         {"diffuseMap", {0.25, 0.5, 1, 1}},
         {"specularMap", {0.25, 0.5, 1, 1}},
+        {"texcoord", {0.5, 0.5}},
+        {"tangent", {1, 0, 0, 1}},
+        {"normalMap", {0.5, 0.5, 1, 1}},
+        {"environmentBrdfTable", {0.7, 0.1, 0, 1}},
+        {"Reflection.roughestLevel", {0}},
+        {"Material.baseColor", {0.5, 0.5, 0.5, 1}},
+        {"Material.metallic", {0.5}},
+        {"Material.roughness", {0.5}},
+        {"Material.dielectric", {0.04, 0.04, 0.04}},
+        {"Material.dielectricEdge", {1}},
+        {"Material.anisotropy", {0.5}},
+        {"Material.anisotropyDirection", {1, 0}},
+        {"Material.clearcoat", {1}},
+        {"Material.clearcoatRoughness", {0.25}},
+        {"Material.normalScale", {1}},
+        {"Material.occlusionStrength", {1}},
     };
     return inputs;
 }
@@ -184,7 +200,7 @@ std::vector<double> as_floats(std::vector<double> numbers) {
 }
 
 LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
-                           const Overlay& overlay, int cover) {
+                           const Overlay& overlay, int cover, const std::string& of) {
     const DiskFileSystem disk;
     MemoryFileSystem memory;
     for (const auto& [path, text] : overlay) EXPECT_TRUE(memory.write("overlay/" + path, text));
@@ -192,8 +208,15 @@ LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::stri
     search.add(memory, "overlay", "", false);
     search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
     search.add(disk, GOBO_SOURCE_DIR "/templates", "templates/", false);
-    const std::string path = GOBO_SOURCE_DIR "/templates/lit.toml";
-    const Result<Family> family = read_family(*disk.read(path), path);
+    const FindFamily find = [&](const std::string& name) -> Result<FamilyText> {
+        const std::string path = GOBO_SOURCE_DIR "/templates/" + name + ".toml";
+        GOBO_TRY(std::string text, disk.read(path));
+        return FamilyText{std::move(text), path};
+    };
+    const Result<FamilyText> text = find(of);
+    EXPECT_TRUE(text);
+    if (!text) return;
+    const Result<Family> family = read_family(text->text, text->path, find);
     EXPECT_TRUE(family);
     if (!family) return;
     family_ = *family;

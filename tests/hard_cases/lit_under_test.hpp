@@ -48,9 +48,10 @@ class LitUnderTest {
   public:
     /// All valid keys for which `where` holds and that have at most one light, ranging over `over`; failing
     /// any step fails the test.
-    /// With `cover`, fewer keys that hold every combination of that many feature values.
+    /// With `cover`, fewer keys that hold every combination of that many feature values. `family` extends
+    /// `lit`.
     LitUnderTest(const std::string& where, const std::vector<std::string>& over, const Overlay& overlay,
-                 int cover = 0);
+                 int cover = 0, const std::string& family = "lit");
 
     [[nodiscard]] std::size_t size() const { return composition_.permutations.size(); }
     [[nodiscard]] std::string key(std::size_t permutation) const;

@@ -1,0 +1,168 @@
+#include "pbr_guards.hpp"
+
+namespace gobo {
+namespace {
+
+const Inputs kBlack = {{"Material.emission", {0, 0, 0}},
+                       {"Material.baseColor", {0, 0, 0, 1}},
+                       {"Material.metallic", {0}},
+                       {"Material.dielectric", {0, 0, 0}}};
+const Inputs kMirror = {
+    {"Material.emission", {0, 0, 0}}, {"Material.baseColor", {1, 1, 1, 1}}, {"Material.metallic", {1}}};
+/// The viewer is at the back, the light exactly behind its ray.
+const Inputs kLightBehindTheRay = {{"position", {0, 0, 5}}};
+/// The half vector lies in the surface: the viewer is as far below it as the light is above.
+const Inputs kHalfVectorInTheSurface = {{"position", {3, 0, 4}},
+                                        {"DirectionalLights.lights[].direction", {0, 0.6, 0.8}}};
+const Inputs kLongNormal = {{"eyeNormal", {0, 0, 1.000001}}};
+/// Nothing to mirror: no normal, or the viewer at the surface.
+const Inputs kNoNormal = {{"normal", {0, 0, 0}}};
+const Inputs kViewerAtTheSurface = {{"position", {0, 0, 0}}};
+
+Inputs table(double a, double b) {
+    return {{"environmentBrdfTable", {a, b, 0, 1}}};
+}
+
+/// Of keys of one directional light that hold what `where` says of these features.
+Case lit_by_one(std::string name, const std::string& where, std::vector<Inputs> points, Check check,
+                std::vector<std::string> features) {
+    features.insert(features.begin(), "directional");
+    return {std::move(name),     {},   "directional == 1 && " + where, std::move(points), std::move(check),
+            std::move(features), "pbr"};
+}
+
+/// Of keys without a light, in an environment.
+Case mirroring(std::string name, const std::string& where, std::vector<Inputs> points, Check check,
+               std::vector<std::string> features) {
+    features.insert(features.begin(), "reflection");
+    return {std::move(name),     {},   "reflection == image && " + where, std::move(points), std::move(check),
+            std::move(features), "pbr"};
+}
+
+const std::vector<Case>& cases() {
+    static const std::vector<Case> all = {
+        lit_by_one("roughness_0", "clearcoat == none && anisotropy == none", {{{"Material.roughness", {0}}}},
+                   robust(), {"clearcoat", "distribution", "visibility", "diffuse_lobe"}),
+        lit_by_one("coat_of_roughness_0", "clearcoat == layer", {{{"Material.clearcoatRoughness", {0}}}},
+                   robust(), {"clearcoat", "distribution", "visibility"}),
+        lit_by_one("light_from_behind_a_surface", "clearcoat == none",
+                   {{{"DirectionalLights.lights[].direction", {0.6, 0, -0.8}}}},
+                   same_as({{"DirectionalLights.lights[].color", {0, 0, 0}}}),
+                   {"clearcoat", "visibility", "diffuse_lobe"}),
+        lit_by_one("light_behind_the_ray", "clearcoat == none", {kLightBehindTheRay}, robust(),
+                   {"clearcoat", "distribution", "visibility", "anisotropy"}),
+        lit_by_one("half_vector_in_the_surface", "visibility == correlated", {kHalfVectorInTheSurface},
+                   robust(), {"visibility"}),
+        lit_by_one("brushed_without_tangents", "anisotropy == brushed",
+                   {with(kHalfVectorInTheSurface, {{"tangent", {0, 0, 0, 1}}})}, robust(), {"anisotropy"}),
+        lit_by_one("vertices_brighter_than_white", "vertex_color == modulate && fresnel == constant",
+                   {with(kLightBehindTheRay, {{"Material.emission", {0, 0, 0}},
+                                              {"Material.baseColor", {1, 1, 1, 1}},
+                                              {"Material.dielectric", {1, 1, 1}},
+                                              {"vertexColor", {1.000001, 1.000001, 1.000001, 1}},
+                                              {"Ambient.color", {0, 0, 0}}})},
+                   robust(), {"vertex_color", "fresnel"}),
+        lit_by_one("peak_of_a_long_normal",
+                   "distribution == plain && normal == interpolated && visibility == correlated",
+                   {with(kLongNormal, {{"Material.roughness", {0}}})},
+                   same_as({{"eyeNormal", {0, 0, 1}}}, 0.25), {"distribution", "normal", "visibility"}),
+        lit_by_one("dielectric_of_f0_1", "fresnel == exact",
+                   {{{"Material.dielectric", {1, 1, 1}}, {"Material.metallic", {0}}}}, robust(), {"fresnel"}),
+        lit_by_one("dielectric_of_f0_0_edge_on", "fresnel == exact",
+                   {with(kLightBehindTheRay, {{"Material.dielectric", {0, 0, 0}}})}, robust(), {"fresnel"}),
+        lit_by_one("dielectric_that_reflects_nothing", "fresnel == exact",
+                   {{{"Material.dielectric", {0, 0, 0}}, {"Material.dielectricEdge", {0}}}}, robust(),
+                   {"fresnel"}),
+        lit_by_one("black_under_a_long_direction", "fresnel == schlick",
+                   {with(kBlack, {{"DirectionalLights.lights[].direction", {0, 0, 1.000001}},
+                                  {"Ambient.color", {0, 0, 0}}})},
+                   robust(), {"fresnel"}),
+        lit_by_one("light_nearly_behind_the_ray", "visibility == half_angle",
+                   {with(kMirror, {{"position", {3, 0, 4}},
+                                   {"Material.roughness", {1}},
+                                   {"Ambient.color", {0, 0, 0}},
+                                   {"DirectionalLights.lights[].direction", {0.60001, 0, 0.8}}})},
+                   near_double(1e-4), {"visibility"}),
+        lit_by_one("table_of_zeros", "multiple_scattering == returned && environment_brdf == table",
+                   {table(0, 0)}, robust(), {"multiple_scattering", "environment_brdf"}),
+        lit_by_one("texel_without_a_direction", "normal_map == tangent",
+                   {{{"normalMap", {0.5, 0.5, 0.5, 1}}}}, same_as({{"normalMap", {0.5, 0.5, 1, 1}}}, 1e-5),
+                   {"normal_map"}),
+        mirroring("mirrored_by_white_without_a_lobe",
+                  "multiple_scattering == returned && environment_brdf == table",
+                  {with(kMirror, table(0, 0))}, robust(), {"multiple_scattering", "environment_brdf"}),
+        // As a table of 8 bits may round them.
+        mirroring("more_than_all_mirrored", "multiple_scattering == returned && environment_brdf == table",
+                  {with(with(kMirror, table(0.8, 0.2005)), {{"specularMap", {0, 0, 0, 1}}})}, robust(),
+                  {"multiple_scattering", "environment_brdf"}),
+        mirroring("rough_black_mirror", "environment_brdf == karis",
+                  {with(kBlack, {{"Material.roughness", {1}}, {"Ambient.color", {0, 0, 0}}})}, robust(),
+                  {"environment_brdf"}),
+        mirroring("mirrored_without_a_direction", "clearcoat == none", {kNoNormal, kViewerAtTheSurface},
+                  same_as({{"Reflection.weight", {0}}}), {"clearcoat"}),
+        mirroring("coat_without_a_direction", "clearcoat == layer", {kNoNormal, kViewerAtTheSurface},
+                  same_as({{"Reflection.weight", {0}}}), {"clearcoat"}),
+    };
+    return all;
+}
+
+const std::vector<Guard> kGuards = {
+    {"alpha", "pbr/surface.glsl", "max(surface.roughness * surface.roughness, 0.002)",
+     "surface.roughness * surface.roughness", "roughness_0"},
+    {"facing_the_viewer", "pbr/surface.glsl", "max(dot(surface.normal, surface.toViewer), 1e-4)",
+     "dot(surface.normal, surface.toViewer)", "half_vector_in_the_surface"},
+    {"coat_alpha", "clearcoat/layer.glsl",
+     "max(material.clearcoatRoughness * material.clearcoatRoughness, 0.002)",
+     "material.clearcoatRoughness * material.clearcoatRoughness", "coat_of_roughness_0"},
+    {"brushed_spread", "anisotropy/brushed.glsl", "max(dot(scaled, scaled), 0.05)", "dot(scaled, scaled)",
+     "brushed_without_tangents"},
+    {"scattered_by_smooth", "diffuse_lobe/oren_nayar.glsl", "max(1.0 - average, 1e-7)", "1.0 - average",
+     "roughness_0"},
+    {"plain_distribution", "distribution/plain.glsl", "max(1.0 - nh * nh, 0.0)", "1.0 - nh * nh",
+     "peak_of_a_long_normal"},
+    {"karis_range", "environment_brdf/karis.glsl", "clamp(vec2(-1.04, 1.04) * a + r.zw, 0.0, 1.0)",
+     "vec2(-1.04, 1.04) * a + r.zw", "rough_black_mirror"},
+    {"exact_index", "fresnel/exact.glsl", "min(sqrt(f0), 0.999)", "sqrt(f0)", "dielectric_of_f0_1"},
+    {"exact_edge_on", "fresnel/exact.glsl", "max(eta * eta - 1.0 + c * c, 1e-12)", "eta * eta - 1.0 + c * c",
+     "dielectric_of_f0_0_edge_on"},
+    {"exact_of_nothing", "fresnel/exact.glsl",
+     "edge > 0.0 ? min(material.dielectric / edge, vec3(1.0)) : vec3(0.0)",
+     "min(material.dielectric / edge, vec3(1.0))", "dielectric_that_reflects_nothing"},
+    {"schlick_head_on", "fresnel/schlick.glsl", "max(1.0 - vh, 0.0)", "1.0 - vh",
+     "black_under_a_long_direction"},
+    {"scattered_not_negative", "lighting/response/metallic_roughness.glsl", "max(1.0 - mirrored, 0.0)",
+     "1.0 - mirrored", "vertices_brighter_than_white"},
+    {"no_half_vector", "lighting/response/metallic_roughness.glsl",
+     "if (square < 1e-12) return underCoat(diffuse);", "", "light_behind_the_ray"},
+    {"light_from_behind", "lighting/response/metallic_roughness.glsl", "if (nl > 0.0)", "if (true)",
+     "light_from_behind_a_surface"},
+    {"returned_not_negative", "multiple_scattering/returned.glsl", "max(1.0 - brdf.x - brdf.y, 0.0)",
+     "1.0 - brdf.x - brdf.y", "more_than_all_mirrored"},
+    {"returned_of_nothing", "multiple_scattering/returned.glsl", "max(1.0 - mean * lost, 1e-3)",
+     "(1.0 - mean * lost)", "mirrored_by_white_without_a_lobe"},
+    {"scale_of_nothing", "multiple_scattering/returned.glsl", "clamp(brdf.x + brdf.y, 0.1, 1.0)",
+     "brdf.x + brdf.y", "table_of_zeros"},
+    {"texel_of_no_direction", "normal_map/shaded/tangent.glsl",
+     "dot(mapped, mapped) < 1e-12 ? normal : unitVector(mapped)", "unitVector(mapped)",
+     "texel_without_a_direction"},
+    {"mirror_of_no_normal", "reflection/mirrored/image.glsl", "if (surface.normal == vec3(0.0))",
+     "if (false)", "mirrored_without_a_direction"},
+    {"environment_of_no_direction", "reflection/mirrored/image.glsl", "if (direction == vec3(0.0))",
+     "if (false)", "coat_without_a_direction"},
+    {"scattered_of_no_direction", "reflection/split_sum/image.glsl", "if (mirroredDirection() == vec3(0.0))",
+     "if (false)", "mirrored_without_a_direction"},
+    {"half_angle", "visibility/half_angle.glsl", "max(square, 1e-4)", "square",
+     "light_nearly_behind_the_ray"},
+};
+
+}  // namespace
+
+const std::vector<Case>& pbr_cases() {
+    return cases();
+}
+
+const std::vector<Guard>& pbr_guards() {
+    return kGuards;
+}
+
+}  // namespace gobo
