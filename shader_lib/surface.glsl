@@ -68,29 +68,6 @@ vec2 surfaceTextureCoordinate() { return texcoord; }
 /// The texture coordinates, 1 for a whole texture.
 vec2 surfaceTextureCoordinate() { return textureCoordinate; }
 
-#piece texture_coordinate1.vert
-ATTRIBUTE(5) vec2 texcoord1;
-
-/// The second texture coordinates.
-vec2 surfaceTextureCoordinate1() { return texcoord1; }
-
-#piece texture_coordinate1.frag
-/// The second texture coordinates.
-vec2 surfaceTextureCoordinate1() { return textureCoordinate1; }
-
-#piece tangent.vert
-// M t / |M t|; a mirrored model turns the bitangent round, as the cross product of normal and tangent does not.
-#include <guards/unit_vector>
-#include "surface/handedness.vert.glsl"
-#include "surface/transform.vert.glsl"
-
-ATTRIBUTE(6) vec4 tangent;
-
-/// The unit tangent in eye space, zero where there is none, and the bitangent's sign.
-vec4 surfaceTangent() {
-    return vec4(unitVector(mat3(transform.modelView) * tangent.xyz), tangent.w * handednessOfModel());
-}
-
 #piece material_index.vert
 ATTRIBUTE(3) int materialIndex;
 
