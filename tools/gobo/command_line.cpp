@@ -116,6 +116,9 @@ tl::unexpected<Diagnostics> refuse(const CLI::App& app, const CLI::ParseError& e
     const CLI::App& chosen = commands.empty() ? app : *commands.front();
     const std::string name = commands.empty() ? "gobo" : "gobo " + chosen.get_name();
     const std::string see_help = fmt::format("see '{} --help'", name);
+    if (!commands.empty() && arguments.front().starts_with('-'))
+        return fail(Fault::usage, fmt::format("'{}' stands before the command", arguments.front()),
+                    fmt::format("write it behind: {} {}", name, arguments.front()));
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr)
         return fail(Fault::usage, error.what(), see_help);
     std::vector<std::string> known;
@@ -132,7 +135,9 @@ tl::unexpected<Diagnostics> refuse(const CLI::App& app, const CLI::ParseError& e
             help = "'--retired' is now '--excluded'";
         return fail(Fault::usage, fmt::format("'{}' has no option '{}'", name, option), help);
     }
-    return fail(Fault::usage, fmt::format("unexpected argument '{}'", chosen.remaining().front()), see_help);
+    const std::vector<std::string> rest = app.remaining(true);
+    return fail(Fault::usage, fmt::format("unexpected argument '{}'", rest.empty() ? "" : rest.front()),
+                see_help);
 }
 
 /// The arguments of `gobo build` with what glslc calls its options replaced by gobo's names.
