@@ -202,6 +202,21 @@ TEST(TracedFiles, AreAnsweredAlikeUntilOneChanges) {
     }
 }
 
+TEST(TracedFiles, StayAsTheyWereFirstSeenUntilWrittenThroughThem) {
+    MemoryFileSystem files({{"a", "first"}, {"c", ""}});
+    TracedFiles traced(files);
+    EXPECT_EQ(traced.read("a").value_or(""), "first");
+    EXPECT_FALSE(traced.is_file("b"));
+    EXPECT_TRUE(files.write("a", "second"));
+    EXPECT_TRUE(files.write("b", ""));
+    EXPECT_EQ(traced.read("a").value_or(""), "first");
+    EXPECT_FALSE(traced.is_file("b"));
+    EXPECT_FALSE(are_answered_alike(traced.questions(), files));
+    EXPECT_TRUE(traced.write("a", "third"));
+    EXPECT_EQ(traced.read("a").value_or(""), "third");
+    EXPECT_TRUE(traced.is_file("b"));
+}
+
 TEST(TracedFiles, AreNotRepeatableWhereSomethingIsWrittenOrAStreamIsRead) {
     DiskFileSystem disk;
     TracedFiles device(disk);

@@ -10,6 +10,9 @@ namespace {
 
 using Kind = FileQuestion::Kind;
 
+/// Bytes. Longer files are no shaders, and read once.
+constexpr std::size_t kLongestKept = std::size_t{1} << 20;
+
 Digest answer(bool is_file) {
     return {0, is_file ? 1U : 0U};
 }
@@ -39,15 +42,20 @@ bool is_lasting(const std::string& path) {
 }  // namespace
 
 bool TracedFiles::is_file(const std::string& path) const {
-    const bool is = files_.is_file(path);
-    note(Kind::is_file, path, answer(is));
-    return is;
+    const auto [known, is_new] = are_files_.try_emplace(path, false);
+    if (!is_new) return known->second;
+    known->second = files_.is_file(path);
+    note(Kind::is_file, path, answer(known->second));
+    return known->second;
 }
 
 Result<std::string> TracedFiles::read(const std::string& path) const {
+    if (const auto known = texts_.find(path); known != texts_.end()) return known->second;
     Result<std::string> content = files_.read(path);
-    is_repeatable_ = is_repeatable_ && is_lasting(path);
+    const bool can_be_read_again = is_lasting(path);
+    is_repeatable_ = is_repeatable_ && can_be_read_again;
     note(Kind::read, path, answer(content));
+    if (content && can_be_read_again && content->size() <= kLongestKept) texts_.try_emplace(path, *content);
     return content;
 }
 
@@ -59,13 +67,18 @@ std::vector<std::string> TracedFiles::files_below(const std::string& folder) con
 
 Result<bool> TracedFiles::write(const std::string& path, std::string_view content) {
     is_repeatable_ = false;
+    are_files_.clear();
+    texts_.clear();
+    real_paths_.clear();
     return files_.write(path, content);
 }
 
 std::string TracedFiles::real_path(const std::string& path) const {
-    std::string real = files_.real_path(path);
-    note(Kind::real_path, path, answer(real));
-    return real;
+    const auto [known, is_new] = real_paths_.try_emplace(path);
+    if (!is_new) return known->second;
+    known->second = files_.real_path(path);
+    note(Kind::real_path, path, answer(known->second));
+    return known->second;
 }
 
 std::vector<FileQuestion> TracedFiles::questions() const {

@@ -121,6 +121,9 @@ class Watcher {
             // An editor writes a file, then renames it; a checkout changes many.
             for (pollfd news{watch_.descriptor(), POLLIN, 0}; ::poll(&news, 1, kQuiet) > 0;)
                 watch_.take_news();
+            if (looks) continue;
+            // New folders are followed where it is not urgent, then asked for what they held already.
+            if (!are_answered_alike(questions, world_.disk)) return true;
             watch_.follow(questions);
         }
         return true;
