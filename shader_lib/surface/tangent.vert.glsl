@@ -1,4 +1,4 @@
-// The tangent of normal maps, at the vertex.
+// The tangent of normal maps, at the vertex. Source: glTF 2.0, 3.7.2.1, for the sign; MikkTSpace (Mikkelsen 2008).
 // M t / |M t|; a mirrored model turns the bitangent round, as the cross product of normal and tangent does not.
 #include <guards/unit_vector>
 #include "surface/handedness.vert.glsl"

@@ -45,7 +45,8 @@ std::string help_of(const std::string& command) {
 
 /// Each option of a command's help with its explanation: behind its names and value, or on the next line.
 std::map<std::string, std::string> explained_options(const std::string& command) {
-    static const std::regex row(R"(  (-\S+)(?:.*?(?:  +|REQUIRED )(.*))?.*)");
+    // Values that fill their column, `a|b|c`, have a single blank behind them.
+    static const std::regex row(R"(  (-\S+)(?:.*?(?:  +|\|\w+ (?=[A-Z])|REQUIRED )(.*))?.*)");
     std::map<std::string, std::string> explanations;
     const std::vector<std::string> lines = lines_of(help_of(command));
     for (std::size_t i = 0; i < lines.size(); ++i) {
