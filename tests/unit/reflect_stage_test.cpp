@@ -65,7 +65,10 @@ constexpr Text texts[] = {
      "\n"
      "block Weights: binding 3, 224 bytes, fragment, unused\n"
      "      0  float  w[5]  array stride 16\n"
-     "     80  float  m[9]  array stride 16\n"},
+     "     80  float  m[9]  array stride 16\n"
+     "\n"
+     "specialisation constants:\n"
+     "  int  COUNT  constant_id 1\n"},
     {"counters", "layout(binding = 0, offset = 4) uniform atomic_uint hits;",
      "stages: fragment\n"
      "\n"
