@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# renderer_that_crashes.sh GOBO FOLDER: FOLDER holds an OSMesa that aborts. Both commands that draw say so and end with status 3.
+# renderer_that_crashes.sh GOBO FOLDER: FOLDER holds an OSMesa that aborts. The commands that draw say so and end with status 3.
 set -euo pipefail
 gobo=$1
 folder=$(mktemp -d)
@@ -18,3 +18,10 @@ for command in "render lit --key point=1 -o $folder/pictures" "test lit --key po
   [ ! -s "$folder/output" ]
 done
 [ -z "$(ls -A "$folder/pictures" 2> /dev/null)" ]
+
+# What is compared is the driver's verdict, and a crash is one.
+status=0
+"$gobo" link lit --key point=1 > "$folder/output" 2> "$folder/errors" || status=$?
+[ $status -eq 1 ]
+grep -q "gobo takes what the driver does not link: the driver crashed" "$folder/errors"
+grep -q "^1 compared: 0 taken and linked" "$folder/output"

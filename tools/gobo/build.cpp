@@ -49,6 +49,24 @@ United united_interface(const Composition& composition, const Validated& validat
     return united;
 }
 
+/// An error where an output is a file that was read, or another output.
+Result<void> check_outputs(const FileSystem& disk, const std::vector<OutputFile>& outputs,
+                           const std::set<std::string>& inputs) {
+    std::set<std::string> read;
+    for (const std::string& input : inputs) read.insert(disk.real_path(input));
+    std::set<std::string> written;
+    for (const OutputFile& output : outputs) {
+        const std::string path = disk.real_path(output.path);
+        if (read.contains(path))
+            return fail(Fault::usage, fmt::format("'{}' would be written over, but is read", output.path),
+                        "name another file or folder for what is written");
+        if (!written.insert(path).second)
+            return fail(Fault::usage, fmt::format("'{}' is to be written twice", output.path),
+                        "give the depfile a name of its own");
+    }
+    return {};
+}
+
 /// ", 12 modules of 34567 bytes" of SPIR-V.
 std::string modules_text(const std::vector<std::span<const std::uint32_t>>& modules) {
     std::set<std::vector<std::uint32_t>> distinct;
@@ -119,6 +137,12 @@ Result<Built> build(const BuildOptions& options, const World& world) {
         outcome.files.push_back({stem + ".json", manifest});
         outcome.files.push_back({stem + ".hpp", header});
     }
+    GOBO_TRY_DO(check_outputs(world.disk, outcome.files, files));
+    if (composition.permutations.empty())
+        outcome.diagnostics.push_back(
+            {.severity = Severity::warning,
+             .message = "the selection holds no keys: nothing can be found in the header",
+             .help = "see what a selection holds with 'gobo list'"});
     return Built{std::move(outcome), std::move(family.family), std::move(composition)};
 }
 

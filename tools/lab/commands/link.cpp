@@ -1,8 +1,12 @@
 // gobo link: whether OpenGL's own compiler takes what gobo takes, key by key.
+#include <algorithm>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "core/bytes.hpp"
+#include "core/child_processes.hpp"
 #include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/program.hpp"
@@ -36,41 +40,101 @@ std::string first_error(const Diagnostics& diagnostics) {
     return {};
 }
 
-/// The composition with one key of it at a time.
-class Judge {
-  public:
-    Judge(const World& world, const LoadedFamily& family, const Composition& composition, Context context)
-        : family_(family.family), one_(composition), context_(std::move(context)) {
-        options_.child_processes = !world.options.in_process;
-    }
-
-    const Verdict& verdict(const Permutation& permutation) {
-        const auto [known, is_new] = verdicts_.try_emplace(permutation.stages);
-        if (!is_new) return known->second;
-        one_.permutations = {permutation};
-        known->second.refused_by_gobo = first_error(validate(family_, one_, options_).diagnostics);
-        if (const auto program = link_program(context_, stages_of(one_, permutation)); !program)
-            known->second.refused_by_driver = first_error(program.error());
-        known->second.is_too_new =
-            known->second.refused_by_driver.find("is not supported. Supported versions") != std::string::npos;
-        return known->second;
-    }
-
-  private:
-    const Family& family_;
-    Composition one_;
-    Context context_;
-    ValidateOptions options_;
-    std::map<StageNumbers, Verdict> verdicts_;
+/// What a child process found out about one program.
+struct Answer {
+    std::string renderer;
+    std::string refused;     ///< why the driver does not link it; empty where it does
+    Diagnostics no_context;  ///< why there is no driver to ask
 };
+
+void fields(auto& archive, OneOf<Answer> auto& value) {
+    auto& [renderer, refused, no_context] = value;
+    archive(renderer, refused, no_context);
+}
+
+/// For one program; a driver that needs more is stuck.
+constexpr ChildLimits kDriverLimits{.processor_seconds = 20, .wall_seconds = 60};
+
+std::string ending_of(Death death) {
+    switch (death) {
+        case Death::time:
+            return fmt::format("the driver did not come to an end within {} s",
+                               kDriverLimits.processor_seconds);
+        case Death::memory:
+            return "the driver ran out of memory";
+        case Death::killed:
+            return "the driver was killed";
+        case Death::crash:
+            break;
+    }
+    return "the driver crashed";
+}
+
+/// The composition of one key.
+Composition only(const Composition& all, const Permutation& permutation) {
+    Composition one = all;
+    one.permutations = {permutation};
+    return one;
+}
+
+/// Asks the driver of each program, in child processes: one that crashes it or never ends is a verdict, too.
+Result<std::string> ask_driver(Backend backend, const Composition& composition,
+                               const std::vector<const Permutation*>& programs, int jobs,
+                               std::vector<Verdict>& verdicts) {
+    std::string renderer;
+    Diagnostics no_context;
+    std::optional<Result<Context>> context;  // a child's own, opened at its first task
+    ChildWork work;
+    work.work = [&](std::size_t task, Note&) {
+        Answer answer;
+        if (!context) context.emplace(open_context(backend));
+        if (!*context) {
+            answer.no_context = context->error();
+            return to_bytes(answer);
+        }
+        answer.renderer = (*context)->renderer();
+        if (const auto program = link_program(**context, stages_of(composition, *programs[task])); !program)
+            answer.refused = first_error(program.error());
+        return to_bytes(answer);
+    };
+    work.done = [&](std::size_t task, std::string_view bytes) {
+        const std::optional<Answer> answer = from_bytes<Answer>(bytes);
+        if (!answer) return false;
+        renderer = answer->renderer;
+        verdicts[task].refused_by_driver = answer->refused;
+        append(no_context, answer->no_context);
+        return true;
+    };
+    work.died = [&](std::size_t task, int, Death death) {
+        verdicts[task].refused_by_driver = ending_of(death);
+        return false;
+    };
+    if (!run_in_children(jobs, programs.size(), work, kDriverLimits).empty())
+        return fail(Fault::internal, "no process can be started for the driver");
+    if (!no_context.empty()) return tl::unexpected(Diagnostics{no_context.front()});
+    return renderer;
+}
 
 Result<Outcome> run(const LinkOptions& options, const World& world) {
     GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(const Subject subject,
              load_subject(world, options.names, options.stages, options.dialect, &options));
-    GOBO_TRY(const Context context, open_context(backend));
-    const std::string renderer = context.renderer();
-    Judge judge(world, subject.family, subject.composition, context);
+    std::map<StageNumbers, std::size_t> numbers;
+    std::vector<const Permutation*> programs;
+    for (const Permutation& permutation : subject.composition.permutations)
+        if (numbers.try_emplace(permutation.stages, programs.size()).second) programs.push_back(&permutation);
+    std::vector<Verdict> verdicts(programs.size());
+    GOBO_TRY(const std::string renderer,
+             ask_driver(backend, subject.composition, programs, std::max(world.options.jobs, 1), verdicts));
+    ValidateOptions validate_options;
+    validate_options.child_processes = !world.options.in_process;
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+        verdicts[i].refused_by_gobo = first_error(
+            validate(subject.family.family, only(subject.composition, *programs[i]), validate_options)
+                .diagnostics);
+        verdicts[i].is_too_new =
+            verdicts[i].refused_by_driver.find("is not supported. Supported versions") != std::string::npos;
+    }
     std::string text;
     Diagnostics diagnostics;
     int both = 0;
@@ -78,7 +142,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
     int laxer = 0;
     int stricter = 0;
     for (const Permutation& permutation : subject.composition.permutations) {
-        const Verdict& verdict = judge.verdict(permutation);
+        const Verdict& verdict = verdicts[numbers.at(permutation.stages)];
         const std::string key =
             subject.are_files ? "the files" : key_text(subject.family.family, permutation.key);
         const bool is_taken = verdict.refused_by_gobo.empty();
@@ -107,7 +171,8 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
         "that "
         "it links\n",
         both + neither + laxer + stricter, both, neither, laxer, stricter);
-    return Outcome{std::move(text), std::move(diagnostics), fmt::format("by {}", renderer)};
+    return Outcome{std::move(text), std::move(diagnostics),
+                   renderer.empty() ? "" : fmt::format("by {}", renderer)};
 }
 
 }  // namespace
