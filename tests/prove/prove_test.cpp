@@ -18,10 +18,11 @@ namespace {
 using prove::Status;
 
 prove::ProveReport proven(const std::string& path, const FileSystem& files,
-                          const prove::ProveOptions& options) {
+                          const prove::ProveOptions& options, const std::vector<Domain>& domains = {}) {
     SearchPath search;
-    const Result<Family> family = family_of_files({path}, files, search);
+    Result<Family> family = family_of_files({path}, files, search);
     EXPECT_TRUE(family) << path;
+    family->domains.insert(family->domains.begin(), domains.begin(), domains.end());
     const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
     EXPECT_TRUE(composition) << path;
     ValidateOptions validate_options;
@@ -116,6 +117,21 @@ const Row kRows[] = {
      Status::undecided},
     {"normalize_away_from_zero", "result = normalize(vec3(v.xy, 1.0)).x;", "normalize() of a zero vector",
      kImpossible},
+    {"pixel_beside_a_tile", "result = 1.0 / (gl_FragCoord.x - 7.5);", "division by zero", kPossible},
+    {"pixel_beyond_the_first", "result = sqrt(1.0 - gl_FragCoord.y);", "sqrt() of a negative number",
+     kPossible},
+    {"pixel_is_not_negative", "result = sqrt(gl_FragCoord.x);", "sqrt() of a negative number", kImpossible},
+    {"many_primitives", "result = sqrt(1e6 - float(gl_PrimitiveID));", "sqrt() of a negative number",
+     Status::undecided},
+    {"index_of_high_bits", "float all[15]; for (int k = 0; k < 15; ++k) all[k] = a; result = all[s >> 28];",
+     "array index out of bounds", kPossible},
+    {"index_of_all_high_bits",
+     "float all[16]; for (int k = 0; k < 16; ++k) all[k] = a; result = all[s >> 28];",
+     "array index out of bounds", kImpossible},
+    {"index_by_remainder", "float all[7]; for (int k = 0; k < 7; ++k) all[k] = a; result = all[s % 7u];",
+     "array index out of bounds", kImpossible},
+    {"root_of_a_large_uint", "result = sqrt(3e9 - float(s));", "sqrt() of a negative number", kPossible},
+    {"large_uint_as_int", "result = sqrt(float(int(s)));", "sqrt() of a negative number", kPossible},
     {"normalize", "result = normalize(v).x;", "normalize() of a zero vector", kPossible},
 };
 
@@ -126,20 +142,36 @@ TEST_P(Proof, IsAsKnown) {
     const std::string text =
         "#version 450\nlayout(location = 0) in float a;\nlayout(location = 1) in float b;\nlayout(location = "
         "2) in vec3 v;\n"
-        "layout(location = 3) flat in int i;\nlayout(location = 0) out float color;\nvoid main() {\n    "
+        "layout(location = 3) flat in int i;\nlayout(location = 4) flat in uint s;\nlayout(location = 0) out "
+        "float color;\nvoid main() {\n    "
         "float result = 0.0;\n    " +
         row.statements + "\n    color = result;\n}\n";
     prove::ProveOptions options;
     options.check = 4096;
     options.points = 2048;
     const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{{"known.frag", text}});
-    const auto found = by_rule(proven("known.frag", files, options));
+    Domain any;
+    any.name = "s";
+    any.high = 4294967295.0;
+    const auto found = by_rule(proven("known.frag", files, options, {any}));
     ASSERT_TRUE(found.contains(row.rule));
     EXPECT_EQ(word(found.at(row.rule)), word(row.status));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, Proof, testing::ValuesIn(kRows),
                          [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
+
+/// b - a is 0 only where the constraint is broken: no example.
+TEST(Proofs, ShowNoInputThatBreaksAConstraint) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 450\nlayout(location = 0) out float color;\nuniform float a;\nuniform float b;\n"
+         "void main() { color = 1.0 / (b - a); }\n"}});
+    Domain order;
+    order.name = "a < b";
+    EXPECT_EQ(word(by_rule(proven("known.frag", files, {})).at("division by zero")), "possible");
+    EXPECT_EQ(word(by_rule(proven("known.frag", files, {}, {order})).at("division by zero")), "undecided");
+}
 
 TEST(Proofs, AreWrittenAsJson) {
     const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{

@@ -208,6 +208,21 @@ std::string shell_word(std::string_view text) {
     return word + "'";
 }
 
+std::vector<Domain> constraints_in_comments(const Composition& composition) {
+    constexpr std::string_view kMark = "// assume:";
+    std::vector<Domain> constraints;
+    for (const Piece& piece : composition.pieces)
+        for (int line = 1; line <= std::ranges::count(piece.file_text, '\n') + 1; ++line) {
+            const std::string_view text = line_of(piece.file_text, line);
+            const auto mark = text.find(kMark);
+            if (mark == std::string_view::npos) continue;
+            Domain& domain = constraints.emplace_back();
+            domain.name = trim(text.substr(mark + kMark.size()));
+            domain.place = {piece.path, line, static_cast<int>(mark) + 1};
+        }
+    return constraints;
+}
+
 Diagnostics as_warnings(Diagnostics errors) {
     for (Diagnostic& error : errors) error.severity = Severity::warning;
     return errors;

@@ -66,9 +66,16 @@ Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
         GOBO_TRY(narrower, read_domain_file(text, options.inputs));
     }
     family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
+    if (subject.are_files) {
+        const std::vector<Domain> commented = constraints_in_comments(subject.composition);
+        family.domains.insert(family.domains.end(), commented.begin(), commented.end());
+    }
     GOBO_TRY(const Validated validated,
              compile(world, subject, {.keep_spirv = true, .debug_information = true}));
-    if (Diagnostics errors = sanitize::domains_of_nothing(narrower, validated); !errors.empty())
+    std::vector<Domain> stated = narrower;
+    for (const Domain& domain : family.domains)
+        if (subject.are_files && sanitize::is_constraint(domain.name)) stated.push_back(domain);
+    if (Diagnostics errors = sanitize::domains_of_nothing(stated, validated); !errors.empty())
         return tl::unexpected(std::move(errors));
     prove::ProveOptions wanted = options.prove;
     wanted.jobs = world.jobs();

@@ -101,22 +101,6 @@ Result<std::vector<Domain>> narrower_domains(const World& world, const std::stri
     return read_domain_file(text, path);
 }
 
-/// What shader files say of their inputs: `// assume: near < far`.
-std::vector<Domain> constraints_in_comments(const Composition& composition) {
-    constexpr std::string_view kMark = "// assume:";
-    std::vector<Domain> constraints;
-    for (const Piece& piece : composition.pieces)
-        for (int line = 1; line <= std::ranges::count(piece.file_text, '\n') + 1; ++line) {
-            const std::string_view text = line_of(piece.file_text, line);
-            const auto mark = text.find(kMark);
-            if (mark == std::string_view::npos) continue;
-            Domain& domain = constraints.emplace_back();
-            domain.name = trim(text.substr(mark + kMark.size()));
-            domain.place = {piece.path, line, static_cast<int>(mark) + 1};
-        }
-    return constraints;
-}
-
 Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo sanitize evaluates"));

@@ -902,7 +902,8 @@ Range Ranges::evaluate_whole(const Expression& expression, const std::uint32_t* 
                                          : 0.0,
                          1, 0, true, false});
         case spv::OpUDiv:
-            if (!are_positive) return kAnyInt;
+            if (!are_positive && r[1].low >= 2) return whole_between(0, std::floor(kAnyUint.high / r[1].low));
+            if (!are_positive || r[1].holds_zero()) return kAnyInt;
             [[fallthrough]];
         case spv::OpSDiv: {
             if (r[1].holds_zero() || r[1].low < 0) return wrapped(within(-r[0].size(), r[0].size()));
@@ -910,7 +911,8 @@ Range Ranges::evaluate_whole(const Expression& expression, const std::uint32_t* 
             return wrapped(tidy({std::trunc(result.low), std::trunc(result.high), 1, 0, true, false}));
         }
         case spv::OpUMod:
-            if (!are_positive) return kAnyInt;
+            if (!are_positive && r[1].low > 0) return whole_between(0, r[1].high - 1);
+            if (!are_positive || r[1].holds_zero()) return kAnyInt;
             [[fallthrough]];
         case spv::OpSRem:
         case spv::OpSMod: {
@@ -941,6 +943,8 @@ Range Ranges::evaluate_whole(const Expression& expression, const std::uint32_t* 
         case spv::OpNot:
             return wrapped(sum(negated(r[0]), exactly(-1)));
         case spv::OpShiftRightLogical:
+            if (r[0].low < 0 && r[1].is_one() && r[1].low >= 1 && r[1].low <= 31)
+                return whole_between(0, std::ldexp(1.0, 32 - static_cast<int>(r[1].low)) - 1);
             if (r[0].low < 0) return kAnyInt;
             [[fallthrough]];
         case spv::OpShiftRightArithmetic:
@@ -960,7 +964,10 @@ Range Ranges::evaluate_whole(const Expression& expression, const std::uint32_t* 
             return whole_between(-1, 31);
         case extended(GLSLstd450UMin):
         case extended(GLSLstd450SMin):
-            if (expression.code == extended(GLSLstd450UMin) && !are_positive) return kAnyInt;
+            if (expression.code == extended(GLSLstd450UMin) && !are_positive) {
+                if (r[0].low < 0 && r[1].low < 0) return kAnyInt;
+                return whole_between(0, r[0].low >= 0 ? r[0].high : r[1].high);
+            }
             return smaller(r[0], r[1]);
         case extended(GLSLstd450UMax):
         case extended(GLSLstd450SMax):

@@ -142,9 +142,11 @@ void find_examples(const Family& family, const Composition& composition, const V
         const std::size_t portion = done / kPortion;
         const std::vector<PartLeft>& left = rules[portion % rules.size()]->left;
         // First hard ones, then every other time what the guide makes of those that came near.
-        const auto points = portion >= 4 && portion % 2 == 1
-                                ? guide.next(kPortion)
-                                : points_in(proven.space, left, kPortion, options.seed + portion);
+        auto points = portion >= 4 && portion % 2 == 1
+                          ? guide.next(kPortion)
+                          : points_in(proven.space, left, kPortion, options.seed + portion);
+        // An input that breaks a constraint shows nothing.
+        for (std::size_t i = 0; i < points.count; ++i) sanitize::constrain(proven.space, points[i]);
         const auto invocations = sanitize::invocations_of(proven.space, points);
         const sanitize::Machine other = sanitize::kMachines[1 + portion % (sanitize::kMachines.size() - 1)];
         for (const sanitize::Machine machine : {sanitize::Machine::ieee, other}) {
@@ -182,7 +184,9 @@ void add_outputs(std::map<std::pair<StageKind, std::string>, OutputRange>& all, 
             if (c >= ranged) name += fmt::format(".{}", "xyzw"[c % 4]);  // a quantity of its own
             OutputRange& output =
                 all.try_emplace({stage, name}, OutputRange{stage, name, kNothing}).first->second;
-            output.range = hull(output.range, proven.outputs[i][c]);
+            output.range = hull(output.range, port.scalar == evaluate::Scalar::uint32
+                                                  ? without_sign(proven.outputs[i][c])
+                                                  : proven.outputs[i][c]);
             if (domain == nullptr) continue;
             output.is_stated = true;
             if (c >= ranged) {

@@ -71,6 +71,12 @@ Range exactly(double number) {
     return range;
 }
 
+Range without_sign(const Range& range) {
+    if (range.has_no_number() || range.low >= 0) return range;
+    if (range.high >= 0) return kAnyUint;
+    return whole_between(range.low + 0x1p32, range.high + 0x1p32);
+}
+
 Range hull(const Range& a, const Range& b) {
     if (a.has_no_number() || b.has_no_number()) {
         Range one = a.has_no_number() ? b : a;

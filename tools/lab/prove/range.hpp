@@ -60,13 +60,18 @@ struct Range {
 inline constexpr Range kNothing{kInfinity, -kInfinity, 0, kFinestGrid, false, false};
 inline constexpr Range kAnything{-kInfinity, kInfinity, 0, kFinestGrid, true, true};
 inline constexpr Range kTruth{0, 1, 1, 0, true, false};
+/// Integers without a sign are held as the signed ones with the same bits.
 inline constexpr Range kAnyInt{-2147483648.0, 2147483647.0, 1, 0, true, false};
+inline constexpr Range kAnyUint{0, 4294967295.0, 1, 0, true, false};
 
 /// Makes the parts agree with each other.
 [[nodiscard]] Range tidy(Range range);
 [[nodiscard]] Range between(double low, double high);
 [[nodiscard]] Range whole_between(double low, double high);
 [[nodiscard]] Range exactly(double number);
+
+/// What signed integers are without a sign: as they are shown to people.
+[[nodiscard]] Range without_sign(const Range& range);
 
 [[nodiscard]] Range hull(const Range& a, const Range& b);
 [[nodiscard]] Range both(const Range& a, const Range& b);

@@ -34,9 +34,11 @@ std::vector<Range> parts_of(const Range& range) {
         double middle =
             range.size() > 4 * small ? std::sqrt(small * range.size()) : (small + range.size()) / 2;
         middle = nearest_float(range.high <= 0 && range.low < 0 ? -middle : middle);
+        // Integers lie between large floats.
+        if (range.grid >= 0) middle = std::floor(middle);
         if (middle <= range.low || middle >= range.high) return {};
         parts.push_back(part(range.low, middle, range.zero));
-        parts.push_back(part(float_above(middle), range.high, range.zero));
+        parts.push_back(part(range.grid >= 0 ? middle + 1 : float_above(middle), range.high, range.zero));
     }
     std::erase_if(parts, [](const Range& one) { return one.is_empty(); });
     return parts;
@@ -257,8 +259,8 @@ std::vector<PartLeft> StageProof::inputs_of(const std::vector<Cut>& cuts) const 
         const Expression& one = expressions_.all[cut.expression];
         if (one.code != kInput) continue;
         const sanitize::InputField& field = space_.fields[one.field];
-        parts.push_back(
-            {field.components == 1 ? field.name : fmt::format("{}[{}]", field.name, one.part), cut.range});
+        parts.push_back({field.components == 1 ? field.name : fmt::format("{}[{}]", field.name, one.part),
+                         field.scalar == Scalar::uint32 ? without_sign(cut.range) : cut.range});
     }
     return parts;
 }
