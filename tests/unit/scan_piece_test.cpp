@@ -150,9 +150,10 @@ TEST(ScanPiece, WarnsOfUniformBlocksWithoutALayout) {
         {"uniform float a; void f() { { } }", 0},
     };
     for (const auto& [text, count] : rows)
-        EXPECT_EQ(scan_piece(text, "a.glsl").value().warnings.size(), count) << text;
+        EXPECT_EQ(scan_piece(text, "a.glsl").value().unstated_layouts.size(), count) << text;
     EXPECT_EQ(
-        to_text(scan_piece("int a;\nuniform // b\n A { float a; };", "a.glsl").value().warnings.front()),
+        to_text(
+            scan_piece("int a;\nuniform // b\n A { float a; };", "a.glsl").value().unstated_layouts.front()),
         "a.glsl:3: warning: the uniform block 'A' does not state std140: drivers lay it out as they like\n"
         "     A { float a; };\n"
         "  help: write layout(std140) before uniform, or ask the driver for every offset\n");
@@ -163,7 +164,7 @@ TEST(ScanPiece, TakesLongBlanks) {
     const std::string text = "layout(std140" + blanks + ") uniform /*" + blanks + "*/ A" + blanks +
                              "{ float a; };" + "BLOCK(" + blanks + "1, B)\n";
     const ScannedPiece piece = scan_piece(text, "a.glsl").value();
-    EXPECT_TRUE(piece.warnings.empty());
+    EXPECT_TRUE(piece.unstated_layouts.empty());
     EXPECT_THAT(piece.bindings, testing::ElementsAre(testing::Pair("B", 1)));
 }
 
@@ -211,10 +212,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadPieceRow{"include_half_closed", "#include \"a.glsl>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include \"a.glsl>\n    ^\n"
                     "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
-        BadPieceRow{
-            "version_of_another_language", "#version 450\r#ifdef __cplusplus\r#version 1;system()//\r",
-            "a.glsl:3:1: error: GLSL has no #version '1;system()'\n    #version 1;system()//\n    ^\n"
-            "  help: write a number that GLSL has and the profile alone: 330 core, 450, 300 es\n"},
+        BadPieceRow{"version_of_another_language",
+                    "#version 450\r#ifdef __cplusplus\r#version 1;system()//\r",
+                    "a.glsl:3:1: error: GLSL has no #version '1;system()'\n    #version 1;system()//\n    ^\n"
+                    "  help: write a number that GLSL has and the profile alone: 330 core, 450, 300 es\n"},
         BadPieceRow{
             "version_with_more", "#version 330 core int a;\n",
             "a.glsl:1:1: error: GLSL has no #version '330 core int a;'\n    #version 330 core int a;\n    ^\n"

@@ -6,6 +6,7 @@
 #include <gobo/vulkan.hpp>
 // clang-format on
 
+#include "descriptor_arrays.hpp"
 #include "lit.hpp"
 #include "spirv.hpp"
 
@@ -77,6 +78,22 @@ TEST(VulkanHeader, LaysSetsOutAsTheFamilySays) {
     const VkWriteDescriptorSet write = vulkan::write_block<lit::PointLights>(VK_NULL_HANDLE, buffer);
     EXPECT_EQ(write.dstBinding, 1u);
     EXPECT_EQ(write.pBufferInfo, &buffer);
+}
+
+TEST(VulkanHeader, GivesArraysOfBlocksOneBinding) {
+    struct Row {
+        std::string_view name;
+        std::uint32_t set, binding, count;
+        bool operator==(const Row&) const = default;
+    };
+    std::vector<Row> rows;
+    for (const runtime::Descriptor& descriptor : descriptor_arrays::descriptors)
+        rows.push_back({descriptor.name, descriptor.set, descriptor.binding, descriptor.count});
+    EXPECT_EQ(rows, (std::vector<Row>{
+                        {"Records", 0, 0, 3}, {"Tints", 0, 1, 4}, {"Scales", 1, 0, 2}, {"Bias", 1, 1, 1}}));
+    EXPECT_EQ(descriptor_arrays::Records::binding, 0);
+    EXPECT_EQ(descriptor_arrays::Tints::binding, 1);
+    EXPECT_EQ(descriptor_arrays::Scales::binding, 0);
 }
 
 struct Vertex {

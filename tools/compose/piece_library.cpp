@@ -134,6 +134,8 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
     choose_subroutines(scanned.text, scanned.code, chosen_functions_);
     composition_.stated_bindings.merge(scanned.bindings);
     Diagnostics& warnings = composition_.warnings;
+    if (!is_spirv(composition_.dialect))  // in SPIR-V every offset is stated
+        warnings.insert(warnings.end(), scanned.unstated_layouts.begin(), scanned.unstated_layouts.end());
     warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
     Source& source = sources_.emplace_back();
     source.name = piece.name;

@@ -103,7 +103,7 @@ class Scanner {
         GOBO_TRY_DO(check_growth(tokens));
         for (StatedBinding& stated : bindings_of(tokens))
             result_.bindings[std::move(stated.name)] = stated.binding;
-        result_.warnings = unstated_layouts(tokens, clean_.code, file_, path_);
+        result_.unstated_layouts = unstated_layouts(tokens, clean_.code, file_, path_);
         for (const int line : clean_.joined_comments)
             result_.warnings.push_back(warning({path_, line, 0}, line_of(file_, line),
                                                "this comment takes in the next line, since it ends in '\\'",

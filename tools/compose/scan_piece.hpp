@@ -38,15 +38,16 @@ struct ScannedPiece {
     std::string text;  ///< the file with the lines of #include, #version, #extension, #line and #pragma once
                        ///< blanked, ending in a newline
     std::string code;  ///< `text` with blanks for its comments, line for line and column for column
-    std::string version;                ///< "330 core" of its #version line, or empty
-    Directive version_line;             ///< that line
-    std::vector<Include> includes;      ///< those at its top
-    std::vector<Directive> directives;  ///< below that, in order: conditions, macros, further includes,
-                                        ///< extensions under conditions, the pragmas around loops
-    Extensions extensions;              ///< those under no condition
-    bool is_once = false;               ///< it says `#pragma once`
-    std::string guard;                  ///< the macro that an #ifndef around the whole file asks for
-    Diagnostics warnings;               ///< of uniform blocks whose layout is left to the driver, of comments
+    std::string version;                  ///< "330 core" of its #version line, or empty
+    Directive version_line;               ///< that line
+    std::vector<Include> includes;        ///< those at its top
+    std::vector<Directive> directives;    ///< below that, in order: conditions, macros, further includes,
+                                          ///< extensions under conditions, the pragmas around loops
+    Extensions extensions;                ///< those under no condition
+    bool is_once = false;                 ///< it says `#pragma once`
+    std::string guard;                    ///< the macro that an #ifndef around the whole file asks for
+    Diagnostics unstated_layouts;         ///< warnings of uniform blocks that do not state std140
+    Diagnostics warnings;                 ///< of comments
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };
 

@@ -53,12 +53,13 @@ std::vector<int> indices_of(std::string_view name) {
 }
 
 /// Gives blocks the bindings that they lack. The elements of an array take one after the other, in the order
-/// of their indices, which is not that of their names.
+/// of their indices, which is not that of their names; in Vulkan they share one.
 void fill_bindings(std::vector<Block>& blocks) {
     std::map<std::string, std::set<std::vector<int>>> elements;  // by the array's name
     const auto array_of = [](const Block& block) { return block.name.substr(0, block.name.find('[')); };
     for (const Block& block : blocks) elements[array_of(block)].insert(indices_of(block.name));
     const auto rank_of = [&](const Block& block) {
+        if (block.set >= 0) return 0;
         const auto& all = elements[array_of(block)];
         return static_cast<int>(std::distance(all.begin(), all.find(indices_of(block.name))));
     };

@@ -159,7 +159,21 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
     add_table(own, "vertex_input", vertex_input_rows(interface, declarations));
     std::vector<std::string> constants;
     std::string constant_values;
+    std::map<int, const SpecializationConstant*> known;  // by constant_id
     for (const SpecializationConstant& constant : interface.specialization_constants) {
+        const auto [at, is_new] = known.try_emplace(constant.id, &constant);
+        if (!is_new && dialect == Dialect::vulkan) {
+            const SpecializationConstant& first = *at->second;
+            const std::string problem =
+                first.name == constant.name && first.type == constant.type
+                    ? fmt::format("'{}' with constant_id {} has another default in another key", first.name,
+                                  first.id)
+                    : fmt::format("constant_id {} is the {} '{}' in one key and the {} '{}' in another",
+                                  first.id, first.type, first.name, constant.type, constant.name);
+            return fail(Fault::input, problem,
+                        "all keys share a table of constants: declare it alike in all, or give one of them "
+                        "another constant_id");
+        }
         constants.push_back(fmt::format("{{{}, {}, {}, {:#x}}}", cpp_literal(constant.name),
                                         cpp_literal(constant.type), constant.id, constant.value));
         constant_values += (constant_values.empty() ? "" : ", ") + value_of(constant, key);

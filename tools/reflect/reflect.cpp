@@ -18,6 +18,7 @@ using spirv::Type;
 /// Locations or binding points, far above what any device offers; keeps a malformed module from asking for
 /// lists without end.
 constexpr int kMostPlaces = 1 << 16;
+constexpr const char* kStateSize = "write its size between the brackets";
 constexpr int kLargest = std::numeric_limits<int>::max();
 
 /// The number that decorates the id or member; `absent` where none does.
@@ -175,8 +176,8 @@ class Reflection {
         interface_.stages = {std::string(kStages[model].name)};
         for (const spirv::Variable& variable : module_.variables)
             if (!is_built_in(module_, variable)) add(variable);
-        if (!problem_.empty()) return fail(fault_, problem_);
         add_constants();
+        if (!problem_.empty()) return fail(fault_, problem_, help_);
         sort(interface_.blocks, interface_.storage_blocks, interface_.uniforms, interface_.samplers,
              interface_.inputs, interface_.outputs);
         return std::move(interface_);
@@ -184,9 +185,15 @@ class Reflection {
 
   private:
     void stop(fmt::format_string<const std::string&> problem, const std::string& name,
-              Fault fault = Fault::input) {
+              Fault fault = Fault::input, std::string help = "") {
         problem_ = fmt::format(problem, name);
         fault_ = fault;
+        help_ = std::move(help);
+    }
+
+    /// Arrays of descriptors whose size is open came after Vulkan 1.0.
+    [[nodiscard]] bool lacks_size(const std::vector<int>& extents) const {
+        return api_ == Api::vulkan && std::ranges::find(extents, 0) != extents.end();
     }
 
     [[nodiscard]] Usage usage_of(Id variable) const {
@@ -206,12 +213,15 @@ class Reflection {
             const auto is = [&](spv::Op opcode) { return instruction.opcode == opcode; };
             const auto id = module_.decoration(instruction.result, spv::DecorationSpecId);
             if (!id || instruction.result == Id::none) continue;
+            const std::string type = type_name(module_, instruction.type);
+            const std::string name = module_.name(instruction.result);
+            if (type != "int" && type != "uint" && type != "float" && type != "bool")
+                return stop("the specialisation constant '{}' is none of int, uint, float and bool", name,
+                            Fault::input, "make it a float or an int: headers carry values of 32 bits");
             const std::uint32_t value = is(spv::OpSpecConstant)       ? instruction.word(3)
                                         : is(spv::OpSpecConstantTrue) ? 1
                                                                       : 0;
-            interface_.specialization_constants.push_back({module_.name(instruction.result),
-                                                           type_name(module_, instruction.type),
-                                                           static_cast<int>(*id), value});
+            interface_.specialization_constants.push_back({name, type, static_cast<int>(*id), value});
         }
         std::ranges::stable_sort(interface_.specialization_constants, {}, &SpecializationConstant::name);
     }
@@ -247,6 +257,9 @@ class Reflection {
         std::int64_t count = 1;
         for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
         if (count > kMostPlaces) return stop("block '{}' is an array of too many blocks", block.name);
+        if (lacks_size(extents))
+            return stop("block '{}' is an array without a size, which Vulkan 1.0 cannot bind", block.name,
+                        Fault::input, kStateSize);
         block.binding = stated(module_, spv::DecorationBinding, variable.id);
         const bool is_pushed = variable.storage == spv::StorageClassPushConstant;
         block.set = is_pushed ? -1 : set_of(variable.id);
@@ -268,6 +281,9 @@ class Reflection {
         const std::vector<int> array = array_extents(module_, variable.type);
         std::string type = type_name(module_, element);
         const Usage usage = usage_of(variable.id);
+        if (lacks_size(array))
+            return stop("sampler '{}' is an array without a size, which Vulkan 1.0 cannot bind", name,
+                        Fault::input, kStateSize);
         if (is_opaque(element)) {
             interface_.samplers.push_back({name, type, stated(module_, spv::DecorationBinding, variable.id),
                                            array, interface_.stages, usage, set_of(variable.id)});
@@ -394,6 +410,7 @@ class Reflection {
     Api api_;
     Interface interface_;
     std::string problem_;
+    std::string help_;
     Fault fault_ = Fault::input;
 };
 

@@ -22,8 +22,9 @@ struct StageView {
 /// The stages stand in the order of the pipeline.
 [[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
-/// Of stages for Vulkan: blocks and samplers that share a place, with both lines; sets and push constants
-/// beyond what every device has, as warnings.
+/// Of stages for Vulkan: blocks and samplers that share a place, and specialisation constants that share a
+/// constant_id but are not alike, with both lines; sets and push constants beyond what every device has, as
+/// warnings.
 [[nodiscard]] Diagnostics check_descriptors(const std::vector<StageView>& stages);
 
 /// What the stages need beyond the least that every driver of the dialect offers (OpenGL 4.5 core, tables
