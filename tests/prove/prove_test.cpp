@@ -132,6 +132,15 @@ const Row kRows[] = {
      "array index out of bounds", kImpossible},
     {"root_of_a_large_uint", "result = sqrt(3e9 - float(s));", "sqrt() of a negative number", kPossible},
     {"large_uint_as_int", "result = sqrt(float(int(s)));", "sqrt() of a negative number", kPossible},
+    {"difference_of_pixels_on_either_side_of_a_condition",
+     "if (clamp(a, 0.0, 1.0) < 0.5) result = sqrt(1.0 - fwidth(clamp(a, 0.0, 1.0)));",
+     "sqrt() of a negative number", Status::undecided},  // its neighbours went another way
+    {"exponent_of_a_float", "int e; result = frexp(abs(a) + 0.01, e) + float(e);",
+     "a NaN made from finite numbers", kImpossible},
+    {"difference_of_pixels_in_other_parts_of_the_domain", "result = sqrt(200.0 - abs(dFdx(a) * 1.25));",
+     "sqrt() of a negative number", kPossible},
+    {"difference_of_pixels", "result = sqrt(201.0 - abs(dFdx(a)));", "sqrt() of a negative number",
+     kImpossible},
     {"normalize", "result = normalize(v).x;", "normalize() of a zero vector", kPossible},
 };
 

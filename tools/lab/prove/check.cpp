@@ -4,6 +4,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/functions.hpp"
@@ -46,7 +47,10 @@ class Watcher final : public evaluate::Observer<float> {
                 evaluate::Slice as_signed = slice;
                 const bool is_address =
                     step.row().code == spv::OpAccessChain;  // whose slice is the variable's
-                if (slice.scalar == Scalar::uint32 || is_address) as_signed.scalar = Scalar::int32;
+                const bool is_exponent = step.row().code == evaluate::kExtended + GLSLstd450FrexpStruct &&
+                                         component >= program_.operations[step.operation].count;
+                if (slice.scalar == Scalar::uint32 || is_address || is_exponent)
+                    as_signed.scalar = Scalar::int32;
                 const double number = step.value(as_signed, component, lane);
                 if (holds(results[component], number)) continue;
                 is_told_.insert(step.operation);

@@ -815,7 +815,12 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
         case spv::OpFwidth:
         case spv::OpFwidthFine:
         case spv::OpFwidthCoarse: {
-            const Range change = rounded(sum(r[0], negated(r[0])));
+            const Range here = across_pixels(operands[0]);
+            if (!here.is_finite()) {
+                nan = true;
+                break;
+            }
+            const Range change = rounded(sum(here, negated(here)));
             const bool is_width = expression.code == spv::OpFwidth || expression.code == spv::OpFwidthFine ||
                                   expression.code == spv::OpFwidthCoarse;
             result = is_width ? rounded(within(0, 2 * change.size())) : change;
@@ -823,7 +828,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
         }
         case extended(GLSLstd450InterpolateAtCentroid):
         case extended(GLSLstd450InterpolateAtSample):
-            result = r[0];
+            result = across_pixels(operands[0]);
             break;
         case extended(GLSLstd450UnpackSnorm4x8):
         case extended(GLSLstd450UnpackSnorm2x16):

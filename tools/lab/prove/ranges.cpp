@@ -45,6 +45,7 @@ void Ranges::grow() {
     const std::size_t before = users_.size();
     if (before == count) return;
     known_.resize(count);
+    whole_.resize(count, kNothing);
     is_computed_.resize(count, false);
     is_waiting_.resize(count, false);
     cut_of_.resize(count, -1);
@@ -91,9 +92,15 @@ void Ranges::compute(std::uint32_t expression) {
     known = evaluate(expression);
     if (const std::int32_t cut = cut_of_[expression]; cut >= 0)
         known.range = both(known.range, cuts_[static_cast<std::size_t>(cut)].range);
+    if (cuts_.empty() && frames_.back().context == 0) whole_[expression] = known.range;
     if (!known.range.is_empty()) return;
     is_reached_ = false;
     reached_[frames_.back().context] = false;
+}
+
+Range Ranges::across_pixels(std::uint32_t expression) const {
+    if (expressions_.all[expression].code == kConstant) return known_[expression].range;
+    return whole_[expression].is_empty() ? kAnything : whole_[expression];
 }
 
 void Ranges::enter(std::uint32_t context) {

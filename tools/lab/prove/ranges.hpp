@@ -85,6 +85,8 @@ class Ranges {
     /// Whether inputs of the box reach the context entered last.
     [[nodiscard]] bool is_reached() const { return is_reached_; }
     [[nodiscard]] const Known& operator[](std::uint32_t expression) const { return known_[expression]; }
+    /// What it is at neighbouring pixels, which a condition or a cut of this pixel's inputs says nothing of.
+    [[nodiscard]] Range across_pixels(std::uint32_t expression) const;
     [[nodiscard]] const Range& range(std::uint32_t expression) const { return known_[expression].range; }
 
     /// Whether it follows from what is known that not all of these hold at once.
@@ -170,6 +172,7 @@ class Ranges {
     const sanitize::InputSpace& space_;
     const std::vector<bool>* wanted_ = nullptr;
     std::vector<Known> known_;
+    std::vector<Range> whole_;  ///< computed outside of conditions and cuts; else nothing
     std::vector<bool> is_computed_;
     std::vector<std::vector<std::uint32_t>> users_;
     std::vector<std::uint32_t> waiting_;  ///< a heap of expressions to be computed again, the earliest first

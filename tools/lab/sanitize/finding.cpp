@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <fmt/ranges.h>
+#include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/instruction_table.hpp"
@@ -247,7 +248,10 @@ class TrapObserver final : public evaluate::Observer<float> {
 
     /// A result that is not finite, though all operands are.
     void judge_result(const Step& step, const Watch& watch, Lanes lanes) {
-        const Slice& result = step.info().result;
+        Slice result = step.info().result;
+        // The second half of what frexp() gives are integers.
+        if (step.row().code == evaluate::kExtended + GLSLstd450FrexpStruct)
+            result.count = step.program.operations[step.operation].count;
         lanes &= not_finite(step, result);
         for (const Slice& operand : step.info().operands)
             if (lanes != 0 && operand.scalar == evaluate::Scalar::float32)
