@@ -1,6 +1,8 @@
 // Makes rows out of functions of a component or of a row. Internal to evaluation.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 

@@ -1,5 +1,7 @@
 #include "lab/prove/range.hpp"
 
+#include <iterator>
+
 namespace gobo::prove {
 namespace {
 

@@ -215,9 +215,8 @@ Result<std::vector<std::array<double, 4>>> interpolation_spread(const Pipeline& 
     GOBO_TRY(const auto plain, shade_fragments<float>(pipeline, object, inputs));
     for (const auto& [input, rounding] : interpolation_rounding(pipeline, object, varyings))
         for (std::size_t from = 0; from < rounding.size(); from += inputs.count) {
-            const auto with = [&, &input = input, &rounding = rounding](double roundings) {
-                return shade_fragments<float>(pipeline, object,
-                                              moved(inputs, input, from, rounding, roundings));
+            const auto with = [&, &name = input, &error = rounding](double roundings) {
+                return shade_fragments<float>(pipeline, object, moved(inputs, name, from, error, roundings));
             };
             GOBO_TRY(const auto one, with(kInterpolationRoundings));
             GOBO_TRY(const auto other, with(-kInterpolationRoundings));

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/text.hpp"
 #include "lab/sanitize/constant_value.hpp"
