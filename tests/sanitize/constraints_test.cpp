@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lab/sanitize/input_space.hpp"
 #include "sanitize_support.hpp"
 
 namespace gobo {
@@ -21,6 +22,15 @@ std::ostream& operator<<(std::ostream& stream, const Row& row) {
 
 const Row kRows[] = {
     {"less", "color.r = 1.0 / (far - near);", "near < far", "division by zero"},
+    {"more", "color.r = 1.0 / (far - near);", "far > near", "division by zero"},
+    {"at_most", "color.r = sqrt(far - near);", "near <= far", "sqrt() of a negative number"},
+    {"at_least", "color.r = sqrt(far - near);", "far >= near", "sqrt() of a negative number"},
+    {"different", "color.r = 1.0 / (far - near);", "near != far", "division by zero"},
+    {"above_number", "color.r = log(near - 0.5);", "near > 0.5", "log() of a number not above 0"},
+    {"at_least_number", "color.r = sqrt(near - 0.5);", "near >= 0.5", "sqrt() of a negative number"},
+    {"below_number", "color.r = log(0.5 - near);", "near < 0.5", "log() of a number not above 0"},
+    {"at_most_number", "color.r = sqrt(-2.0 - near);", "-2 >= near", "sqrt() of a negative number"},
+    {"not_number", "color.r = 1.0 / near;", "near != 0", "division by zero"},
     {"less_smoothstep", "color.r = smoothstep(near, far, v.x);", "near < far",
      "smoothstep() with equal edges"},
     {"unit", "color.rgb = normalize(normal);", "unit(normal)", "normalize() of a zero vector"},
@@ -77,6 +87,46 @@ TEST_P(Contract, LeavesWhatItSaysNothingOf) {
     if (GetParam().constraint == "near < far") {
         EXPECT_LT(point.uniforms.at("near").front(), point.uniforms.at("far").front());
     }
+}
+
+/// Constraints that no input within [-100, 100] keeps together.
+TEST(Contracts, ThatContradictOneAnotherAreErrors) {
+    const evaluate::Program program = program_of("contract.frag", shader_with("color.r = far - near;"));
+    const auto contradiction = [&](const std::vector<std::string>& constraints) {
+        std::vector<Domain> domains;
+        for (const std::string& constraint : constraints) domains.push_back(stated(constraint));
+        const sanitize::InputSpace space = sanitize::input_space_of(program, domains, true);
+        const sanitize::Constraint* const found = sanitize::contradiction_in(space);
+        return found == nullptr ? "" : found->text;
+    };
+    EXPECT_EQ(contradiction({"near <= far", "far <= near", "near != 0", "far > 0"}), "");
+    const std::vector<std::vector<std::string>> contradictory = {{"near < far", "far < near"},
+                                                                 {"near < far", "far <= near"},
+                                                                 {"near > 200"},
+                                                                 {"near < near"},
+                                                                 {"near != near"},
+                                                                 {"near > 5", "far < 5", "near < far"}};
+    for (const std::vector<std::string>& constraints : contradictory)
+        EXPECT_NE(contradiction(constraints), "") << constraints.front();
+}
+
+/// What is neither a comparison nor one of the functions is none: it is refused by its text.
+TEST(Contracts, OfAnotherFormAreNone) {
+    for (const char* text : {"near == far", "near < far < 2", "2 * near < far", "1 < 2", "near <", "= far",
+                             "abs(near) < 1", "unit(normal, v)", "nonzero(v)", "near"})
+        EXPECT_FALSE(sanitize::constraint_of(text)) << text;
+}
+
+/// A matrix of neither zeros nor ones.
+TEST(DomainOfAMatrix, HoldsForItsSpecialForms) {
+    Domain domain;
+    domain.name = "tbn";
+    domain.low = 2;
+    domain.high = 3;
+    EXPECT_EQ(found_lines(sanitized_text("contract.frag",
+                                         shader_with("color.r = 1.0 / tbn[1][2] + sqrt(tbn[0][0] - 2.0);"),
+                                         {}, {domain})),
+              Lines{});
 }
 
 std::string row_name(const testing::TestParamInfo<Row>& info) {

@@ -46,6 +46,8 @@ const Row kRows[] = {
      "result = pow(min(abs(a), 1.0), abs(b) + 0.1);"},
     {"overflowing_power", "result = pow(abs(a) + 1.0, abs(b));", "an infinity made from finite numbers",
      "result = pow(abs(a) + 1.0, abs(b) * 0.1);"},
+    {"split_number", "int e; result = sqrt(frexp(a, e)) + float(e);", "sqrt() of a negative number",
+     "int e; result = frexp(abs(a) + 0.01, e) + float(e);"},
     {"square_root", "result = sqrt(a);", "sqrt() of a negative number", "result = sqrt(abs(a));"},
     {"inverse_root", "result = inversesqrt(abs(a));", "inversesqrt() of a number not above 0",
      "result = inversesqrt(abs(a) + 1.0);"},

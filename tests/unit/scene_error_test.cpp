@@ -72,6 +72,12 @@ INSTANTIATE_TEST_SUITE_P(
             "KHR_materials_emissive_strength, "
             "KHR_materials_specular, "
             "KHR_materials_unlit, KHR_mesh_quantization, KHR_texture_transform"},
+        Broken{"wrap_unknown", put("/samplers", R"([{"wrapS": 5}])"),
+               "samplers[0].wrapS is 5, but must be one of 10497, 33071, 33648"},
+        Broken{"magnified_unknown", put("/samplers", R"([{"magFilter": 9986}])"),
+               "samplers[0].magFilter is 9986, but must be one of 9728, 9729"},
+        Broken{"minified_unknown", put("/samplers", R"([{"wrapT": 10497}, {"minFilter": 9999}])"),
+               "samplers[1].minFilter is 9999, but must be one of 9728, 9729, 9984, 9985, 9986, 9987"},
         Broken{"nodes_no_array", put("/nodes", R"("three")"), "nodes must be an array, not a string"},
         Broken{"node_no_object", put("/nodes/0", "7"), "nodes[0] must be an object, not a number"},
         Broken{"scene_out_of_range", put("/scene", "4"),

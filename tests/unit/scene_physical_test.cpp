@@ -89,6 +89,28 @@ TEST(PhysicalScene, ReadsFactorsAndExtensions) {
     EXPECT_THAT(material.not_drawn, ElementsAre("KHR_materials_transmission"));
 }
 
+TEST(PhysicalScene, MayRequireWhatItReads) {
+    nlohmann::json scene = scene_with("{}", png({255, 255, 255, 255}, 1, 1));
+    scene["extensionsRequired"] = {
+        "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+        "KHR_materials_ior",        "KHR_materials_sheen",     "KHR_materials_specular",
+        "KHR_materials_unlit"};
+    EXPECT_TRUE(read_physical_scene(scene));
+    scene["extensionsRequired"] = {"KHR_materials_transmission"};
+    EXPECT_FALSE(read_physical_scene(scene));
+}
+
+TEST(PhysicalScene, TellsWhichPicturesAreNotDrawn) {
+    nlohmann::json scene = scene_with(R"({"emissiveTexture": {"index": 1}, "pbrMetallicRoughness":
+        {"baseColorTexture": {"index": 0, "texCoord": 3}}})",
+                                      png({255, 255, 255, 255}, 1, 1));
+    scene["textures"].push_back({{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
+    const Result<Scene> read = read_physical_scene(scene);
+    ASSERT_TRUE(read) << to_text(read.error().front());
+    EXPECT_THAT(read->materials[0].physical.not_drawn,
+                ElementsAre("baseColorTexture by texCoord 3", "emissiveTexture without source"));
+}
+
 /// Of the first draw: the effect's reason, and "in: " before it where it is in.
 std::string verdict(const Scene& scene, const std::string& name) {
     const std::vector<Draw> draws = required_effects(scene, {}, {});

@@ -97,7 +97,7 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     const std::string what = fmt::format("the domain of '{}'", domain.name);
     std::vector<double> range;
     if (node.is_boolean()) {  // a constraint between inputs: "near < far" = true
-        if (!node.as_boolean()->get() || domain.name.find_first_of("<(") == std::string::npos)
+        if (!node.as_boolean()->get() || domain.name.find_first_of("<>=!(") == std::string::npos)
             reader.error(node, what + " is not a range",
                          "write [low, high]; true states a constraint: \"near < far\" = true");
         return domain;

@@ -39,9 +39,16 @@ PhysicalMaterial read_physical(const Value& value, Textures& textures) {
     model["roughnessFactor"].read(material.roughness, kUpToOne);
     value["normalTexture"]["scale"].read(material.normal_scale, {-10, 10});
     value["occlusionTexture"]["strength"].read(material.occlusion_strength, kUpToOne);
-    material.maps = {textures.use(model["baseColorTexture"]), textures.use(model["metallicRoughnessTexture"]),
-                     textures.use(value["normalTexture"]), textures.use(value["occlusionTexture"]),
-                     textures.use(value["emissiveTexture"])};
+    const auto use = [&](const Value& of, const char* name) {
+        auto picture = textures.use(of[name]);
+        if (picture && picture->set > 1)
+            material.not_drawn.push_back(fmt::format("{} by texCoord {}", name, picture->set));
+        if (!picture && of[name]) material.not_drawn.push_back(fmt::format("{} without source", name));
+        return picture;
+    };
+    material.maps = {use(model, "baseColorTexture"), use(model, "metallicRoughnessTexture"),
+                     use(value, "normalTexture"), use(value, "occlusionTexture"),
+                     use(value, "emissiveTexture")};
     const Value extensions = value["extensions"].object();
 
     double ior = 1.5;

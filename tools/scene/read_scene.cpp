@@ -19,6 +19,10 @@ const std::vector<std::string> kKnownExtensions = {
     "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
+/// What it may require besides where materials are read in their own terms.
+const std::vector<std::string> kKnownToPhysical = {"KHR_materials_anisotropy", "KHR_materials_clearcoat",
+                                                   "KHR_materials_ior", "KHR_materials_sheen"};
+
 /// A scene without any light would be black: an environment stands in for it.
 void add_default_light(Scene& scene) {
     const bool is_lit = std::ranges::any_of(scene.order, [&](std::size_t index) {
@@ -49,12 +53,15 @@ void read_asset(const Value& root) {
     if (least != "2.0") asset["minVersion"].fail("is '{}', but only glTF 2.0 is read", least);
 }
 
-void check_extensions(const Value& root) {
+void check_extensions(const Value& root, bool is_physical) {
+    std::vector<std::string> known = kKnownExtensions;
+    if (is_physical) known.insert(known.end(), kKnownToPhysical.begin(), kKnownToPhysical.end());
+    std::ranges::sort(known);
     for (const Value& value : root["extensionsRequired"].elements()) {
         std::string name;
         value.read(name);
-        if (std::ranges::find(kKnownExtensions, name) == kKnownExtensions.end())
-            value.fail_with(fmt::format("export without it; read are {}", join(kKnownExtensions, ", ")),
+        if (std::ranges::find(known, name) == known.end())
+            value.fail_with(fmt::format("export without it; read are {}", join(known, ", ")),
                             "is {}, which gobo does not read", name);
     }
 }
@@ -216,7 +223,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path, Readi
         const nlohmann::json document = parse_document(container.json);
         const Value root{&document, ""};
         read_asset(root);
-        check_extensions(root);
+        check_extensions(root, scene.is_physical);
         const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene);
         Accessors accessors(root, buffers);
         for (const Value& light : root["extensions"]["KHR_lights_punctual"]["lights"].objects())

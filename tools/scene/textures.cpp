@@ -3,11 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/ranges.h>
+
 namespace gobo::scene {
 namespace {
 
 constexpr int kRepeat = 10497;  ///< GL_REPEAT, which is glTF's default
 constexpr int kNearest = 9728;  ///< GL_NEAREST
+
+void check_choice(const Value& value, const std::vector<std::int64_t>& known) {
+    const auto number = value.integer();
+    if (number && std::ranges::find(known, *number) == known.end())
+        value.fail("is {}, but must be one of {}", *number, fmt::join(known, ", "));
+}
+
+/// glTF 2.0, 5.26: OpenGL's numbers.
+void check_sampler(const Value& sampler) {
+    check_choice(sampler["magFilter"], {9728, 9729});
+    check_choice(sampler["minFilter"], {9728, 9729, 9984, 9985, 9986, 9987});
+    for (const char* wrap : {"wrapS", "wrapT"}) check_choice(sampler[wrap], {kRepeat, 33071, 33648});
+}
 
 }  // namespace
 
@@ -19,6 +34,7 @@ Textures::Textures(const Value& root, const Accessors& accessors, const FileSyst
       textures_(root["textures"].objects()),
       images_(root["images"].objects()),
       pictures_(images_.size()) {
+    for (const Value& sampler : root["samplers"].objects()) check_sampler(sampler);
     for (const Value& texture : textures_)
         static_cast<void>(texture["source"].index(images_.size(), "images"));
 }

@@ -11,6 +11,7 @@
 #include "family/key.hpp"
 #include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/sanitize/constraints.hpp"
 #include "lab/study/qualities.hpp"
 
 namespace gobo {
@@ -208,9 +209,10 @@ std::string shell_word(std::string_view text) {
     return word + "'";
 }
 
-std::vector<Domain> constraints_in_comments(const Composition& composition) {
+Result<std::vector<Domain>> constraints_in_comments(const Composition& composition) {
     constexpr std::string_view kMark = "// assume:";
     std::vector<Domain> constraints;
+    Diagnostics errors;
     for (const Piece& piece : composition.pieces)
         for (int line = 1; line <= std::ranges::count(piece.file_text, '\n') + 1; ++line) {
             const std::string_view text = line_of(piece.file_text, line);
@@ -219,7 +221,12 @@ std::vector<Domain> constraints_in_comments(const Composition& composition) {
             Domain& domain = constraints.emplace_back();
             domain.name = trim(text.substr(mark + kMark.size()));
             domain.place = {piece.path, line, static_cast<int>(mark) + 1};
+            if (!sanitize::constraint_of(domain.name))
+                errors.push_back({.place = domain.place,
+                                  .message = fmt::format("'{}' is no constraint", domain.name),
+                                  .help = std::string(sanitize::kConstraintHelp)});
         }
+    if (!errors.empty()) return tl::unexpected(std::move(errors));
     return constraints;
 }
 

@@ -94,8 +94,9 @@ inline constexpr std::string_view kVulkanBackend = "vulkan";
 /// The text as a word of a shell's command: in quotes where it holds more than letters, digits and what file
 /// names usually hold.
 [[nodiscard]] std::string shell_word(std::string_view text);
-/// What shader files say of their inputs: `// assume: near < far`.
-[[nodiscard]] std::vector<Domain> constraints_in_comments(const Composition& composition);
+/// What shader files say of their inputs: `// assume: near < far`. An error for each comment that is of
+/// no form that is read.
+[[nodiscard]] Result<std::vector<Domain>> constraints_in_comments(const Composition& composition);
 /// The errors as warnings.
 [[nodiscard]] Diagnostics as_warnings(Diagnostics errors);
 /// The line of the piece that a place names; empty where there is none.

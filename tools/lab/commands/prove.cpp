@@ -67,7 +67,7 @@ Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
     }
     family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
     if (subject.are_files) {
-        const std::vector<Domain> commented = constraints_in_comments(subject.composition);
+        GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
         family.domains.insert(family.domains.end(), commented.begin(), commented.end());
     }
     GOBO_TRY(const Validated validated,

@@ -10,6 +10,7 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/commands/lab_input.hpp"
+#include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/precision.hpp"
 
 namespace gobo {
@@ -108,7 +109,7 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     GOBO_TRY(const std::vector<Domain> narrower, narrower_domains(world, options.inputs));
     family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
     if (subject.are_files) {
-        const std::vector<Domain> commented = constraints_in_comments(subject.composition);
+        GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
         family.domains.insert(family.domains.end(), commented.begin(), commented.end());
     }
     GOBO_TRY(const Validated validated,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <map>
 
 #include <glm/matrix.hpp>
 
@@ -27,6 +29,17 @@ double as_float(double number) {
     return static_cast<double>(static_cast<float>(number));
 }
 
+/// As little as inputs of that size differ.
+double step_of(double number, bool is_float) {
+    return is_float ? std::max(kSmallest, std::abs(number) * 0x1p-22) : 1;
+}
+double above(double number, bool is_float) {
+    return is_float ? as_float(number + step_of(number, true)) : std::floor(number) + 1;
+}
+double below(double number, bool is_float) {
+    return is_float ? as_float(number - step_of(number, true)) : std::ceil(number) - 1;
+}
+
 /// What stands between the first brackets of a name: which element it is of.
 std::string_view subscript_of(std::string_view name) {
     const auto open = name.find('[');
@@ -38,6 +51,7 @@ class Keeper {
     Keeper(const InputSpace& space, std::span<double> point) : space_(space), point_(point) {}
 
     void keep(const Constraint& constraint) {
+        if (constraint.is_comparison()) return keep_comparison(constraint);
         for (const InputField& field : space_.fields) {
             if (field.is_texture || verify::without_subscripts(field.name) != constraint.names.front())
                 continue;
@@ -53,21 +67,26 @@ class Keeper {
         return point_.subspan(field.first, field.components);
     }
 
-    /// The field of that name and of the same element and pixel.
+    /// Whether the field has that name and is of the same element and pixel.
+    static bool is_partner(const InputField& of, const InputField& field, const std::string& name) {
+        const bool is_of_element = subscript_of(name).empty() || subscript_of(of.name).empty() ||
+                                   subscript_of(field.name) == subscript_of(of.name);
+        const bool is_of_pixel = of.pixel < 0 || field.pixel < 0 || of.pixel == field.pixel;
+        return is_of_element && is_of_pixel && verify::without_subscripts(field.name) == name;
+    }
+
     [[nodiscard]] const InputField* partner(const InputField& of, const std::string& name) const {
-        const auto found = std::ranges::find_if(space_.fields, [&](const InputField& field) {
-            const bool is_of_element =
-                subscript_of(name).empty() || subscript_of(field.name) == subscript_of(of.name);
-            const bool is_of_pixel = of.pixel < 0 || field.pixel < 0 || of.pixel == field.pixel;
-            return is_of_element && is_of_pixel && verify::without_subscripts(field.name) == name;
-        });
+        const auto found = std::ranges::find_if(
+            space_.fields, [&](const InputField& field) { return is_partner(of, field, name); });
         return found == space_.fields.end() ? nullptr : &*found;
     }
 
     void keep(Constraint::Kind kind, const InputField& field, const InputField* other) {
         switch (kind) {
             case Constraint::Kind::less:
-                return keep_less(numbers(field).front(), numbers(*other).front());
+            case Constraint::Kind::less_equal:
+            case Constraint::Kind::differ:
+                return;
             case Constraint::Kind::unit:
                 return normalise(numbers(field), 0);
             case Constraint::Kind::not_zero:
@@ -84,14 +103,52 @@ class Keeper {
         }
     }
 
-    /// As little as inputs of that size differ.
-    static void move(double& number) {
-        number = as_float(number + std::max(kSmallest, std::abs(number) * 0x1p-22));
+    static void move(double& number) { number = above(number, true); }
+
+    void keep_comparison(const Constraint& constraint) {
+        for (const InputField& field : space_.fields) {
+            if (field.is_texture) continue;
+            const std::string name = verify::without_subscripts(field.name);
+            if (constraint.has_number()) {
+                if (constraint.kind != Constraint::Kind::differ || name != constraint.names[0]) continue;
+                for (double& number : numbers(field))
+                    if (number == constraint.number) number = above(number, field.is_float());
+                continue;
+            }
+            if (name != constraint.names[0]) continue;
+            for (const InputField& other : space_.fields)
+                if (!other.is_texture && is_partner(field, other, constraint.names[1]))
+                    for (std::size_t i = 0; i < std::max(field.components, other.components); ++i)
+                        keep_pair(constraint.kind, field, i, other, i);
+        }
     }
 
-    static void keep_less(double& less, double& more) {
-        if (less > more) std::swap(less, more);
-        if (less == more) move(more);
+    void keep_pair(Constraint::Kind kind, const InputField& field, std::size_t i, const InputField& other,
+                   std::size_t j) {
+        if ((i >= field.components && field.components > 1) ||
+            (j >= other.components && other.components > 1))
+            return;
+        double& less = numbers(field)[std::min(i, field.components - 1)];
+        double& more = numbers(other)[std::min(j, other.components - 1)];
+        if (kind == Constraint::Kind::less_equal ? less <= more
+            : kind == Constraint::Kind::less     ? less < more
+                                                 : less != more)
+            return;
+        const auto is_in = [](const InputField& of, double number) {
+            return number >= of.domain.low && number <= of.domain.high;
+        };
+        if (less > more && is_in(field, more) && is_in(other, less)) return std::swap(less, more);
+        const bool may_be_equal = kind == Constraint::Kind::less_equal;
+        const double over = may_be_equal ? less : above(less, other.is_float());
+        const double under = may_be_equal ? more : below(more, field.is_float());
+        if (is_in(other, over)) {
+            more = over;
+        } else if (is_in(field, under)) {
+            less = under;
+        } else {
+            less = field.domain.low;
+            more = other.domain.high;
+        }
     }
 
     /// Of zero the axis of that index.
@@ -153,20 +210,63 @@ class Keeper {
 }  // namespace
 
 bool is_constraint(std::string_view text) {
-    return text.find_first_of("<(") != std::string_view::npos;
+    return text.find_first_of("<>=!(") != std::string_view::npos;
 }
+
+namespace {
+
+std::optional<double> number_in(std::string_view text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
+    return number;
+}
+
+bool is_name(std::string_view text) {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
+           std::ranges::all_of(text, [&](char sign) {
+               return kLetters.find(sign) != std::string_view::npos ||
+                      std::string_view("0123456789.[]").find(sign) != std::string_view::npos;
+           });
+}
+
+std::optional<Constraint> comparison_of(std::string_view text) {
+    const auto at = text.find_first_of("<>=!");
+    const std::string_view sign = text.substr(at, text.substr(at + 1).starts_with('=') ? 2 : 1);
+    std::string_view left = trim(text.substr(0, at));
+    std::string_view right = trim(text.substr(at + sign.size()));
+    if (sign.starts_with('>')) std::swap(left, right);
+    Constraint constraint;
+    if (sign == "!=")
+        constraint.kind = Constraint::Kind::differ;
+    else if (sign == "<=" || sign == ">=")
+        constraint.kind = Constraint::Kind::less_equal;
+    else if (sign != "<" && sign != ">")
+        return std::nullopt;
+    if (constraint.kind == Constraint::Kind::differ && number_in(left)) std::swap(left, right);
+    for (const std::string_view side : {left, right}) {
+        const auto number = number_in(side);
+        if (!number && !is_name(side)) return std::nullopt;
+        constraint.names.emplace_back(number ? "" : side);
+        if (number) constraint.number = *number;
+    }
+    if (constraint.names[0].empty() && constraint.names[1].empty()) return std::nullopt;
+    return constraint;
+}
+
+}  // namespace
 
 std::optional<Constraint> constraint_of(std::string_view text) {
     const auto trimmed = [](std::string_view part) { return std::string(trim(part)); };
-    if (const auto sign = text.find('<'); sign != std::string_view::npos)
-        return Constraint{Constraint::Kind::less,
-                          {trimmed(text.substr(0, sign)), trimmed(text.substr(sign + 1))}};
+    if (text.find_first_of("<>=!") != std::string_view::npos) return comparison_of(text);
     const auto open = text.find('(');
     if (open == std::string_view::npos || !text.ends_with(')')) return std::nullopt;
     const std::string name = trimmed(text.substr(0, open));
     const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
     if (form == kForms.end()) return std::nullopt;
-    Constraint constraint{form->kind, {}};
+    Constraint constraint;
+    constraint.kind = form->kind;
     for (const std::string& part : split(text.substr(open + 1, text.size() - open - 2), ','))
         constraint.names.push_back(trimmed(part));
     if (constraint.names.size() != form->names) return std::nullopt;
@@ -177,14 +277,89 @@ std::vector<Constraint> constraints_of(const std::vector<Domain>& domains) {
     std::vector<Constraint> constraints;
     for (const Domain& domain : domains)
         if (is_constraint(domain.name))
-            if (const auto constraint = constraint_of(domain.name)) constraints.push_back(*constraint);
+            if (auto constraint = constraint_of(domain.name)) {
+                constraint->text = domain.name;
+                constraint->place = domain.place;
+                constraints.push_back(std::move(*constraint));
+            }
     return constraints;
+}
+
+void narrow(Domain& domain, const std::string& name, bool is_float,
+            const std::vector<Constraint>& constraints) {
+    for (const Constraint& constraint : constraints) {
+        if (!constraint.has_number()) continue;
+        const bool is_upper = constraint.names[0] == name;  // name < number
+        if (!is_upper && constraint.names[1] != name) continue;
+        const double number = constraint.number;
+        const bool is_strict = constraint.kind != Constraint::Kind::less_equal;
+        const double over = is_strict ? above(number, is_float) : is_float ? number : std::ceil(number);
+        const double under = is_strict ? below(number, is_float) : is_float ? number : std::floor(number);
+        if (constraint.kind == Constraint::Kind::differ) {
+            if (domain.low == number) domain.low = over;
+            if (domain.high == number) domain.high = under;
+            std::erase(domain.also, number);
+        } else if (is_upper) {
+            domain.high = std::min(domain.high, under);
+            std::erase_if(domain.also, [&](double also) { return also > under; });
+        } else {
+            domain.low = std::max(domain.low, over);
+            std::erase_if(domain.also, [&](double also) { return also < over; });
+        }
+    }
+}
+
+const Constraint* contradiction_in(const InputSpace& space) {
+    struct Interval {
+        double low;
+        double high;
+        bool is_float;
+    };
+    std::map<std::string, Interval> intervals;
+    for (const InputField& field : space.fields) {
+        Interval interval{field.domain.low, field.domain.high, field.is_float()};
+        for (const double also : field.domain.also) {
+            interval.low = std::min(interval.low, also);
+            interval.high = std::max(interval.high, also);
+        }
+        if (!field.is_texture) intervals.emplace(verify::without_subscripts(field.name), interval);
+    }
+    // The least values follow from one another: where they still grow after as many rounds as there are
+    // names, comparisons form a circle.
+    for (std::size_t round = 0; round <= intervals.size() + 1; ++round)
+        for (const Constraint& constraint : space.constraints) {
+            if (!constraint.is_comparison()) continue;
+            if (constraint.has_number()) {
+                const auto of = intervals.find(constraint.names[constraint.names[0].empty() ? 1 : 0]);
+                if (of != intervals.end() && of->second.low > of->second.high) return &constraint;
+                continue;
+            }
+            const auto less = intervals.find(constraint.names[0]);
+            const auto more = intervals.find(constraint.names[1]);
+            if (less == intervals.end() || more == intervals.end()) continue;
+            if (constraint.kind == Constraint::Kind::differ) {
+                if (less == more) return &constraint;
+                continue;
+            }
+            const bool is_strict = constraint.kind == Constraint::Kind::less;
+            const double low = less->second.low;
+            const double least =
+                is_strict ? low + step_of(low, less->second.is_float && more->second.is_float) : low;
+            if (least <= more->second.low) continue;
+            more->second.low = least;
+            if (least > more->second.high || round > intervals.size()) return &constraint;
+        }
+    return nullptr;
 }
 
 void constrain(const InputSpace& space, std::span<double> point) {
     if (space.constraints.empty()) return;
     Keeper keeper(space, point);
     for (const Constraint& constraint : space.constraints) keeper.keep(constraint);
+    // What keeps one comparison may break an earlier one.
+    for (std::size_t round = 1; round < space.constraints.size(); ++round)
+        for (const Constraint& constraint : space.constraints)
+            if (constraint.is_comparison()) keeper.keep(constraint);
 }
 
 }  // namespace gobo::sanitize

@@ -116,6 +116,7 @@ class PointMaker {
         for (std::size_t i = 0; i < components; ++i)
             if (kind != 3) numbers[i] = i / rows == i % rows ? 1 : 0;
         if (kind != 1) std::fill_n(numbers.begin(), rows, 0.0);
+        bring_into_domain(field, numbers);  // it may hold neither 0 nor 1
     }
 
     /// Brings two inputs into a relation.

@@ -158,6 +158,9 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
             field.type = port.type;
             field.scalar = port.scalar;
             field.domain = range_of(port, domains);
+            if (!field.domain.of_length)
+                narrow(field.domain, verify::without_subscripts(port.name), field.is_float(),
+                       space.constraints);
             field.hard = hard_numbers(field.domain);
             field.components = port.components;
             const bool is_of_pixel = space.pixels > 1 && ports == &program.inputs && field.is_float();

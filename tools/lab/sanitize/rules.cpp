@@ -1,5 +1,6 @@
 #include "lab/sanitize/rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -355,8 +356,12 @@ void measure_overflow(const Step& step, Distances& distances) {
 }
 
 Lanes not_finite(const Step& step, const Slice& slice) {
+    // frexp() gives a struct: the exponents behind the significands are integers.
+    const bool has_exponents = step.row().code == evaluate::kExtended + GLSLstd450FrexpStruct;
+    const std::uint32_t floats =
+        has_exponents ? std::min(slice.count, step.info().operands[0].count) : slice.count;
     Hits hits{};
-    for (std::uint32_t component = 0; component < slice.count; ++component)
+    for (std::uint32_t component = 0; component < floats; ++component)
         for_each_lane(
             [&hits](std::size_t lane, float number) { hits[lane] |= !(std::fabs(number) <= kLargest); },
             float_row(step, slice, component));

@@ -55,6 +55,14 @@ class StageSearch {
         }
         program_ = std::move(*program);
         space_ = input_space_of(program_, family.domains, true);
+        if (const Constraint* const constraint = contradiction_in(space_)) {
+            diagnostics_.push_back(evaluate::error_at(
+                constraint->place,
+                fmt::format("no input keeps '{}' along with its range and the other constraints",
+                            constraint->text),
+                "remove one of those that contradict one another, or widen the range in [domain]"));
+            return;
+        }
         bounds_.emplace(family, key, kind, program_, space_, promise);
         if (options.guided > 0 || options.minutes > 0) guide_.emplace(program_, space_, options.seed);
     }
@@ -249,13 +257,11 @@ namespace {
 Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& names) {
     const auto constraint = constraint_of(domain.name);
     if (!constraint)
-        return {evaluate::error_at(
-            domain.place, fmt::format("'{}' is no constraint", domain.name),
-            "write \"near < far\" = true, or unit(), not_zero(), distinct(,), orthonormal(), "
-            "inverse_transpose_of(,)")};
+        return {evaluate::error_at(domain.place, fmt::format("'{}' is no constraint", domain.name),
+                                   std::string(kConstraintHelp))};
     Diagnostics errors;
     for (const std::string& name : constraint->names)
-        if (!names.contains(name))
+        if (!name.empty() && !names.contains(name))
             errors.push_back(evaluate::error_at(domain.place, fmt::format("no stage reads '{}'", name),
                                                 suggestion(name, {names.begin(), names.end()})));
     return errors;
@@ -274,10 +280,23 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validat
             for (const evaluate::ImagePort& image : program->images)
                 for (const char* part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
                     names.insert(verify::without_subscripts(image.name + part));
+    std::set<std::string> inputs;
+    for (const ValidatedStage& stage : validated.stages)
+        if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
+            for (const auto* ports : {&program->inputs, &program->uniforms})
+                for (const evaluate::Port& port : *ports)
+                    inputs.insert(verify::without_subscripts(port.name));
     Diagnostics errors;
     for (const Domain& domain : domains) {
         if (is_constraint(domain.name)) {
-            for (Diagnostic& error : wrong_constraint(domain, names)) errors.push_back(std::move(error));
+            const auto constraint = constraint_of(domain.name);
+            for (const std::string& name : constraint ? constraint->names : std::vector<std::string>())
+                if (const Domain* const of = verify::domain_of(domains, name);
+                    constraint->is_comparison() && of != nullptr && of->of_length)
+                    errors.push_back(evaluate::error_at(
+                        domain.place, fmt::format("the range of '{}' is one of its length", name),
+                        "state the length's range there, or compare another input"));
+            for (Diagnostic& error : wrong_constraint(domain, inputs)) errors.push_back(std::move(error));
             continue;
         }
         if (!names.contains(domain.name))
