@@ -135,6 +135,8 @@ const Row kRows[] = {
     {"difference_of_pixels_on_either_side_of_a_condition",
      "if (clamp(a, 0.0, 1.0) < 0.5) result = sqrt(1.0 - fwidth(clamp(a, 0.0, 1.0)));",
      "sqrt() of a negative number", Status::undecided},  // its neighbours went another way
+    {"constant_nan_beside_a_constant_zero", "result = max(a, sqrt(-1.0));", "max() fed a NaN",
+     Status::undecided},
     {"exponent_of_a_float", "int e; result = frexp(abs(a) + 0.01, e) + float(e);",
      "a NaN made from finite numbers", kImpossible},
     {"difference_of_pixels_in_other_parts_of_the_domain", "result = sqrt(200.0 - abs(dFdx(a) * 1.25));",
@@ -180,6 +182,17 @@ TEST(Proofs, ShowNoInputThatBreaksAConstraint) {
     order.name = "a < b";
     EXPECT_EQ(word(by_rule(proven("known.frag", files, {})).at("division by zero")), "possible");
     EXPECT_EQ(word(by_rule(proven("known.frag", files, {}, {order})).at("division by zero")), "undecided");
+}
+
+TEST(Proofs, ClaimNothingOfWhatTheyDoNotCover) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 450\nlayout(location = 0) out float color;\nvoid main() { color = 1.0; }\n"}});
+    const std::string text = prove::proof_text(proven("known.frag", files, {}));
+    EXPECT_NE(text.find(" 0          0         0        0        -\nnot covered: undefined values, missing "
+                        "returns, unwritten outputs and constants; gobo sanitize looks for them\n"),
+              std::string::npos)
+        << text;
 }
 
 TEST(Proofs, AreWrittenAsJson) {

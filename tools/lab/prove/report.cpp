@@ -60,11 +60,12 @@ bool follows(const SourceOperation& operation, const ProvenRule& rule) {
 constexpr std::string_view kColumns = "{:<66} {:>10} {:>10} {:>9} {:>8} {:>8}\n";
 
 std::string count_line(const std::string& name, const Count& count) {
-    const double share =
-        count.all == 0 ? 100
-                       : 100.0 * static_cast<double>(count.by_status[0]) / static_cast<double>(count.all);
+    const std::string share = count.all == 0
+                                  ? "-"
+                                  : fmt::format("{:.1f} %", 100.0 * static_cast<double>(count.by_status[0]) /
+                                                                static_cast<double>(count.all));
     return fmt::format(fmt::runtime(kColumns), name, count.all, count.by_status[0], count.by_status[1],
-                       count.by_status[2], fmt::format("{:.1f} %", share));
+                       count.by_status[2], share);
 }
 
 }  // namespace
@@ -90,6 +91,9 @@ std::string proof_text(const ProveReport& report) {
     if (all.ignoring_tiny > 0)
         text += fmt::format("{} of these are impossible only where inputs nearer to 0 than {} are 0\n",
                             all.ignoring_tiny, sanitize::kSmallest);
+    text +=
+        "not covered: undefined values, missing returns, unwritten outputs and constants; gobo sanitize "
+        "looks for them\n";
     bool is_first = true;
     for (const SourceOperation& operation : report.operations)
         for (const ProvenRule& rule : operation.rules) {

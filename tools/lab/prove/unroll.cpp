@@ -128,7 +128,9 @@ class Unroller {
     }
 
     Id constant(double value, Scalar scalar) {
-        const auto [found, is_new] = constants_.try_emplace({value, scalar}, 0);
+        // By bits, since no order holds a NaN; both zeros are one.
+        const auto bits = std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value);
+        const auto [found, is_new] = constants_.try_emplace({bits, scalar}, 0);
         if (is_new) {
             // Constants belong to no context.
             const std::uint32_t context = context_;
@@ -746,7 +748,7 @@ class Unroller {
     std::vector<State> ended_;
     std::vector<std::uint32_t> turns_;  ///< of each block
     std::vector<bool> is_carried_;      ///< of each slot: read in another block than it is written in
-    std::map<std::pair<double, Scalar>, Id> constants_;
+    std::map<std::pair<std::uint64_t, Scalar>, Id> constants_;
     std::map<std::tuple<std::uint32_t, Id, bool>, std::uint32_t> inner_contexts_;
     std::map<std::vector<std::uint32_t>, std::uint32_t> lists_;
     std::unordered_map<Key, std::vector<Id>, HashOfKey> known_expressions_;
