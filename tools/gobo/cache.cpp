@@ -1,6 +1,10 @@
 // gobo cache: what the cache holds, and an end to it.
+#include <cerrno>
+
+#include <dirent.h>
 #include <fmt/format.h>
 
+#include "core/file_error.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/kept_answers.hpp"
 
@@ -11,6 +15,11 @@ Result<Outcome> run(const std::string& action, const World& world) {
     const std::string folder = cache_folder(world.options);
     if (folder.empty())
         return fail(Fault::usage, "no cache is named", "give --cache DIR, or set GOBO_CACHE_DIR");
+    // One that is not there holds nothing; one that cannot be looked at may.
+    if (::DIR* const opened = ::opendir(folder.c_str()); opened != nullptr)
+        ::closedir(opened);
+    else if (errno != ENOENT)
+        return file_error(folder, "read", errno);
     const std::uint64_t most = std::uint64_t(world.options.cache_megabytes) << 20;
     DiskCache cache(folder, most);
     if (action == "clear") {
