@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "emit/depfile_names.hpp"
 #include "emit/emit.hpp"
 #include "gobo/commands.hpp"
@@ -56,7 +57,10 @@ Result<void> check_outputs(const FileSystem& disk, const std::vector<OutputFile>
     for (const std::string& input : inputs) read.insert(disk.real_path(input));
     std::set<std::string> written;
     for (const OutputFile& output : outputs) {
-        const std::string path = disk.real_path(output.path);
+        // A link in the place of an output is replaced, not followed.
+        const std::string folder = folder_of(output.path);
+        const std::string path = disk.real_path(folder.empty() ? "." : folder) + "/" +
+                                 output.path.substr(output.path.rfind('/') + 1);
         if (read.contains(path))
             return fail(Fault::usage, fmt::format("'{}' would be written over, but is read", output.path),
                         "name another file or folder for what is written");
