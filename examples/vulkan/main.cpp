@@ -9,8 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 // clang-format off: vulkan.hpp stands behind vulkan.h, which device.hpp includes
-#include "device.hpp"
 #include <gobo/vulkan.hpp>
+
+#include "device.hpp"
 #include "lit.hpp"
 // clang-format on
 

@@ -194,7 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
         LiteralRow{"conditions", "",
                    "#include <lamp>\nOUTPUT(0) vec4 color;\nvoid main() {\n    color = vec4(0.0);\n"
                    "#if LAMPS > 2\n    color.r = 1.0;\n#endif\n}\n",
-                   "tiny.frag:5:1: note: no specialisation constant, but a stage for each number of lamp: this asks for "
+                   "tiny.frag:5:1: note: no specialisation constant, but a stage for each number of lamp: "
+                   "this asks for "
                    "more than whether there is one [lamp=1, and 1 more key]\n    #if LAMPS > 2\n    ^\n"}),
     [](const auto& row) { return std::string(row.param.name); });
 

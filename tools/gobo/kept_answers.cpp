@@ -92,7 +92,8 @@ Result<Outcome> run_with_cache(const Command& command, const World& world, const
         }
     TracedFiles traced(world.disk);
     FileSystem& disk = command.is_repeatable ? static_cast<FileSystem&>(traced) : world.disk;
-    Result<Outcome> outcome = command.run({disk, world.shipped, world.options, world.measure, &cache, world.tell});
+    Result<Outcome> outcome =
+        command.run({disk, world.shipped, world.options, world.measure, &cache, world.tell});
     if (command.is_repeatable) keep(cache, key, traced, outcome);
     append(warnings, cache.tidy());
     return outcome;

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
           watch_command(),
           library_command(),
           cache_command(),
-         merge_command(),
+          merge_command(),
           {titles::kEval},
           {titles::kTest},
           {titles::kSanitize},

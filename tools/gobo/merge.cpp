@@ -97,7 +97,8 @@ Result<std::string> merged_json(const std::vector<Shard>& shards) {
     std::vector<Json> documents;
     for (const Shard& shard : shards) {
         documents.push_back(Json::parse(shard.text, nullptr, false));
-        if (documents.back().is_discarded() || !documents.back().is_object()) return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
+        if (documents.back().is_discarded() || !documents.back().is_object())
+            return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
     }
     for (std::size_t i = 0; i < documents.size(); ++i) {
         const Json shard = documents[i].value("shard", Json());
