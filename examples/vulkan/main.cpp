@@ -8,10 +8,10 @@
 #define GLM_FORCE_DEPTH_ZERO_TO_ONE  // Vulkan's clip space: depth from 0 to 1
 #include <glm/gtc/matrix_transform.hpp>
 
-// clang-format off: vulkan.hpp stands behind vulkan.h, which device.hpp includes
-#include <gobo/vulkan.hpp>
-
+// vulkan.hpp stands behind vulkan.h, which device.hpp includes.
+// clang-format off
 #include "device.hpp"
+#include <gobo/vulkan.hpp>
 #include "lit.hpp"
 // clang-format on
 
