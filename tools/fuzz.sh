@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fuzz.sh [SECONDS [TARGET...]]: runs each target of tests/fuzz so long by libFuzzer under AddressSanitizer and
 # UndefinedBehaviorSanitizer, from tests/fuzz/corpus on, and prints a table. Needs clang 16 or later (clang-19 of Debian 12),
-# or CXX names one. What is found lies in build/fuzz/found/TARGET; give it a name in tests/fuzz/corpus/TARGET once it is mended.
+# or CXX names one. What is found lies in build/fuzz/found/TARGET; give it a name in tests/fuzz/corpus/TARGET once it is fixed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}

@@ -40,6 +40,7 @@ class KnownLoad : public testing::Test {
     void SetUp() override {
         make_timings_repeatable();
         auto opened = open_context(Backend::egl);
+        // EGL is optional, and what is known of a load holds for a renderer that draws in the calling thread.
         if (!opened) GTEST_SKIP() << "SKIPPED: " << to_text(opened.error().front());
         context_.emplace(*std::move(opened));
         if (!draws_in_calling_thread(context_->renderer())) GTEST_SKIP() << "SKIPPED: a GPU";

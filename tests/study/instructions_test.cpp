@@ -10,6 +10,7 @@ namespace gobo::study {
 namespace {
 
 TEST(Instructions, AreCountedWithoutAShell) {
+    // Only `study --callgrind` needs it, which says so where it is missing.
     if (std::system("valgrind --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "valgrind is not installed";
     const std::string victim = testing::TempDir() + "gobo made by a shell";
     std::filesystem::remove(victim);

@@ -200,7 +200,7 @@ TEST_F(KnownErrors, AreToldAgainAtTheirPlaces) {
     EXPECT_THAT(first, testing::StartsWith("shader_lib/fog/linear.glsl:3: error: 'density'"));
     expect_as_without("moved", cache);
     files["shader_lib/fog/linear.glsl"] = "vec4 seen() { return vec4(0.5); }\n";
-    expect_as_without("mended", cache);
+    expect_as_without("fixed", cache);
 }
 
 TEST_F(KnownErrors, OfLinkingAreToldAgain) {

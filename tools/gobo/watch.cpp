@@ -64,7 +64,7 @@ class Watcher {
           cache_(world.cache == nullptr ? memory_ : *world.cache),
           server_(std::move(server)) {}
 
-    /// Builds until it is asked to end. The error of the first build where no saved file can mend it.
+    /// Builds until it is asked to end. The error of the first build where no saved file can change it.
     Result<Outcome> run() {
         for (bool is_first = true;; is_first = false) {
             const Clock::time_point start = Clock::now();
@@ -96,7 +96,7 @@ class Watcher {
         if (server_) {
             const std::size_t changed = server_->offer(built->family, built->composition);
             outcome->summary +=
-                fmt::format(", {} {} handed on", changed, changed == 1 ? "program" : "programs");
+                fmt::format(", {} {} sent", changed, changed == 1 ? "program" : "programs");
         }
         const auto taken = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
         outcome->summary += fmt::format(", {} ms", taken.count());

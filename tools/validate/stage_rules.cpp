@@ -188,7 +188,7 @@ class StageCheck {
                    fmt::format("{} vertices of {} components each are {}, OpenGL guarantees only {} "
                                "(MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS)",
                                vertices, components, vertices * components, kGuaranteed),
-                   "emit fewer vertices, or hand on less with each");
+                   "emit fewer vertices, or write fewer components with each");
     }
 
     void check_output(const spirv::Variable& variable) {

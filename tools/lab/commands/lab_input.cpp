@@ -9,9 +9,11 @@
 
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "family/read_family.hpp"
 #include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
 #include "lab/sanitize/constraints.hpp"
+#include "lab/sanitize/sanitize.hpp"
 #include "lab/study/qualities.hpp"
 
 namespace gobo {
@@ -228,6 +230,26 @@ Result<std::vector<Domain>> constraints_in_comments(const Composition& compositi
         }
     if (!errors.empty()) return tl::unexpected(std::move(errors));
     return constraints;
+}
+
+Result<Validated> compile_over_domains(const World& world, Subject& subject, const std::string& inputs) {
+    std::vector<Domain>& domains = subject.family.family.domains;
+    std::vector<Domain> stated;
+    if (!inputs.empty()) {
+        GOBO_TRY(const std::string text, read_input(world, inputs));
+        GOBO_TRY(stated, read_domain_file(text, inputs));
+    }
+    domains.insert(domains.begin(), stated.begin(), stated.end());  // ahead of the family's own
+    if (subject.are_files) {
+        GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
+        domains.insert(domains.end(), commented.begin(), commented.end());
+    }
+    GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true, .debug_information = true}));
+    for (const Domain& domain : domains)
+        if (subject.are_files && sanitize::is_constraint(domain.name)) stated.push_back(domain);
+    if (Diagnostics errors = sanitize::domains_of_nothing(stated, validated); !errors.empty())
+        return tl::unexpected(std::move(errors));
+    return validated;
 }
 
 Diagnostics as_warnings(Diagnostics errors) {

@@ -97,6 +97,11 @@ inline constexpr std::string_view kVulkanBackend = "vulkan";
 /// What shader files say of their inputs: `// assume: near < far`. An error for each comment that is of
 /// no form that is read.
 [[nodiscard]] Result<std::vector<Domain>> constraints_in_comments(const Composition& composition);
+/// The SPIR-V of what is evaluated over domains, whose own are joined by those of the file `inputs` (none
+/// where that is empty), which come first, and by what comments in shader files say. Errors are also domains
+/// of what no stage has.
+[[nodiscard]] Result<Validated> compile_over_domains(const World& world, Subject& subject,
+                                                     const std::string& inputs);
 /// The errors as warnings.
 [[nodiscard]] Diagnostics as_warnings(Diagnostics errors);
 /// The line of the piece that a place names; empty where there is none.

@@ -59,24 +59,8 @@ Diagnostics report(const World& world, const ProveCommandOptions& options, const
 Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo prove evaluates"));
-    Family& family = subject.family.family;
-    std::vector<Domain> narrower;
-    if (!options.inputs.empty()) {
-        GOBO_TRY(const std::string text, read_input(world, options.inputs));
-        GOBO_TRY(narrower, read_domain_file(text, options.inputs));
-    }
-    family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
-    if (subject.are_files) {
-        GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
-        family.domains.insert(family.domains.end(), commented.begin(), commented.end());
-    }
-    GOBO_TRY(const Validated validated,
-             compile(world, subject, {.keep_spirv = true, .debug_information = true}));
-    std::vector<Domain> stated = narrower;
-    for (const Domain& domain : family.domains)
-        if (subject.are_files && sanitize::is_constraint(domain.name)) stated.push_back(domain);
-    if (Diagnostics errors = sanitize::domains_of_nothing(stated, validated); !errors.empty())
-        return tl::unexpected(std::move(errors));
+    GOBO_TRY(const Validated validated, compile_over_domains(world, subject, options.inputs));
+    const Family& family = subject.family.family;
     prove::ProveOptions wanted = options.prove;
     wanted.jobs = world.jobs();
     const prove::ProveReport found = prove::prove(family, subject.composition, validated, wanted);

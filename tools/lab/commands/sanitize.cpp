@@ -95,30 +95,11 @@ std::vector<sanitize::Machine> machines_of(const std::vector<std::string>& names
     return machines;
 }
 
-/// The domains of the file that --inputs names.
-Result<std::vector<Domain>> narrower_domains(const World& world, const std::string& path) {
-    if (path.empty()) return std::vector<Domain>{};
-    GOBO_TRY(const std::string text, read_input(world, path));
-    return read_domain_file(text, path);
-}
-
 Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
     GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo sanitize evaluates"));
-    Family& family = subject.family.family;
-    GOBO_TRY(const std::vector<Domain> narrower, narrower_domains(world, options.inputs));
-    family.domains.insert(family.domains.begin(), narrower.begin(), narrower.end());  // ahead of its own
-    if (subject.are_files) {
-        GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
-        family.domains.insert(family.domains.end(), commented.begin(), commented.end());
-    }
-    GOBO_TRY(const Validated validated,
-             compile(world, subject, {.keep_spirv = true, .debug_information = true}));
-    std::vector<Domain> stated = narrower;
-    for (const Domain& domain : family.domains)
-        if (subject.are_files && sanitize::is_constraint(domain.name)) stated.push_back(domain);
-    if (Diagnostics errors = sanitize::domains_of_nothing(stated, validated); !errors.empty())
-        return tl::unexpected(std::move(errors));
+    GOBO_TRY(const Validated validated, compile_over_domains(world, subject, options.inputs));
+    const Family& family = subject.family.family;
     sanitize::SanitizeOptions wanted = options.sanitize;
     wanted.jobs = world.jobs();
     wanted.machines = machines_of(options.machines);

@@ -62,6 +62,24 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     return take_picture(framebuffer, view.background, list.warnings(), [&] { list.draw(); });
 }
 
+RenderedSelection draw_each(
+    const Family& family, const Composition& composition, const std::string& folder, ImageFormat format,
+    const std::function<Result<Diagnostics>(std::size_t number, const std::string& path)>& draw) {
+    RenderedSelection rendered;
+    DiagnosticGroups groups(family);
+    for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
+        const Key& key = composition.permutations[i].key;
+        const std::string path =
+            fmt::format("{}/{}.{}", folder, picture_name(key_text(family, key)), name_of(format));
+        const auto warnings = draw(i, path);
+        if (warnings) rendered.files.push_back(path);
+        for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
+            groups.add(diagnostic, key);
+    }
+    rendered.diagnostics = groups.result();
+    return rendered;
+}
+
 RenderedSelection render_selection(const Context& context, const Family& family,
                                    const Composition& composition, const std::vector<Interface>& interfaces,
                                    const std::vector<Object>& objects, const PictureOptions& options,
@@ -85,19 +103,7 @@ RenderedSelection render_selection(const Context& context, const Family& family,
         GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
         return std::move(picture.warnings);
     };
-    RenderedSelection rendered;
-    DiagnosticGroups groups(family);
-    for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Key& key = composition.permutations[i].key;
-        const std::string path = fmt::format("{}/{}.{}", options.folder, picture_name(key_text(family, key)),
-                                             name_of(options.format));
-        const auto warnings = render_one(i, path);
-        if (warnings) rendered.files.push_back(path);
-        for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
-            groups.add(diagnostic, key);
-    }
-    rendered.diagnostics = groups.result();
-    return rendered;
+    return draw_each(family, composition, options.folder, options.format, render_one);
 }
 
 std::string picture_name(std::string_view key_text) {

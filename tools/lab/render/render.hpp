@@ -100,6 +100,12 @@ struct RenderedSelection {
     Diagnostics diagnostics;
 };
 
+/// Lets `draw` draw each permutation, by its number, to a file of the folder named after its key; what it
+/// returns are warnings.
+[[nodiscard]] RenderedSelection draw_each(
+    const Family& family, const Composition& composition, const std::string& folder, ImageFormat format,
+    const std::function<Result<Diagnostics>(std::size_t number, const std::string& path)>& draw);
+
 /// Draws every permutation of the composition; `interfaces` are theirs, in the same order.
 [[nodiscard]] RenderedSelection render_selection(const Context& context, const Family& family,
                                                  const Composition& composition,

@@ -28,19 +28,7 @@ RenderedSelection render_selection(const Device& device, const Family& family, c
         GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
         return std::move(picture.warnings);
     };
-    RenderedSelection rendered;
-    DiagnosticGroups groups(family);
-    for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Key& key = composition.permutations[i].key;
-        const std::string path = fmt::format("{}/{}.{}", options.folder, picture_name(key_text(family, key)),
-                                             name_of(options.format));
-        const auto warnings = render_one(i, path);
-        if (warnings) rendered.files.push_back(path);
-        for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
-            groups.add(diagnostic, key);
-    }
-    rendered.diagnostics = groups.result();
-    return rendered;
+    return draw_each(family, composition, options.folder, options.format, render_one);
 }
 
 }  // namespace gobo::vulkan
