@@ -25,15 +25,15 @@ constexpr double kDepthError = 2e-6;
 struct Candidate {
     const Fragment* fragment = nullptr;
     Shaded shaded;
-    Color spread{};  ///< of its colour: interpolation_spread()
+    Color spread{};  ///< of its colour: color_spread()
 };
 
 /// The candidates of each pixel, in the order in which they are drawn; row after row, the lowest first. Refer
 /// to the objects' fragments.
 using Layers = std::vector<std::vector<Candidate>>;
 
-/// Shades every object, nudged; `with_spread` finds how far its colours may be off by errors of
-/// interpolation.
+/// Shades every object, nudged; `with_spread` finds how far its colours may be off by a
+/// renderer's errors.
 Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObject>& objects,
                          std::size_t pixels, bool with_spread, const Nudge& nudge = {}) {
     Layers layers(pixels);
@@ -42,7 +42,7 @@ Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObjec
                  shade<float>(pipeline, objects[o], nullptr, {nudge.by, nudge.seed * objects.size() + o}));
         std::vector<Color> spread(shaded.size());
         if (with_spread) {
-            GOBO_TRY(spread, interpolation_spread(pipeline, objects[o]));
+            GOBO_TRY(spread, color_spread(pipeline, objects[o]));
         }
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const Fragment& fragment = objects[o].fragments[i];
@@ -126,9 +126,10 @@ class Judge {
     /// Compares those in doubt with their evaluation and its spread. Those out of limit stay in doubt.
     void compare_closer(const Layers& layers) {
         std::erase_if(doubts_, [&](WrongPixel& pixel) {
-            pixel.ratio = ratio_of(pixel.actual, seen_at(layers, pixel.x, pixel.y), limit_);
+            const Seen seen = seen_at(layers, pixel.x, pixel.y);
+            pixel.ratio = ratio_of(pixel.actual, seen, limit_);
             if (pixel.ratio > 1) return false;
-            accept(pixel, nearest_ratio(pixel, layers));
+            accept(pixel, nearest_ratio(pixel, layers), seen.spread);
             return true;
         });
     }
@@ -198,17 +199,18 @@ class Judge {
             accept(pixel, pixel.ratio);
     }
 
-    void accept(const WrongPixel& pixel, double ratio) {
+    void accept(const WrongPixel& pixel, double ratio, const Color& spread = {}) {
         report_.largest_ratio = std::max(report_.largest_ratio, ratio);
-        measure(pixel.actual, pixel.expected);
+        measure(pixel.actual, pixel.expected, spread);
     }
 
-    void measure(const Color& actual, const Color& expected) {
+    void measure(const Color& actual, const Color& expected, const Color& spread = {}) {
         ++compared_;
         for (std::size_t c = 0; c < 4; ++c) {
             const double error = actual[c] == expected[c] ? 0 : std::abs(actual[c] - expected[c]);
             report_.largest_error = std::max(report_.largest_error, error);
-            squares_ += error * error;
+            const double counted = std::max(error - spread[c], 0.0) / std::max(std::abs(expected[c]), 1.0);
+            squares_ += counted * counted;
         }
     }
 

@@ -12,7 +12,7 @@
 namespace gobo::raster {
 
 /// How far a pixel may be off: `absolute`, plus `relative` of the expected channel, plus what the errors of
-/// interpolation make of it (interpolation_spread()).
+/// interpolation and arithmetic make of it (color_spread()).
 struct PixelLimit {
     double absolute = 0;
     double relative = 0;
@@ -33,7 +33,8 @@ inline constexpr double kFilteringError = 2e-6;
 /// Of a picture's pixels, at most this share may be decided differently at a discontinuity or an edge.
 inline constexpr double kLargestEdgePixelShare = 0.01;
 
-/// Root mean square over a picture's channels: what is off by much is so in few pixels.
+/// Root mean square over a picture's channels, of the errors beyond their spread; of a value above 1, the
+/// relative error. What is off by much is so in few pixels.
 inline constexpr double kRmsLimit = 1e-5;
 
 /// A pixel with what was drawn and what should have been. Counted from the upper left.

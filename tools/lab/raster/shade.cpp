@@ -80,9 +80,11 @@ void add_smaller(const std::vector<Shaded>& plain, const std::vector<Shaded>& on
 /// The fragment stage at the inputs of the places_of() that it needs. Adds to `work` unless it is null.
 template <class T>
 Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline, const RasterObject& object,
-                                            const evaluate::Invocations& inputs, Work* work = nullptr) {
+                                            const evaluate::Invocations& inputs, Work* work = nullptr,
+                                            evaluate::Errors errors = evaluate::Errors::none) {
     evaluate::Options options;
     options.count = work != nullptr;
+    options.errors = errors;
     GOBO_TRY(const auto outputs, evaluate::run<T>(pipeline.fragment, inputs, options));
     std::vector<Shaded> result;
     const std::size_t each = pipeline.needs_quads ? kQuad : 1;
@@ -205,8 +207,8 @@ std::map<std::string, std::vector<double>, std::less<>> interpolation_rounding(
     return errors;
 }
 
-Result<std::vector<std::array<double, 4>>> interpolation_spread(const Pipeline& pipeline,
-                                                                const RasterObject& object) {
+Result<std::vector<std::array<double, 4>>> color_spread(const Pipeline& pipeline,
+                                                        const RasterObject& object) {
     std::vector<std::array<double, 4>> spread(object.fragments.size());
     if (object.fragments.empty()) return spread;
     GOBO_TRY(const auto varyings, evaluate::run<float>(pipeline.vertex, object.vertices));
@@ -222,6 +224,12 @@ Result<std::vector<std::array<double, 4>>> interpolation_spread(const Pipeline& 
             GOBO_TRY(const auto other, with(-kInterpolationRoundings));
             add_smaller(plain, one, other, spread);
         }
+    const auto with_errors = [&](evaluate::Errors errors) {
+        return shade_fragments<float>(pipeline, object, inputs, nullptr, errors);
+    };
+    GOBO_TRY(const auto up, with_errors(evaluate::Errors::largest_up));
+    GOBO_TRY(const auto down, with_errors(evaluate::Errors::largest_down));
+    add_smaller(plain, up, down, spread);
     return spread;
 }
 

@@ -1,5 +1,5 @@
 // The fragments of a rasterised object shaded: both stages evaluated, with inputs as they are or moved a
-// little; and what a renderer's errors of interpolation make of their colours.
+// little; and what a renderer's errors of interpolation and arithmetic make of their colours.
 #pragma once
 
 #include <array>
@@ -86,10 +86,11 @@ inline constexpr double kInterpolationRoundings = 12;
 [[nodiscard]] std::map<std::string, std::vector<double>, std::less<>> interpolation_rounding(
     const Pipeline& pipeline, const RasterObject& object, const evaluate::Outputs& varyings);
 
-/// How far each fragment's colour may be off by kInterpolationRoundings in each component of each varying:
-/// the sum of what each does by itself, to first order. Steps do not count: of the two ways in which a
-/// component may be off, the one that moves the colour less does.
-[[nodiscard]] Result<std::vector<std::array<double, 4>>> interpolation_spread(const Pipeline& pipeline,
-                                                                              const RasterObject& object);
+/// How far each fragment's colour may be off by kInterpolationRoundings in each component of each varying,
+/// and by divisions, roots and powers off by what Vulkan allows them, all one way: the sum of what each does
+/// by itself, to first order. Where a formula cancels, as the plain GGX peak does, that is much. Steps do not
+/// count: of the two ways in which something may be off, the one that moves the colour less does.
+[[nodiscard]] Result<std::vector<std::array<double, 4>>> color_spread(const Pipeline& pipeline,
+                                                                      const RasterObject& object);
 
 }  // namespace gobo::raster
