@@ -126,6 +126,20 @@ const Row refused[] = {
     row("flat_of_no_interface", "330 core", with_main("flat vec3 v;\n"),
         "tiny.frag:2: error: 'flat' stands before what is neither an input nor an output"),
     row("own_version", "450", with_main("#define __VERSION__ 330\n"), "'__VERSION__' is GLSL's own"),
+    row("function_in_a_constant", "110",
+        "const float k = sin(0.5);\nvoid main() { gl_FragColor = vec4(k); }\n",
+        "tiny.frag:2: error: 'sin()' gives no constant before GLSL 1.20"),
+    row("function_in_a_size", "110",
+        "void main() { float a[int(abs(-2.0))]; a[0] = 1.0; gl_FragColor = vec4(a[0]); }\n",
+        "'abs()' gives no constant before GLSL 1.20"),
+    row("invariant_color", "120", "invariant gl_FragColor;\nvoid main() { gl_FragColor = vec4(1.0); }\n",
+        "tiny.frag:2: error: 'gl_FragColor' cannot be invariant before GLSL 1.30"),
+    row("a_name_of_layouts", "330 core", with_main("float row_major = 1.0;\n", "row_major"),
+        "tiny.frag:2: error: 'row_major' is no name to every driver: it is a layout's"),
+    row("a_name_of_layouts_130", "130", with_main("float row_major = 1.0;\n", "row_major"),
+        "'row_major' is no name"),
+    row("a_name_of_layouts_es", "300 es", with_main("float packed = 1.0;\n", "packed"),
+        "'packed' is no name"),
     row("quotation_in_code", "330 core", with_main("float g\" = 1.0;\n", "g"), "tiny.frag:2: error"),
 };
 
@@ -148,6 +162,9 @@ const Row taken[] = {
         ""),
     row("semicolons_alone", "330 core",
         with_main("float f() { return 1.0; };;\nfloat g = 1.0;;\n", "f() + g"), ""),
+    row("semicolon_first", "330 core", ";\n" + with_main(""), ""),
+    row("numbers_without_sign", "330 core", with_main("#if 1u && 0x1U == 1U\nfloat g = 1.0;\n#endif\n", "g"),
+        ""),
     row("semicolon_alone_in_es", "300 es", with_main("float f() { return 1.0; };\n", "f()"), ""),
     row("semicolon_behind_a_block", "330 core",
         with_main("struct S { float a; };\nlayout(std140) uniform B { vec4 b; };\nconst float k[1] = "
@@ -177,6 +194,20 @@ const Row taken[] = {
     row("number_of_samples", "400", with_main("", "float(gl_NumSamples)"), ""),
     row("old_texture_function_140", "140",
         "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture2D(map, vec2(0.5)); }\n", ""),
+    row("constructor_in_a_constant", "110",
+        "struct S { float a; };\nconst S s = S(1.0);\nconst vec2 v = vec2(float(1), 2.0);\n"
+        "void main() { float a[int(2.0)]; a[0] = sin(v.x); gl_FragColor = vec4(s.a + a[0]); }\n",
+        ""),
+    row("function_in_a_constant_120", "120",
+        "const float k = sin(0.5);\nvoid main() { gl_FragColor = vec4(k); }\n", ""),
+    row("invariant_color_130", "130", "invariant gl_FragColor;\nvoid main() { gl_FragColor = vec4(1.0); }\n",
+        ""),
+    row("a_name_of_layouts_120", "120",
+        "float row_major = 1.0;\nvoid main() { gl_FragColor = vec4(row_major); }\n", ""),
+    row("layouts_by_a_macro", "330 core",
+        with_main("#define UNIFORM(l) layout(std140, l) uniform\nUNIFORM(row_major) B { mat4 m; };\n"
+                  "layout(row_major) uniform;\n"),
+        ""),
     row("a_call_behind_else", "450",
         "float f(float x) { return x; }\nout vec4 c;\nvoid main() { if (gl_FrontFacing) c = vec4(1.0); "
         "else f(1.0); c = vec4(0.0); }\n",
@@ -198,10 +229,16 @@ void PrintTo(const StagesRow& row, std::ostream* stream) {
     *stream << row.name;
 }
 
-class LanguageOfStages : public testing::TestWithParam<StagesRow> {};
+class LanguageOfStages : public testing::TestWithParam<StagesRow> {
+  protected:
+    static void check(const StagesRow& row, bool is_warning);
+};
 
 TEST_P(LanguageOfStages, IsTakenAsMesaTakesIt) {
-    const StagesRow& row = GetParam();
+    check(GetParam(), false);
+}
+
+void LanguageOfStages::check(const StagesRow& row, bool is_warning) {
     const std::string head = fmt::format("#version {}\n{}", row.version,
                                          std::string_view(row.version).ends_with("es")
                                              ? "precision highp float; precision highp image2D;\n"
@@ -225,17 +262,18 @@ TEST_P(LanguageOfStages, IsTakenAsMesaTakesIt) {
     const Family family = read_family(toml, "tiny.toml", {}).value();
     const Composition composition = compose(family, {{}}, search, Dialect::own).value();
     std::string errors;
+    std::string warnings;
     for (const Diagnostic& diagnostic : validate(family, composition, {}).diagnostics)
-        if (diagnostic.severity == Severity::error) errors += to_text(diagnostic);
-    EXPECT_EQ(errors.empty(), *row.message == '\0') << errors;
-    EXPECT_THAT(errors, testing::HasSubstr(row.message));
+        (diagnostic.severity == Severity::error ? errors : warnings) += to_text(diagnostic);
+    const bool is_taken = is_warning || *row.message == '\0';
+    EXPECT_EQ(errors.empty(), is_taken) << errors;
+    EXPECT_THAT(is_warning ? warnings : errors, testing::HasSubstr(row.message));
 
     const Result<Context> context = open_context(Backend::osmesa);
     ASSERT_TRUE(context);
     const Result<Program> program =
         link_program(*context, stages_of(composition, composition.permutations.front()));
-    EXPECT_EQ(program.has_value(), *row.message == '\0')
-        << (program ? "it links" : first_text(program.error()));
+    EXPECT_EQ(program.has_value(), is_taken) << (program ? "it links" : first_text(program.error()));
 }
 
 #define TRIANGLES "layout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\n"
@@ -244,7 +282,72 @@ constexpr const char* kControl =
 constexpr const char* kEvaluation =
     "layout(triangles) in;\nvoid main() { gl_Position = vec4(gl_TessCoord, 1.0); }\n";
 
+#define GROUP "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer B { float b; };\n"
+
 const StagesRow stages[] = {
+    {"shared_memory",
+     "430",
+     {{StageKind::compute,
+       GROUP "shared float s[8193];\nvoid main() { s[gl_LocalInvocationIndex] = 1.0; b = s[0]; }\n"}},
+     "tiny.comp:4: error: bytes of shared variables: 32772, OpenGL guarantees only 32768 "
+     "(MAX_COMPUTE_SHARED_MEMORY_SIZE)"},
+    {"shared_memory_of_two",
+     "430",
+     {{StageKind::compute, GROUP "shared float s[5000];\nshared float t[5000];\nvoid main() { s[0] = t[0] = "
+                                 "1.0; b = s[0] + t[0]; }\n"}},
+     "bytes of shared variables: 40000"},
+    {"shared_memory_of_vectors",
+     "430",
+     {{StageKind::compute, GROUP "shared vec3 s[2100];\nvoid main() { s[0] = vec3(1.0); b = s[0].x; }\n"}},
+     "bytes of shared variables: 33596"},
+    {"shared_memory_in_es",
+     "310 es",
+     {{StageKind::compute, GROUP "shared float s[9000];\nvoid main() { s[0] = 1.0; b = s[0]; }\n"}},
+     "bytes of shared variables: 36000"},
+    {"shared_memory_filled",
+     "430",
+     {{StageKind::compute,
+       GROUP "shared float s[8192];\nshared float unread[100];\nvoid main() { s[0] = 1.0; b = s[0]; }\n"}},
+     ""},
+    {"readonly_and_writeonly",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) coherent restrict readonly writeonly "
+       "buffer B { "
+       "float b; };\nvoid main() {}\n"}},
+     "tiny.comp:3: error: the buffer block 'B' is both readonly and writeonly"},
+    {"readonly_and_writeonly_member",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer B { coherent restrict readonly "
+       "writeonly "
+       "float b[]; };\nlayout(std430, binding = 1) buffer D { int n; };\nvoid main() { n = b.length(); }\n"}},
+     ""},
+    {"stream_of_an_output",
+     "430",
+     {{StageKind::geometry,
+       "layout(points) in;\nlayout(points, max_vertices = 3) out;\nlayout(stream = 4) out float f;\n"
+       "void main() { f = 1.0; gl_Position = vec4(0.0); EmitVertex(); }\n"}},
+     "tiny.geom:4: error: stream 4: OpenGL guarantees only 4, from 0 (MAX_VERTEX_STREAMS)"},
+    {"stream_that_is_none",
+     "430",
+     {{StageKind::geometry,
+       "layout(points) in;\nlayout(points, max_vertices = 3) out;\n"
+       "void main() { gl_Position = vec4(0.0); EmitStreamVertex(4); }\n"}},
+     "tiny.geom:4: error: streams up to that of EmitStreamVertex(): 5, OpenGL guarantees only 4 "
+     "(MAX_VERTEX_STREAMS)"},
+    {"wide_attributes",
+     "430",
+     {{StageKind::vertex,
+       "in dmat4 a;\nin dmat4 b;\nin dvec3 d;\n"
+       "void main() { gl_Position = vec4(a[0] + b[3] + dvec4(d, 1.0)); }\n"}},
+     "tiny.vert: error: vertex attribute locations: 18, OpenGL guarantees only 16 (MAX_VERTEX_ATTRIBS)"},
+    {"attributes_of_two_doubles",
+     "430",
+     {{StageKind::vertex,
+       "in dmat4 a;\nin dmat4x2 b;\nin dvec2 d;\n"
+       "void main() { gl_Position = vec4(a[0] + dvec4(b[3], d)); }\n"}},
+     ""},
     {"invocations",
      "430",
      {{StageKind::geometry,
@@ -340,6 +443,67 @@ const StagesRow stages[] = {
      "an output of index 1 stands at location 0 alone"},
 };
 
+/// What gobo warns of and Mesa takes, for other drivers need not.
+const StagesRow warned[] = {
+    {"extension_of_one_vendor",
+     "450",
+     {{StageKind::fragment,
+       "#extension GL_AMD_shader_trinary_minmax : require\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"}},
+     "tiny.frag:2:1: warning: not every driver has GL_AMD_shader_trinary_minmax, and none that lacks it "
+     "compiles this "
+     "stage"},
+    {"nine_images",
+     "430",
+     {{StageKind::compute,
+       "layout(local_size_x = 1) in;\nlayout(rgba8) uniform writeonly image2D m[9];\n"
+       "void main() { for (int i = 0; i < 9; ++i) imageStore(m[i], ivec2(0), vec4(1.0)); }\n"}},
+     "warning: images in the compute stage: 9, OpenGL guarantees only 8 (MAX_COMPUTE_IMAGE_UNIFORMS)"},
+    {"nine_counters",
+     "430",
+     {{StageKind::fragment,
+       "layout(binding = 0) uniform atomic_uint a[9];\nout vec4 c;\n"
+       "void main() { c = vec4(atomicCounterIncrement(a[8])); }\n"}},
+     "warning: atomic counters in the fragment stage: 9, OpenGL guarantees only 8 "
+     "(MAX_FRAGMENT_ATOMIC_COUNTERS)"},
+    {"storage_in_the_vertex_stage",
+     "430",
+     {{StageKind::vertex,
+       "layout(std430, binding = 0) buffer B { vec4 b; };\nvoid main() { gl_Position = b; }\n"}},
+     "warning: storage blocks in the vertex stage: 1, OpenGL guarantees only 0 "
+     "(MAX_VERTEX_SHADER_STORAGE_BLOCKS)"},
+    {"image_in_the_vertex_stage",
+     "430",
+     {{StageKind::vertex,
+       "layout(rgba8, binding = 0) uniform readonly image2D m;\nvoid main() { gl_Position = imageLoad(m, "
+       "ivec2(0)); "
+       "}\n"}},
+     "warning: images in the vertex stage: 1, OpenGL guarantees only 0 (MAX_VERTEX_IMAGE_UNIFORMS)"},
+    {"far_location",
+     "430",
+     {{StageKind::fragment,
+       "layout(location = 1020) uniform float u[8];\nout vec4 c;\nvoid main() { c = vec4(u[7]); }\n"}},
+     "tiny.frag:2: warning: uniform locations up to the last of 'u': 1028, OpenGL guarantees only 1024 "
+     "(MAX_UNIFORM_LOCATIONS)"},
+    {"group_in_es",
+     "310 es",
+     {{StageKind::compute, "layout(local_size_x = 129) in;\nvoid main() {}\n"}},
+     "warning: invocations of a work group: 129, OpenGL guarantees only 128 "
+     "(MAX_COMPUTE_WORK_GROUP_INVOCATIONS of "
+     "OpenGL ES)"},
+    {"shared_memory_in_es",
+     "310 es",
+     {{StageKind::compute, GROUP "shared float s[5000];\nvoid main() { s[0] = 1.0; b = s[0]; }\n"}},
+     "tiny.comp:5: warning: bytes of shared variables: 20000, OpenGL guarantees only 16384 "
+     "(MAX_COMPUTE_SHARED_MEMORY_SIZE of OpenGL ES)"},
+};
+
+class LanguageOfDrivers : public LanguageOfStages {};
+
+TEST_P(LanguageOfDrivers, IsWarnedOf) {
+    check(GetParam(), true);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, LanguageOfDrivers, testing::ValuesIn(warned), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Rows, LanguageOfStages, testing::ValuesIn(stages), name_of_row);
 
 }  // namespace

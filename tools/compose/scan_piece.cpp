@@ -126,6 +126,7 @@ class Scanner {
         const bool is_outside = open_.empty();
         if (rest.starts_with('#')) {
             const int column = static_cast<int>(bare.find('#')) + 1;
+            drop_suffixes(start, end);
             rest = trim(rest.substr(1));
             const std::string_view word = {rest.begin(), std::ranges::find_if_not(rest, is_identifier_part)};
             GOBO_TRY(const bool is_taken, take({std::string(word),
@@ -263,8 +264,23 @@ class Scanner {
             if (clean_.code[at] != ' ') clean_.text[at] = clean_.code[at] = ' ';
     }
 
-    /// Blanks each `;` that stands alone at the top, behind another or behind a function's body: every driver
-    /// takes it, but GLSL has it from 4.60 on only.
+    /// Blanks the `u` of `#if 1u`, which drivers take and glslang does not.
+    void drop_suffixes(std::size_t start, std::size_t end) {
+        const std::size_t word = clean_.code.find_first_not_of("# \t", start);
+        if (word >= end ||
+            !(clean_.code.compare(word, 3, "if ") == 0 || clean_.code.compare(word, 5, "elif ") == 0))
+            return;
+        for (std::size_t at = word; at < end; ++at) {
+            const std::size_t first = at;
+            while (at < end && is_identifier_part(clean_.code[at])) ++at;
+            const bool is_number = at > first && clean_.code[first] >= '0' && clean_.code[first] <= '9';
+            if (is_number && (clean_.code[at - 1] == 'u' || clean_.code[at - 1] == 'U'))
+                clean_.text[at - 1] = clean_.code[at - 1] = ' ';
+        }
+    }
+
+    /// Blanks each `;` that stands alone at the top, behind another, a function's body or the #version: every
+    /// driver takes it, but GLSL has it from 4.60 on only.
     void drop_semicolons() {
         const std::string code = without_directives(clean_.code);
         const std::vector<std::string_view> tokens = tokens_of(code);
@@ -281,11 +297,13 @@ class Scanner {
             if (token == "{" || token == "(") ++depth;
             if (token == "}" || token == ")") --depth;
             if (depth != 0) continue;
+            const bool is_first = i == 0 && !result_.version.empty() && result_.includes.empty();
             const bool is_alone =
-                token == ";" && i > 0 && (tokens[i - 1] == ";" || (tokens[i - 1] == "}" && is_function));
+                token == ";" &&
+                (is_first || (i > 0 && (tokens[i - 1] == ";" || (tokens[i - 1] == "}" && is_function))));
             // What stands behind a directive may be the end of one branch alone.
             const std::size_t at = place_of(i);
-            if (is_alone && clean_.code.find('#', place_of(i - 1)) > at)
+            if (is_alone && (is_first || clean_.code.find('#', place_of(i - 1)) > at))
                 clean_.text[at] = clean_.code[at] = ' ';
             if (token == ";" || (token == "}" && is_function)) head = i + 1;
         }

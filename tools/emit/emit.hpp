@@ -55,13 +55,13 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 /// is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
 [[nodiscard]] Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates);
 
-/// For programs that are not C++. JSON: "family", "dialect", "features" (name, role, kind, values; the first
-/// value is the default), "interface" (as `gobo reflect --json`, with the bindings and locations of the
-/// header), "pieces" (names), "stages" (each distinct one: its kind and the numbers of its pieces in order)
-/// and "permutations" (key text, and the stages by their number; where a budget chose it, "promised_error",
-/// "measured_error", "worst_error" where it is known, "cost" and "chosen_by"), sorted by key text. Where
-/// permutations declare names differently, "differing" lists these, and "declared" of a permutation which
-/// declaration it has of each. One stage or permutation a line. The same input gives the same bytes.
+/// For programs that are not C++, as docs/formats.md tells. JSON: "family", "dialect", "features",
+/// "interface" (as `gobo reflect --json`, with the header's bindings and locations), "pieces" (names),
+/// "digits", "stages" (of each kind "columns" and "rows": a row's digits choose lists of pieces, which joined
+/// are a stage) and "permutations" (key text, and the rows of its stages; where a budget chose it, by what),
+/// sorted by key text. Where permutations declare names differently, "differing" lists these, and "declared"
+/// of a permutation which declaration it has of each. One row or permutation a line. The same input gives the
+/// same bytes.
 [[nodiscard]] std::string emit_manifest(const EmitInput& input);
 
 /// A rule in the syntax of make (and so of Ninja and CMake): the outputs depend on the files, each named

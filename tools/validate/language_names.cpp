@@ -97,6 +97,40 @@ constexpr std::array kOwners = {
     Owner{"GL_OES_*", ExtensionOf::es},
 };
 
+// Those whose functions no version took in, by the same registries.
+constexpr std::array<std::string_view, 30> kNeverCore = {
+    "GL_AMD_*",
+    "GL_ARB_bindless_texture",
+    "GL_ARB_fragment_shader_interlock",
+    "GL_ARB_gpu_shader_int64",
+    "GL_ARB_post_depth_coverage",
+    "GL_ARB_shader_ballot",
+    "GL_ARB_shader_clock",
+    "GL_ARB_shader_stencil_export",
+    "GL_ARB_shader_viewport_layer_array",
+    "GL_ARB_sparse_texture*",
+    "GL_ARM_*",
+    "GL_EXT_YUV_target",
+    "GL_EXT_demote_to_helper_invocation",
+    "GL_EXT_device_group",
+    "GL_EXT_fragment_shader_barycentric",
+    "GL_EXT_fragment_shading_rate",
+    "GL_EXT_post_depth_coverage",
+    "GL_EXT_shader_framebuffer_fetch*",
+    "GL_EXT_shader_image_load_formatted",
+    "GL_EXT_shader_non_constant_global_initializers",
+    "GL_EXT_shader_pixel_local_storage*",
+    "GL_IMG_*",
+    "GL_INTEL_*",
+    "GL_KHR_blend_equation_advanced*",
+    "GL_KHR_shader_subgroup*",
+    "GL_NVX_*",
+    "GL_NV_*",
+    "GL_OES_EGL_image_external*",
+    "GL_OVR_*",
+    "GL_QCOM_*",
+};
+
 bool fits(std::string_view pattern, std::string_view name) {
     return pattern.ends_with('*') ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern;
 }
@@ -121,6 +155,11 @@ ExtensionOf owner_of_extension(std::string_view name) {
     const auto* const found =
         std::ranges::find_if(kOwners, [&](const Owner& owner) { return fits(owner.name, name); });
     return found == kOwners.end() ? ExtensionOf::any : found->owner;
+}
+
+bool may_be_lacking(std::string_view extension) {
+    return std::ranges::any_of(kNeverCore,
+                               [&](std::string_view pattern) { return fits(pattern, extension); });
 }
 
 }  // namespace gobo

@@ -28,4 +28,7 @@ struct NameSince {
 enum class ExtensionOf { any, desktop, es, vulkan, tools };
 [[nodiscard]] ExtensionOf owner_of_extension(std::string_view name);
 
+/// Whether no version of OpenGL has in its core what the extension brings, so that drivers may lack it.
+[[nodiscard]] bool may_be_lacking(std::string_view extension);
+
 }  // namespace gobo

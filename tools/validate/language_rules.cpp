@@ -47,7 +47,10 @@ class LanguageCheck {
         check_extensions();
         for (const Piece* const piece : pieces_)
             if (piece != pieces_.front()) walk(*piece);
-        for (std::size_t i = 0; i < tokens_.size(); ++i) check_token(i);
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            if (at(i) == "struct") structs_.insert(at(i + 1));
+            check_token(i);
+        }
         check_declarations();
         return std::move(found_);
     }
@@ -59,6 +62,10 @@ class LanguageCheck {
         diagnostic.message = std::move(message);
         diagnostic.help = std::move(help);
         put_at(diagnostic, piece, line);
+    }
+    void warn(const Piece& piece, int line, std::string message, std::string help) {
+        refuse(piece, line, std::move(message), std::move(help));
+        found_.back().severity = Severity::warning;
     }
     void refuse(const Token& token, std::string message, std::string help) {
         refuse(*token.piece, token.line, std::move(message), std::move(help));
@@ -88,6 +95,12 @@ class LanguageCheck {
                                 : owner == ExtensionOf::vulkan ? "Vulkan's"
                                                                : "for tools"),
                     "leave it out, or state it where its macro is defined: #ifdef " + std::string(tokens[2]));
+            else if (may_be_lacking(tokens[2]))
+                warn(*pieces_.front(), line,
+                     fmt::format("not every driver has {}, and none that lacks it compiles this stage",
+                                 tokens[2]),
+                     fmt::format("use it where its macro is defined: #ifdef {0} and #extension {0} : enable",
+                                 tokens[2]));
         }
     }
 
@@ -158,6 +171,13 @@ class LanguageCheck {
         if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")
             check_since(token, *since, fmt::format("'{}'", token.text));
         if (is_any(token.text, {"highp", "mediump", "lowp"})) check_precision(index);
+        // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser reads them as a layout's.
+        const bool is_layouts = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
+                                : token.text == "row_major" ? !version_.es && version_.number >= 130
+                                                            : false;
+        if (is_layouts && index > 0 && is_name(index - 1) && !is_macro(index - 1) && !is_macro(index))
+            refuse(token, fmt::format("'{}' is no name to every driver: it is a layout's", token.text),
+                   "choose another name");
         const bool is_removed = is_any(
             token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords", "gl_MaxClipPlanes", "gl_MaxLights"});
         if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
@@ -210,6 +230,12 @@ class LanguageCheck {
                 if (at(i) == qualifier && at(i + 1) == "=") return at(i + 2);
             return std::string_view();
         };
+        int stream = 0;
+        std::from_chars(value("stream").data(), value("stream").data() + value("stream").size(), stream);
+        if (stream > 3)
+            refuse(tokens_[begin],
+                   fmt::format("stream {}: OpenGL guarantees only 4, from 0 (MAX_VERTEX_STREAMS)", stream),
+                   "state a stream from 0 to 3");
         if (value("index") == "1" && !is_any(value("location"), {"", "0"}))
             refuse(tokens_[begin],
                    "an output of index 1 stands at location 0 alone (MAX_DUAL_SOURCE_DRAW_BUFFERS)",
@@ -243,6 +269,10 @@ class LanguageCheck {
             const std::string_view token = at(i);
             if (token == "{") ++depth;
             if (token == "}") --depth;
+            if (is_before(120)) check_constant(i);
+            if (is_before(130) && token == "invariant" && at(i + 1).starts_with("gl_Frag"))
+                refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
+                       "take it out: what a vertex stage writes can be invariant");
             if (depth == 1 && token == "{") check_block(begin, i);
             if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth == 0 && token == ";") check_counter(begin, i);
@@ -251,6 +281,28 @@ class LanguageCheck {
             if (depth == 0 && token == ";") check_interpolation(begin, i);
             if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
         }
+    }
+
+    /// What calls a function is no constant in GLSL 1.10: `const float k = sin(0.5);` and `float
+    /// a[int(sin(0.5))];`.
+    void check_constant(std::size_t index) {
+        const bool is_size =
+            at(index) == "[" && is_name(index - 1) && index > 1 && is_constructor(at(index - 2));
+        if (at(index) != "const" && !is_size) return;
+        bool is_value = is_size;
+        for (std::size_t i = index; i < tokens_.size() && !is_any(at(i), {";", "{", is_size ? "]" : ";"});
+             ++i) {
+            is_value = is_value || at(i) == "=";
+            if (!is_value || !is_name(i) || at(i + 1) != "(" || is_constructor(at(i)) || is_macro(i) ||
+                structs_.contains(at(i)))
+                continue;
+            return refuse(tokens_[i], fmt::format("'{}()' gives no constant before GLSL 1.20", at(i)),
+                          "state #version 120, or write its value");
+        }
+    }
+    static bool is_constructor(std::string_view type) {
+        return is_any(type, {"float", "int", "bool"}) || type.starts_with("vec") || type.starts_with("mat") ||
+               type.starts_with("ivec") || type.starts_with("bvec");
     }
 
     /// `float f(float x);` within a function.
@@ -273,6 +325,10 @@ class LanguageCheck {
         };
         const bool is_buffer = is("buffer");
         if (brace == 0 || at(brace - 1) == ")" || !(is_buffer || is("uniform"))) return;
+        if (is_buffer && is("readonly") && is("writeonly"))
+            refuse(tokens_[brace],
+                   fmt::format("the buffer block '{}' is both readonly and writeonly", at(brace - 1)),
+                   "take one out; a member that only its length is asked of may have both");
         std::size_t end = brace + 1;
         for (; end < tokens_.size() && at(end) != "}"; ++end) {
             const bool is_unsized = at(end) == "[" && at(end + 1) == "]";
@@ -365,6 +421,7 @@ class LanguageCheck {
     std::deque<std::string> without_comments_;  ///< texts that tokens point into
     std::vector<Token> tokens_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
+    std::set<std::string_view> structs_;
     std::set<std::string> told_;
     Diagnostics found_;
 };

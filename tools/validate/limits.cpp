@@ -65,9 +65,10 @@ std::string upper(std::string_view name) {
 
 class LimitCheck {
   public:
-    LimitCheck(const std::vector<StageView>& stages, Dialect dialect) : stages_(stages) {
+    LimitCheck(const std::vector<StageView>& stages, Dialect dialect) : stages_(stages), dialect_(dialect) {
         const GlslVersion version = version_of(stages.front().pieces.front()->text);
         is_es_ = version.es;
+        version_ = version.number;
         block_bindings_ = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
         units_ = is_es_ ? 32 : version.number < 400 ? 48 : 80;
         if (dialect == Dialect::vulkan)
@@ -112,13 +113,38 @@ class LimitCheck {
                 fmt::format("uniform blocks in the {} stage:", name),
                 fmt::format("MAX_{}_UNIFORM_BLOCKS", upper(name)));
         std::int64_t samplers = 0;
+        std::int64_t images = 0;
         for (const Sampler& sampler : interface.samplers) {
             if (sampler.usage.unused) continue;
-            samplers += element_count(sampler.array);
+            const bool is_image = sampler.type.find("image") != std::string::npos;
+            (is_image ? images : samplers) += element_count(sampler.array);
             if (sampler.type.find("sampler") != std::string::npos && sampler.binding >= 0)
                 at_most(units_, std::int64_t{sampler.binding} + element_count(sampler.array), stage,
                         sampler.name, fmt::format("texture units up to that of '{}':", sampler.name),
                         "MAX_COMBINED_TEXTURE_IMAGE_UNITS");
+        }
+        // By the tables of implementation-dependent values of OpenGL 4.3, OpenGL ES 3.1 and 3.2; most drivers
+        // have more, and have them in every stage.
+        const bool is_compute = stage.kind == StageKind::compute;
+        const bool may_store =
+            is_compute || (stage.kind == StageKind::fragment && !(is_es_ && version_ < 320));
+        const int stored = !may_store ? 0 : is_es_ ? 4 : 8;
+        const auto offered = [&](int limit, std::int64_t count, std::string_view what,
+                                 std::string_view constant) {
+            at_most(limit, count, stage, "", fmt::format("{} in the {} stage:", what, name),
+                    fmt::format("MAX_{}_{}", upper(name), constant), Severity::warning);
+        };
+        if (dialect_ != Dialect::vulkan) {
+            offered(stored, images, "images", "IMAGE_UNIFORMS");
+            std::int64_t counters = 0;
+            for (const Uniform& uniform : interface.uniforms)
+                if (uniform.type == "atomic_uint" && !uniform.usage.unused)
+                    counters += element_count(uniform.array);
+            offered(may_store ? 8 : 0, counters, "atomic counters", "ATOMIC_COUNTERS");
+            offered(stored,
+                    std::ranges::count_if(interface.storage_blocks,
+                                          [](const Block& block) { return !block.usage.unused; }),
+                    "storage blocks", "SHADER_STORAGE_BLOCKS");
         }
         at_most(kSamplersOfStage, samplers, stage, "", fmt::format("samplers in the {} stage:", name),
                 "MAX_TEXTURE_IMAGE_UNITS");
@@ -141,8 +167,12 @@ class LimitCheck {
         std::string largest;
         int most = 0;
         for (const Uniform& uniform : interface.uniforms) {
+            if (dialect_ != Dialect::vulkan && uniform.location >= 0)
+                at_most(1024, std::int64_t{uniform.location} + element_count(uniform.array), stage,
+                        uniform.name, fmt::format("uniform locations up to the last of '{}':", uniform.name),
+                        "MAX_UNIFORM_LOCATIONS", Severity::warning);
             const int own = component_count(uniform.type, uniform.array, uniform.members);
-            if (uniform.usage.unused) continue;
+            if (uniform.usage.unused || uniform.type == "atomic_uint") continue;
             if (own > kMostComponents)
                 found_.push_back(diagnostic_at(
                     declaration_of(uniform.name, "", stage.pieces), Severity::error,
@@ -211,13 +241,19 @@ class LimitCheck {
                 return at_most(limit, variable.location + count, stage, variable.name,
                                fmt::format("{} locations up to the last of '{}':", what, variable.name),
                                constant);
-            if (!variable.usage.unused && variable.component == 0) needed += count;
+            // A column of three or four doubles counts twice among attributes (OpenGL 4.6, 11.1.1).
+            const GlslType type = glsl_type(variable.type).value_or(GlslType{});
+            const bool is_wide =
+                stage.kind == StageKind::vertex && type.scalar == Scalar::float64 && type.rows > 2;
+            if (!variable.usage.unused && variable.component == 0) needed += is_wide ? 2 * count : count;
         }
         at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
     }
 
     const std::vector<StageView>& stages_;
+    Dialect dialect_;
     bool is_es_ = false;
+    int version_ = 0;
     int block_bindings_ = 0;
     int units_ = 0;
     Diagnostics found_;

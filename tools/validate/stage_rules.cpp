@@ -120,26 +120,81 @@ class StageCheck {
         return 0;
     }
 
-    void at_most(std::int64_t limit, std::int64_t size, std::string_view word, std::string_view what,
-                 std::string_view constant) {
+    void at_most(std::int64_t limit, std::int64_t size, const Declaration& at, std::string_view what,
+                 std::string_view constant, Severity severity = Severity::error) {
         if (size > limit)
-            refuse(use_of(word, pieces_),
-                   fmt::format("{}: {}, OpenGL guarantees only {} ({})", what, size, limit, constant),
-                   "state fewer");
+            found_.push_back(diagnostic_at(
+                at, severity,
+                fmt::format("{}: {}, OpenGL guarantees only {} ({})", what, size, limit, constant),
+                "state fewer"));
     }
 
     void check_sizes() {
         if (kind_ == StageKind::geometry)
-            at_most(32, mode_value(spv::ExecutionModeInvocations), "invocations",
+            at_most(32, mode_value(spv::ExecutionModeInvocations), use_of("invocations", pieces_),
                     "invocations of the geometry stage", "MAX_GEOMETRY_SHADER_INVOCATIONS");
         if (kind_ == StageKind::tess_control)
-            at_most(32, mode_value(spv::ExecutionModeOutputVertices), "vertices", "vertices of a patch",
-                    "MAX_PATCH_VERTICES");
+            at_most(32, mode_value(spv::ExecutionModeOutputVertices), use_of("vertices", pieces_),
+                    "vertices of a patch", "MAX_PATCH_VERTICES");
         if (kind_ != StageKind::compute) return;
-        std::int64_t size = 1;
-        for (const std::size_t word : {3, 4, 5}) size *= mode_value(spv::ExecutionModeLocalSize, word);
-        at_most(1024, size, "local_size_x", "invocations of a work group",
-                "MAX_COMPUTE_WORK_GROUP_INVOCATIONS");
+        std::int64_t group = 1;
+        for (const std::size_t word : {3, 4, 5}) group *= mode_value(spv::ExecutionModeLocalSize, word);
+        std::int64_t shared = 0;
+        Id largest = Id::none;
+        std::int64_t most = 0;
+        for (const spirv::Variable& variable : module_.variables) {
+            if (variable.storage != spv::StorageClassWorkgroup ||
+                !(usage_.reads(variable.id) || usage_.writes(variable.id)))
+                continue;
+            const Extent extent = extent_of(variable.type);
+            shared = aligned(shared, extent.alignment) + extent.size;
+            if (extent.size > most) largest = variable.id;
+            most = std::max(most, extent.size);
+        }
+        const auto check = [&](std::int64_t groups, std::int64_t bytes, std::string_view whose,
+                               Severity severity) {
+            at_most(groups, group, use_of("local_size_x", pieces_), "invocations of a work group",
+                    fmt::format("MAX_COMPUTE_WORK_GROUP_INVOCATIONS{}", whose), severity);
+            if (shared > bytes)
+                at_most(bytes, shared, declared(module_.name(largest)), "bytes of shared variables",
+                        fmt::format("MAX_COMPUTE_SHARED_MEMORY_SIZE{}", whose), severity);
+        };
+        check(1024, 32768, "", Severity::error);
+        // Most drivers of OpenGL ES have as much as OpenGL guarantees.
+        if (version_of(pieces_.front()->text).es && found_.empty())
+            check(128, 16384, " of OpenGL ES", Severity::warning);
+    }
+
+    /// Bytes of a shared variable, laid out as a storage block would be by std430: so do drivers.
+    struct Extent {
+        std::int64_t size = 0;
+        std::int64_t alignment = 1;
+    };
+    static std::int64_t aligned(std::int64_t offset, std::int64_t alignment) {
+        return (offset + alignment - 1) / alignment * alignment;
+    }
+    [[nodiscard]] Extent extent_of(Id id) const {
+        constexpr std::int64_t kMost = std::int64_t{1} << 40;  // no sum of these overflows
+        const spirv::Type& type = module_.type(id);
+        if (type.is_array()) {
+            const Extent element = extent_of(type.element);
+            const std::int64_t last = type.count > 0 ? std::int64_t{type.count} - 1 : 0;
+            const std::int64_t stride = aligned(element.size, element.alignment);
+            const bool is_huge = stride > 0 && last > kMost / stride;
+            return {is_huge ? kMost : last * stride + element.size, element.alignment};
+        }
+        if (type.members.empty())
+            return {std::int64_t{type.value.column_alignment()} * (type.value.columns - 1) +
+                        type.value.column_size(),
+                    type.value.column_alignment()};
+        Extent all;
+        for (const Id member : type.members) {
+            const Extent extent = extent_of(member);
+            all.size = std::min(aligned(all.size, extent.alignment) + extent.size, kMost);
+            all.alignment = std::max(all.alignment, extent.alignment);
+        }
+        all.size = aligned(all.size, all.alignment);
+        return all;
     }
 
     /// What a buffer block states as writeonly may not be read, as `+=` does.
@@ -159,13 +214,16 @@ class StageCheck {
         }
     }
 
-    /// Further streams take points alone (GLSL 4.60, 8.15).
+    /// Further streams take points alone (GLSL 4.60, 8.15), and there are four.
     void check_streams() {
-        if (has_mode(spv::ExecutionModeOutputPoints)) return;
+        const bool has_points = has_mode(spv::ExecutionModeOutputPoints);
         for (const spirv::Instruction& instruction : module_.instructions) {
             if (instruction.opcode != spv::OpEmitStreamVertex) continue;
             const auto stream = module_.integers.find(instruction.id(1));
-            if (stream != module_.integers.end() && stream->second != 0)
+            if (stream == module_.integers.end()) continue;
+            at_most(4, stream->second + 1, use_of("EmitStreamVertex", pieces_),
+                    "streams up to that of EmitStreamVertex()", "MAX_VERTEX_STREAMS");
+            if (stream->second != 0 && !has_points)
                 return refuse(
                     use_of("EmitStreamVertex", pieces_),
                     fmt::format("stream {} takes points alone, and this stage emits others", stream->second),

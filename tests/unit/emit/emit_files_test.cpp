@@ -1,4 +1,5 @@
 // The manifest and the depfile.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -13,6 +14,20 @@
 namespace gobo {
 namespace {
 
+/// The names of a permutation's pieces in a stage, as docs/formats.md says how to read them.
+std::vector<std::string> pieces_of(const nlohmann::json& manifest, const nlohmann::json& permutation,
+                                   const char* kind) {
+    const auto& stage = manifest["stages"][kind];
+    const std::string row = stage["rows"][permutation[kind].get<std::size_t>()];
+    EXPECT_EQ(row.size(), stage["columns"].size());
+    std::vector<std::string> pieces;
+    for (std::size_t column = 0; column < row.size(); ++column)
+        for (const auto& number :
+             stage["columns"][column][manifest["digits"].get<std::string>().find(row[column])])
+            pieces.push_back(manifest["pieces"][number.get<std::size_t>()]);
+    return pieces;
+}
+
 TEST(Manifest, SaysWhatWasBuilt) {
     const sample::Built built = sample::lit();
     const auto manifest = nlohmann::json::parse(emit_manifest(built.input()));
@@ -25,15 +40,31 @@ TEST(Manifest, SaysWhatWasBuilt) {
     EXPECT_EQ(manifest["permutations"][0]["key"], "default");
     const auto& permutation = manifest["permutations"][3];
     EXPECT_EQ(permutation["key"], "fog=linear point=3 shading=vertex");
-    const auto& fragment = manifest["stages"][permutation["fragment"].get<std::size_t>()];
-    EXPECT_EQ(fragment["stage"], "fragment");
-    std::vector<std::string> pieces;
-    for (const auto& number : fragment["pieces"])
-        pieces.push_back(manifest["pieces"][number.get<std::size_t>()]);
-    EXPECT_EQ(pieces, (std::vector<std::string>{"shader_lib/common.glsl",
-                                                "piece of fog=linear point=3 shading=vertex"}));
+    EXPECT_EQ(
+        pieces_of(manifest, permutation, "fragment"),
+        (std::vector<std::string>{"shader_lib/common.glsl", "piece of fog=linear point=3 shading=vertex"}));
     EXPECT_EQ(manifest["interface"]["blocks"][1]["name"], "Fog");
     EXPECT_EQ(manifest["interface"]["outputs"][0]["location"], 0) << "as in the header";
+}
+
+TEST(Manifest, ListsThePiecesOfEachStage) {
+    const sample::Built built = sample::large(500);
+    const EmitInput input = built.input();
+    const auto manifest = nlohmann::json::parse(emit_manifest(input));
+    ASSERT_EQ(manifest["permutations"].size(), 500U);
+    for (const auto& row : manifest["permutations"]) {
+        const std::string key = row["key"];
+        const auto permutation = std::ranges::find_if(
+            input.composition.permutations,
+            [&](const Permutation& one) { return key_text(input.family, one.key) == key; });
+        ASSERT_NE(permutation, input.composition.permutations.end()) << key;
+        for (const StageKind kind : {StageKind::vertex, StageKind::fragment}) {
+            std::vector<std::string> pieces;
+            for (const int piece : input.composition.stage(permutation->stages[kind]).pieces)
+                pieces.push_back(input.composition.piece(piece).name);
+            EXPECT_EQ(pieces_of(manifest, row, name_of(kind).data()), pieces) << key;
+        }
+    }
 }
 
 TEST(Manifest, OfAFamilyWithoutFeatures) {
