@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lab/raster/rasterise.hpp"
+#include "software_textures.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -103,16 +104,22 @@ class Canvas {
             picture_.operations[kind] += work.fragments[kind] + work.helpers[kind];
     }
 
-    void draw(const RasterObject& object, const std::vector<raster::Shaded>& shaded, int number) {
+    /// What is blended lies over what is there by its alpha, and hides nothing.
+    void draw(const RasterObject& object, const std::vector<raster::Shaded>& shaded, int number,
+              bool is_blended) {
         picture_.fragments += shaded.size();
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const std::size_t pixel = index(object.fragments[i]);
             if (!object.fragments[i].is_covered || shaded[i].is_discarded) continue;
             if (shaded[i].depth >= std::min(depths_[pixel], 1.0)) continue;
-            depths_[pixel] = shaded[i].depth;
+            if (!is_blended) depths_[pixel] = shaded[i].depth;
             picture_.draw[pixel] = number;
-            for (std::size_t c = 0; c < 4; ++c)
-                picture_.color.values[4 * pixel + c] = static_cast<float>(shaded[i].color[c]);
+            const double opacity = is_blended ? std::clamp(shaded[i].color[3], 0.0, 1.0) : 1;
+            for (std::size_t c = 0; c < 4; ++c) {
+                float& color = picture_.color.values[4 * pixel + c];
+                color =
+                    static_cast<float>(std::lerp(static_cast<double>(color), shaded[i].color[c], opacity));
+            }
         }
     }
 
@@ -142,6 +149,12 @@ void give_images(const SoftwareImages& images, std::size_t object, evaluate::Inv
             image = [maps = images.maps](const evaluate::ImageRequest& request) {
                 return evaluate::answer(*maps, request);
             };
+        if (const auto cube = images.cubes.find(name); cube != images.cubes.end()) image = cube->second;
+        if (object < images.images.pictures.size()) {
+            const auto& pictures = images.images.pictures[object];
+            if (const auto use = pictures.find(name); use != pictures.end())
+                image = picture_image(use->second);
+        }
         if (name != "opacityMap" || object >= images.images.opacity.size()) continue;
         const AlphaMap& map = images.images.opacity[object];
         if (!map.texels.empty()) image = alpha_image(map);
@@ -197,6 +210,9 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
                                 ? shadow_plan(images.images.lights, images.casters, view.view, images.side)
                                 : ShadowPlan();
     std::vector<RasterObject> rasterised(objects.size());
+    const auto is_blended = [&](std::size_t draw) {
+        return draw < images.images.are_blended.size() && images.images.are_blended[draw];
+    };
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
@@ -211,17 +227,18 @@ Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders, const Soft
         if (!object) return tl::unexpected(object.error());
         give_images(images, i, object->uniforms);
         rasterised[i] = std::move(*object);
-        if (is_plain(programs[*permutation])) canvas.occlude(rasterised[i]);
+        if (is_plain(programs[*permutation]) && !is_blended(i)) canvas.occlude(rasterised[i]);
     }
-    for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const std::size_t i : drawing_order(shaders.draws, images.images, view)) {
         const auto& permutation = shaders.permutation[i];
         if (!permutation) continue;
         const Pipeline& program = programs[*permutation];
         if (is_plain(program)) canvas.cull(rasterised[i]);
         raster::Work work;
-        GOBO_TRY(const auto shaded, raster::shade<float>(program, rasterised[i], counts ? &work : nullptr));
+        GOBO_TRY(auto shaded, raster::shade<float>(program, rasterised[i], counts ? &work : nullptr));
+        if (images.recolored) GOBO_TRY_DO(images.recolored(i, rasterised[i], shaded));
         canvas.count(work);
-        canvas.draw(rasterised[i], shaded, static_cast<int>(i));
+        canvas.draw(rasterised[i], shaded, static_cast<int>(i), is_blended(i));
     }
     return std::move(canvas).picture();
 }

@@ -1,5 +1,5 @@
 // A picture of a scene without a renderer: stages evaluated in fp32, between them the rasteriser; images are
-// alpha maps as they are and shadow maps rasterised in double precision.
+// alpha maps, pictures and cube maps as they are and shadow maps rasterised in double precision.
 #pragma once
 
 #include <functional>
@@ -20,6 +20,11 @@ struct SoftwareImages {
     /// The values of a draw's shadows under the names that its shader has for them; none: those of `lit`.
     std::function<std::vector<RenderValue>(std::size_t draw, const std::vector<RenderValue>& shadows)>
         renamed = nullptr;
+    evaluate::Images cubes = {};  ///< of the environment
+    /// Gives a draw's fragments other colours than the evaluator's.
+    std::function<Result<void>(std::size_t draw, const raster::RasterObject& object,
+                               std::vector<raster::Shaded>& shaded)>
+        recolored = nullptr;
 };
 
 /// Draws the shadow maps of all lights that `images` names, as the depth pass of a renderer does. What a map
@@ -43,9 +48,9 @@ using SoftwarePrograms = std::vector<raster::Pipeline>;
 
 [[nodiscard]] Result<SoftwarePrograms> software_programs(const SceneShaders& shaders);
 
-/// Draws objects, one for each draw, in the scene's order and with a depth test (less). Only what is seen is
-/// shaded. `values` are the family's, an object's own come after them. Samplers read one colour where
-/// `images` has nothing for them.
+/// Draws objects, one for each draw, in the order of drawing_order() and with a depth test (less). Only what
+/// is seen is shaded. `values` are the family's, an object's own come after them. Samplers read one colour
+/// where `images` has nothing for them.
 [[nodiscard]] Result<SoftwarePicture> draw_in_software(const SceneShaders& shaders,
                                                        const SoftwarePrograms& programs,
                                                        const std::vector<Object>& objects,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -110,6 +111,22 @@ Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
                                                   key_text(family, key->key), family.name, rule->reason));
     }
     return keys;
+}
+
+std::string not_drawn_text(const std::string& path, const std::vector<Draw>& draws,
+                           const std::vector<std::optional<DrawKey>>& keys) {
+    std::set<std::string> effects;
+    std::map<std::string, std::size_t> excluded;  // how often each reason holds
+    for (const Draw& draw : draws)
+        if (!draw.excluded.empty()) ++excluded[draw.excluded];
+    for (const auto& key : keys)
+        if (key)
+            for (const std::string& missing : key->missing)
+                effects.insert(missing.substr(0, missing.find(": ")));
+    std::vector<std::string> parts(effects.begin(), effects.end());
+    for (const auto& [reason, count] : excluded)
+        parts.push_back(fmt::format("{} draw{} ({})", count, count == 1 ? "" : "s", reason));
+    return parts.empty() ? "" : one_line(fmt::format("{}: not drawn: {}", path, fmt::join(parts, ", ")));
 }
 
 std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws) {

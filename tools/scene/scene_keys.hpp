@@ -42,6 +42,11 @@ struct DrawKey {
                                                                          const Buckets& buckets,
                                                                          std::string_view dialect);
 
+/// What of the scene is not drawn by these keys, each thing once: "FILE: not drawn: sheen, 2 draws of lines".
+/// Empty where all is.
+[[nodiscard]] std::string not_drawn_text(const std::string& path, const std::vector<Draw>& draws,
+                                         const std::vector<std::optional<DrawKey>>& keys);
+
 /// The distinct keys of draws, sorted.
 [[nodiscard]] std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws);
 

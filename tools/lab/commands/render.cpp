@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/guarded.hpp"
@@ -146,7 +147,8 @@ Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<sc
     const auto first = scene::first_camera(scene);
     const auto chosen = camera >= 0 ? std::optional(static_cast<std::size_t>(camera)) : first;
     if (!chosen) {
-        scene::SceneView view = scene::view_of_all(draws, kUsualDirection, size.width, size.height);
+        scene::SceneView view =
+            scene::view_of_all(scene::bounds_at_rest(scene, draws), kUsualDirection, size.width, size.height);
         view.background = scene::background_of(scene);
         return view;
     }
@@ -157,14 +159,18 @@ Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<sc
 }
 
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
+/// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
                           const LoadedFamily& family, const Context& context, const PictureOptions& pictures,
-                          RenderedSelection& rendered) {
+                          RenderedSelection& rendered, std::vector<std::string>& notes) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
     GOBO_TRY(const scene::Scene scene,
              scene::read_scene(world.disk, path, scene::reading_for(family.family)));
     auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const scene::SceneView view, view_of(scene, draws, options.camera, pictures.view));
+    GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
+    if (const std::string text = scene::not_drawn_text(path, draws, keys); !text.empty())
+        notes.push_back(text);
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
                                                           buckets, family.dialect, world.jobs()));
     scene::SceneTextures textures;
@@ -218,13 +224,14 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
 }
 
 Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pictures,
-                   const std::string& renderer) {
+                   const std::string& renderer, std::vector<std::string> summary = {}) {
     const auto drawn = std::count_if(rendered.files.begin(), rendered.files.end(),
                                      [](const std::string& file) { return !file.ends_with("/index.html"); });
-    return {
-        rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n", rendered.diagnostics,
-        fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
-                    pictures.view.width / pictures.smooth, pictures.view.height / pictures.smooth, renderer)};
+    summary.push_back(fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
+                                  pictures.view.width / pictures.smooth,
+                                  pictures.view.height / pictures.smooth, renderer));
+    return {rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n", rendered.diagnostics,
+            join(summary, "\n")};
 }
 
 Result<Outcome> render(const RenderOptions& options, const World& world) {
@@ -239,14 +246,15 @@ Result<Outcome> render(const RenderOptions& options, const World& world) {
     GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(const Context context, open_context(backend));
     RenderedSelection rendered;
+    std::vector<std::string> notes;
     for (const std::string& path : options.scenes)
-        GOBO_TRY_DO(render_scene(options, path, world, family, context, pictures, rendered));
+        GOBO_TRY_DO(render_scene(options, path, world, family, context, pictures, rendered, notes));
     if (options.scenes.empty() || selects_keys(options)) {
         GOBO_TRY(const auto keys, render_keys(options, world, family, context, pictures));
         rendered.files.insert(rendered.files.end(), keys.files.begin(), keys.files.end());
         append(rendered.diagnostics, keys.diagnostics);
     }
-    return outcome_of(rendered, pictures, context.renderer());
+    return outcome_of(rendered, pictures, context.renderer(), std::move(notes));
 }
 
 /// In a process that a driver may end.

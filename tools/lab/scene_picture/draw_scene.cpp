@@ -10,6 +10,7 @@
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "lab/scene_picture/posed_mesh.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -42,22 +43,6 @@ bool reads(const Interface& interface, std::string_view sampler) {
                        [&](const Sampler& own) { return own.name == sampler; });
 }
 
-/// The scene's order, and behind all others what is blended: by the distance of the middle of its bounds, the
-/// farthest first.
-std::vector<std::size_t> drawing_order(const std::vector<Draw>& draws, const SceneImages& images,
-                                       const SceneView& view) {
-    std::vector<std::size_t> order(draws.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto rank = [&](std::size_t i) {
-        const bool is_blended = i < images.are_blended.size() && images.are_blended[i];
-        if (!is_blended) return std::pair(0, 0.0);
-        const Box bounds = draws[i].bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
-        return std::pair(1, (view.view * glm::dvec4((bounds.low + bounds.high) / 2.0, 1)).z);
-    };
-    std::ranges::stable_sort(order, {}, rank);
-    return order;
-}
-
 constexpr double usual_angle = 0.7;
 
 /// A perspective projection; the far plane may be infinitely far.
@@ -84,6 +69,20 @@ glm::dmat4 view_of(const glm::dmat4& world) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> drawing_order(const std::vector<Draw>& draws, const SceneImages& images,
+                                       const SceneView& view) {
+    std::vector<std::size_t> order(draws.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto rank = [&](std::size_t i) {
+        const bool is_blended = i < images.are_blended.size() && images.are_blended[i];
+        if (!is_blended) return std::pair(0, 0.0);
+        const Box bounds = draws[i].bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
+        return std::pair(1, (view.view * glm::dvec4((bounds.low + bounds.high) / 2.0, 1)).z);
+    };
+    std::ranges::stable_sort(order, {}, rank);
+    return order;
+}
 
 Result<SceneShaders> shaders_of(const Family& family, const SearchPath& search, std::vector<Draw> draws,
                                 const std::vector<std::optional<Key>>& keys, Dialect dialect, int jobs) {
@@ -239,6 +238,21 @@ SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& directio
     Box bounds;
     for (const Draw& draw : draws)
         if (draw.bounds) bounds.add(*draw.bounds);
+    return view_of_all(bounds, direction, width, height);
+}
+
+Box bounds_at_rest(const Scene& scene, const std::vector<Draw>& draws) {
+    Box bounds;
+    for (const Draw& draw : draws) {
+        if (!draw.excluded.empty()) continue;
+        const PosedMesh posed = posed_mesh(scene, draw.node, primitive_of(scene, draw));
+        for (const glm::vec3& position : posed.mesh.positions)
+            bounds.add(glm::dvec3(posed.model * glm::dvec4(position, 1)));
+    }
+    return bounds;
+}
+
+SceneView view_of_all(Box bounds, const glm::dvec3& direction, int width, int height) {
     if (bounds.is_empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
     const glm::dvec3 center = (bounds.low + bounds.high) / 2.0;
     const double radius = std::max(glm::length(bounds.high - bounds.low) / 2, 1e-6);

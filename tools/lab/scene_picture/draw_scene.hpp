@@ -35,14 +35,24 @@ struct SceneView : ViewedObject {
 /// The number of the first camera that a node of the scene holds.
 [[nodiscard]] std::optional<std::size_t> first_camera(const Scene& scene);
 
-/// A view from `direction` (away from what is seen; not zero) that has all draws in it. What has no bounds
-/// does not count.
+/// A view from `direction` (away from what is seen; not zero) that has all of the bounds in it.
+[[nodiscard]] SceneView view_of_all(Box bounds, const glm::dvec3& direction, int width, int height);
+
+/// Around all draws as they stand at rest.
+[[nodiscard]] Box bounds_at_rest(const Scene& scene, const std::vector<Draw>& draws);
+
+/// The same of all draws, wherever they move. What has no bounds does not count.
 [[nodiscard]] SceneView view_of_all(const std::vector<Draw>& draws, const glm::dvec3& direction, int width,
                                     int height);
 
 /// What stands behind a scene: what it states itself, else its fog's colour, or the colour that `gobo render`
 /// has for families.
 [[nodiscard]] std::array<float, 4> background_of(const Scene& scene);
+
+/// The scene's order, and behind all others what is blended: by the distance of the middle of its bounds, the
+/// farthest first.
+[[nodiscard]] std::vector<std::size_t> drawing_order(const std::vector<Draw>& draws,
+                                                     const SceneImages& images, const SceneView& view);
 
 /// A scene's draws with the permutations that draw them, composed and validated.
 struct SceneShaders {
