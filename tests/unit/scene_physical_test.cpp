@@ -1,12 +1,14 @@
 // Scenes read for metallic-roughness materials: factors, pictures, tangents, the light that stands in.
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <jpeglib.h>
 #include <lodepng.h>
 
 #include "scene/effects.hpp"
+#include "scene/picture.hpp"
 #include "scene/read_scene.hpp"
 #include "scene_support.hpp"
 
@@ -14,6 +16,7 @@ namespace gobo::scene {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 std::string png(const std::vector<unsigned char>& rgba, unsigned width, unsigned height) {
     std::vector<unsigned char> bytes;
@@ -196,7 +199,7 @@ TEST(PhysicalScene, ReadsJpegAndSaysWhatIsNone) {
                 ElementsAre(100, 100, 100, 255));
     json["images"][0]["uri"] = "data:image/jpeg;base64," + base64("\xff\xd8\xff");
     EXPECT_EQ(read_physical_scene(json).error().front().message,
-              "images[0] is no JPEG that can be decoded: JPEG datastream contains no image");
+              "images[0] is no JPEG that can be decoded: Premature end of JPEG file");
     json["images"][0]["uri"] = "data:image/gif;base64," + base64("GIF89a");
     EXPECT_EQ(read_physical_scene(json).error().front().message, "images[0] is neither PNG nor JPEG");
 }
@@ -240,6 +243,30 @@ TEST(PhysicalScene, PutsAnEnvironmentWhereNoLightIsStated) {
     EXPECT_EQ(verdict(*dark, "reflection"), "in: the scene states no light: the studio stands in");
     json["scenes"][0]["extras"]["gobo"]["ambient"] = {0.1, 0.1, 0.1};
     EXPECT_FALSE(read_physical_scene(json)->has_default_light);
+}
+
+TEST(PhysicalScene, RefusesAPictureThatIsCutShort) {
+    const std::string whole = jpeg(128);
+    EXPECT_TRUE(decode_picture(whole));
+    const auto cut = decode_picture(whole.substr(0, whole.size() - 4));
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error(), "is no JPEG that can be decoded: Premature end of JPEG file");
+}
+
+TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {
+    const auto read = [](const char* set) {
+        return read_physical_scene(scene_with(
+            fmt::format(
+                R"({{"pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0, "texCoord": {}}}}}}})", set),
+            png({255, 255, 255, 255}, 1, 1)));
+    };
+    EXPECT_TRUE(read("4294967296"));  // named as not drawn
+    const Result<Scene> below = read("-1");
+    ASSERT_FALSE(below);
+    EXPECT_THAT(
+        to_text(below.error().front()),
+        HasSubstr(
+            "materials[0].pbrMetallicRoughness.baseColorTexture.texCoord is -1, but must be at least 0"));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 #include <jpeglib.h>
+// after what it needs
+#include <jerror.h>
 #include <lodepng.h>
 
 namespace gobo::scene {
@@ -46,6 +48,11 @@ void leap_back(j_common_ptr info) {
 
 void say_nothing(j_common_ptr) {}
 
+/// What is cut short would be filled up with grey; other warnings are of no concern.
+void refuse_cut(j_common_ptr info, int level) {
+    if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF) leap_back(info);
+}
+
 /// Nothing with a destructor lives between setjmp() and what leaps.
 bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_view bytes,
                  TextureImage& picture, bool& is_too_large) {
@@ -75,6 +82,7 @@ tl::expected<TextureImage, std::string> decode_jpeg(std::string_view bytes) {
     info.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = leap_back;
     errors.manager.output_message = say_nothing;
+    errors.manager.emit_message = refuse_cut;
     TextureImage picture;
     bool is_too_large = false;
     const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large);

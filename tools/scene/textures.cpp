@@ -24,6 +24,13 @@ void check_sampler(const Value& sampler) {
     for (const char* wrap : {"wrapS", "wrapT"}) check_choice(sampler[wrap], {kRepeat, 33071, 33648});
 }
 
+/// The number of a set of texture coordinates; all beyond the second are alike.
+int set_of(const Value& number) {
+    const std::int64_t set = number.integer().value_or(0);
+    if (set < 0) number.fail("is {}, but must be at least 0", set);
+    return static_cast<int>(std::min<std::int64_t>(set, 1000));
+}
+
 }  // namespace
 
 Textures::Textures(const Value& root, const Accessors& accessors, const FileSystem& disk, Scene& scene)
@@ -89,7 +96,7 @@ std::optional<TextureUse> Textures::use(const Value& info) {
     }
     TextureUse use;
     use.picture = *pictures_[*source];
-    use.set = static_cast<int>(info["texCoord"].integer().value_or(0));
+    use.set = set_of(info["texCoord"]);
     const std::vector<Value> samplers = root_["samplers"].objects();
     if (const auto sampler = texture["sampler"].index(samplers.size(), "samplers")) {
         use.wrap_s = static_cast<int>(samplers[*sampler]["wrapS"].integer().value_or(kRepeat));
@@ -103,7 +110,7 @@ std::optional<TextureUse> Textures::use(const Value& info) {
     transform["offset"].read_numbers(&use.offset.x, 2);
     transform["scale"].read_numbers(&scale.x, 2);
     transform["rotation"].read(rotation);
-    if (const auto set = transform["texCoord"].integer()) use.set = static_cast<int>(*set);
+    if (transform["texCoord"]) use.set = set_of(transform["texCoord"]);
     const double cosine = std::cos(rotation);
     const double sine = std::sin(rotation);
     use.linear = {cosine * scale.x, sine * scale.y, -sine * scale.x, cosine * scale.y};
