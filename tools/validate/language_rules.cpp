@@ -171,12 +171,15 @@ class LanguageCheck {
         if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")
             check_since(token, *since, fmt::format("'{}'", token.text));
         if (is_any(token.text, {"highp", "mediump", "lowp"})) check_precision(index);
-        // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser reads them as a layout's.
-        const bool is_layouts = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
-                                : token.text == "row_major" ? !version_.es && version_.number >= 130
-                                                            : false;
-        if (is_layouts && index > 0 && is_name(index - 1) && !is_macro(index - 1) && !is_macro(index))
-            refuse(token, fmt::format("'{}' is no name to every driver: it is a layout's", token.text),
+        // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser keeps them.
+        const bool is_kept = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
+                             : token.text == "row_major" ? !version_.es && version_.number >= 130
+                             : is_any(token.text, {"image2DMS", "iimage2DMS", "uimage2DMS"})
+                                 ? is_before(420) && version_.number >= 130
+                                 : false;
+        if (is_kept && index > 0 && is_name(index - 1) && !is_macro(index - 1) && !is_macro(index))
+            refuse(token,
+                   fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
                    "choose another name");
         const bool is_removed = is_any(
             token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords", "gl_MaxClipPlanes", "gl_MaxLights"});
