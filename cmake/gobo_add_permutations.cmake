@@ -1,7 +1,7 @@
 # gobo_add_permutations(TARGET [PRIVATE|PUBLIC|INTERFACE] FAMILY family [HEADER name]
 #                       [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
-#                       [MAX_ERROR x] [MAX_COST y] [STUDY file]
+#                       [MAX_ERROR x] [DOMAIN file] [TYPICAL] [MAX_COST y] [STUDY file]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300|vulkan|gl_spirv]
 #                       [OPTIMIZE] [DEBUG] [COMMENTS] [LIBRARY folder])
 #
@@ -15,7 +15,8 @@
 # that faster, DEBUG keeps names and lines in it.
 #
 # MAX_ERROR and MAX_COST choose, for each combination of effects, the quality by its error and its cost; STUDY is what they
-# choose by, by default the study that came with the family.
+# choose by, by default the study that came with the family. An error is promised over the family's domain, or over that of
+# the file DOMAIN; with TYPICAL only on scenes like the study's.
 #
 # GOBO_PROGRAM, where it is set, is the gobo that runs instead of the package's own. When cross-compiling it is by default one
 # of the host that lies in PATH.
@@ -29,8 +30,8 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;OPTIMIZE;DEBUG;PRIVATE;PUBLIC;INTERFACE"
-                        "FAMILY;HEADER;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;NAMESPACE;DIALECT;LIBRARY"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;OPTIMIZE;DEBUG;TYPICAL;PRIVATE;PUBLIC;INTERFACE"
+                        "FAMILY;HEADER;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;DOMAIN;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
   if(NOT arg_LIBRARY)
@@ -188,16 +189,19 @@ function(_gobo_command_line arguments_variable inputs_variable)
     add(--scene "${scene}")
     list(APPEND inputs "${escaped}")
   endforeach()
-  if(DEFINED arg_STUDY)
-    get_filename_component(study "${arg_STUDY}" ABSOLUTE)
-    add(--study "${study}")
-    list(APPEND inputs "${escaped}")
-  endif()
+  foreach(option STUDY DOMAIN)
+    if(DEFINED arg_${option})
+      string(TOLOWER "--${option}" flag)
+      get_filename_component(file "${arg_${option}}" ABSOLUTE)
+      add(${flag} "${file}")
+      list(APPEND inputs "${escaped}")
+    endif()
+  endforeach()
   foreach(include IN LISTS arg_INCLUDE)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
   endforeach()
-  foreach(option ALL EXCLUDED COMMENTS OPTIMIZE DEBUG)
+  foreach(option ALL EXCLUDED COMMENTS OPTIMIZE DEBUG TYPICAL)
     if(arg_${option})
       string(TOLOWER "--${option}" flag)
       list(APPEND arguments ${flag})

@@ -104,7 +104,8 @@ TEST_P(Chosen, ByCycles) {
     const Family family = small_family();
     const std::string csv = csv_text(with_cycles(study(), costs()));
     const auto studied = read_studied(csv, "study.csv", family, GetParam().gpus).value();
-    const auto key = choose(studied.at(default_key(family)), {GetParam().max_error, GetParam().max_cost}, "");
+    const auto key = choose(studied.at(default_key(family)),
+                            {.max_error = GetParam().max_error, .max_cost = GetParam().max_cost}, "");
     ASSERT_TRUE(key);
     EXPECT_EQ(fmt::format("{}: {:.3g}", key_text(family, key->key), key->cost), GetParam().key);
 }

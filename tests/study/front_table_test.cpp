@@ -1,6 +1,7 @@
 // The front of a finished study as readers see it: a short table, a chart, and which keys are on it by time.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
@@ -49,13 +50,44 @@ TEST(FrontTable, HasTheCheapestQualityWithinEachPowerOfTen) {
     const auto rows = read_rows(kStudy, "study.csv", small_family(), key_of("light=1"));
     ASSERT_TRUE(rows);
     EXPECT_EQ(front_table(*rows),
-              "| quality | largest error | RMS error | cost, additions | time, ns |\n"
-              "|---|---|---|---|---|\n"
-              "| most accurate | 2.0e-07 | 1.0e-08 | 1234 |  |\n"
-              "| `power=near` | 8.0e-07 | 2.0e-08 | 1200 |  |\n"
-              "| `power=rough` | 0.02 | 0.003 | 900 |  |\n"
-              "| `shading=vertex` | 0.3 | 0.1 | 20.4 |  |\n");
+              "| quality | largest error | RMS error | worst of the domain | cost, additions | time, ns |\n"
+              "|---|---|---|---|---|---|\n"
+              "| most accurate | 2.0e-07 | 1.0e-08 | \u2013 | 1234 |  |\n"
+              "| `power=near` | 8.0e-07 | 2.0e-08 | \u2013 | 1200 |  |\n"
+              "| `power=rough` | 0.02 | 0.003 | \u2013 | 900 |  |\n"
+              "| `shading=vertex` | 0.3 | 0.1 | \u2013 | 20.4 |  |\n");
 }
+
+struct AlikeRow {
+    const char* name;
+    const char* error;
+    const char* worst;
+    bool is_alike;  ///< to the most accurate key, which is dearer
+};
+
+class Alike : public testing::TestWithParam<AlikeRow> {};
+
+TEST_P(Alike, RowsAreOneOnTheFront) {
+    const std::string study = fmt::format(
+        "effects,key,scene,error_max,error_rms,cost,front,error_worst\n"
+        "light=1,light=1,*,2e-07,1e-08,1234,yes,0\n"
+        "light=1,light=1 power=near,*,{},2e-08,1200,yes,{}\n"
+        "light=1,light=1 shading=vertex,*,0.3,0.1,20.4,yes,none\n",
+        GetParam().error, GetParam().worst);
+    const auto rows = read_rows(study, "study.csv", small_family(), key_of("light=1"));
+    ASSERT_TRUE(rows);
+    const std::string table = front_table(*rows);
+    EXPECT_EQ(table.find("most accurate") == std::string::npos, GetParam().is_alike) << table;
+    EXPECT_NE(table.find("`power=near`"), std::string::npos) << table;
+    EXPECT_NE(table.find("| not promised |"), std::string::npos) << table;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Alike,
+                         testing::Values(AlikeRow{"within_rounding", "3e-07", "0", true},
+                                         AlikeRow{"beyond_rounding", "7e-07", "0", false},
+                                         AlikeRow{"on_scenes_only", "3e-07", "0.5", false},
+                                         AlikeRow{"where_one_was_searched", "3e-07", "", false}),
+                         [](const auto& row) { return row.param.name; });
 
 TEST(FrontTable, FillsItsLinesWithWhatLiesFurthestBetween) {
     std::string study = kStudy;

@@ -49,7 +49,7 @@ TEST_P(Promises, HoldOnScenesThatNoStudySaw) {
     const std::vector<StudiedKey> known = known_of(effects);
     std::map<Key, double> promised;  // each chosen key with the least budget that chose it
     for (const double budget : {1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 1e-3, 3e-4, 1e-4}) {
-        const auto chosen = choose(known, {budget, {}}, GetParam().key);
+        const auto chosen = choose(known, {.max_error = budget}, GetParam().key);
         ASSERT_TRUE(chosen) << "even the most accurate quality errs by more than " << budget;
         promised[chosen->key] = budget;
     }

@@ -75,6 +75,25 @@ TEST(Verify, FindsTheTextsSlips) {
     }
 }
 
+TEST(Verify, TellsWhatRoundingsOfTheInputsDoNotExplain) {
+    const Family family = lit_family();
+    const auto keys = keys_of(family, {"directional=1 specular=blinn", "shading=hybrid spot=2"});
+    const VerifyReport sound = verify_lit(family, keys).value();
+    EXPECT_EQ(sound.figures.unexplained, 0U);
+    EXPECT_GT(sound.figures.vacuous, 0U) << "where components of rays cancel, the bound is above them";
+    EXPECT_EQ(sound.figures.loose, 0U) << "but small beside the light";
+    const std::string piece = "shading/point_ray.glsl";
+    const Overlay overlay = {{piece, changed(piece_text(piece), ".position.xyz - surfacePosition()",
+                                             ".position.xyz + 1e4 - (surfacePosition() + 1e4)")}};
+    const VerifyReport report = verify_lit(family, keys_of(family, {"point=1"}), overlay).value();
+    EXPECT_GT(report.figures.unexplained, 0U);
+    const auto& worst = report.permutations.front().least_explained;
+    ASSERT_TRUE(worst);
+    EXPECT_EQ(worst->output, "fragmentColor");
+    EXPECT_GT(worst->ratio, 1);
+    EXPECT_FALSE(worst->point.inputs.empty());
+}
+
 struct Demanding {
     const char* name;
     const char* key;

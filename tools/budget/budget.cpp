@@ -20,7 +20,7 @@ double number_in(const std::string& cell) {
 }
 
 bool is_within(const StudiedKey& key, const Budget& budget) {
-    return (budget.max_error <= 0 || kSafety * key.error <= budget.max_error) &&
+    return (budget.max_error <= 0 || typical_error(key) <= budget.max_error) &&
            (budget.max_cost <= 0 || key.cost <= budget.max_cost);
 }
 
@@ -33,7 +33,7 @@ auto price(const StudiedKey& key, const Budget& budget) {
 std::string nearest_text(const std::vector<StudiedKey>& keys, const Budget& budget) {
     const auto least = [&](double StudiedKey::*what) { return std::ranges::min(keys, {}, what).*what; };
     return budget.max_error > 0
-               ? fmt::format("the most accurate one promises {}",
+               ? fmt::format("the most accurate one may err by {}",
                              short_number(kSafety * least(&StudiedKey::error)))
                : fmt::format("the cheapest one costs {}", short_number(least(&StudiedKey::cost)));
 }
@@ -99,6 +99,7 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
     }
     StudiedEffects studied;
     std::map<Key, std::vector<std::vector<double>>> cycles;  // by effects, key and chip
+    const auto worst_at = table.column("error_worst");
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const std::vector<std::string>& row = table.rows[i];
         if (row[scene_at] != kAllScenes) continue;
@@ -106,7 +107,8 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
         const auto key = parse_key(family, row[key_at]);
         if (!effects || !key) return problem(i, (effects ? key : effects).error().front().message);
         studied[*effects].push_back(
-            {*key, number_in(row[error_at]), number_in(row[cost_at]), row[front_at] == "yes"});
+            {*key, number_in(row[error_at]), number_in(row[cost_at]), row[front_at] == "yes",
+             worst_at && !row[*worst_at].empty() ? std::optional(number_in(row[*worst_at])) : std::nullopt});
         std::vector<double>& of_key = cycles[*effects].emplace_back();
         for (const std::size_t at : cycles_at) of_key.push_back(number_in(row[at]));
     }
@@ -114,13 +116,27 @@ Result<StudiedEffects> read_studied(std::string_view csv, const std::string& pat
     return studied;
 }
 
+double typical_error(const StudiedKey& key) {
+    return kSafety * key.error;
+}
+
+std::optional<double> promised_error(const StudiedKey& key) {
+    if (!key.worst || !std::isfinite(*key.worst)) return std::nullopt;
+    return std::max(typical_error(key), kDomainSafety * *key.worst);
+}
+
+std::vector<StudiedKey> within(const std::vector<StudiedKey>& keys, const Budget& budget) {
+    std::vector<StudiedKey> allowed;
+    for (const StudiedKey& key : keys)
+        if (is_within(key, budget)) allowed.push_back(key);
+    std::ranges::sort(allowed, {}, [&](const StudiedKey& key) { return price(key, budget); });
+    return allowed;
+}
+
 Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& budget,
                           const std::string& subject) {
-    const StudiedKey* best = nullptr;
-    for (const StudiedKey& key : keys)
-        if (is_within(key, budget) && (best == nullptr || price(key, budget) < price(*best, budget)))
-            best = &key;
-    if (best != nullptr) return *best;
+    const std::vector<StudiedKey> best = within(keys, budget);
+    if (!best.empty()) return best.front();
     std::vector<std::string> limits;
     if (budget.max_error > 0) limits.push_back(fmt::format("an error of {}", budget.max_error));
     if (budget.max_cost > 0) limits.push_back(fmt::format("a cost of {}", budget.max_cost));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,14 +18,19 @@ inline constexpr const char* kAllScenes = "*";
 /// allows.
 struct Budget {
     double max_error = 0;  ///< linear radiance; 0: no limit
+    bool typical = false;  ///< the error need only hold on scenes like the study's, not over the domain
     double max_cost = 0;   ///< in the unit of StudiedKey::cost; 0: no limit
 
     [[nodiscard]] bool is_set() const { return max_error > 0 || max_cost > 0; }
 };
 
-/// The error that a budget promises is this many times the worst one of the study: other scenes have other
-/// meshes and lights. docs/study.md says what that was tried on.
+/// The typical error is this many times the worst one of the study's scenes: others have other meshes and
+/// lights. docs/study.md says what that was tried on.
 inline constexpr double kSafety = 2;
+
+/// The promised error is at least this many times the worst one that a search of the domain found: a longer
+/// search finds a little worse.
+inline constexpr double kDomainSafety = 1.25;
 
 /// The dialect that studies evaluate.
 inline constexpr std::string_view kStudiedDialect = "450";
@@ -41,7 +47,16 @@ struct StudiedKey {
     /// has none.
     double cost = 0;
     bool on_front = false;
+    /// The worst over the family's domain, beyond what the roundings of floats explain, as a part of the
+    /// light that reaches a point. Infinite: none is promised, since it hangs on the mesh. Nothing: it was
+    /// not searched.
+    std::optional<double> worst = std::nullopt;
 };
+
+/// On scenes like the study's.
+[[nodiscard]] double typical_error(const StudiedKey& key);
+/// Over the domain; nothing where none is promised.
+[[nodiscard]] std::optional<double> promised_error(const StudiedKey& key);
 
 /// By effects.
 using StudiedEffects = std::map<Key, std::vector<StudiedKey>>;
@@ -53,7 +68,10 @@ using StudiedEffects = std::map<Key, std::vector<StudiedKey>>;
                                                   const Family& family,
                                                   const std::vector<std::string>& gpus = {});
 
-/// The key that the budget buys. Fault::input, for `subject`, where there is none; it says what is nearest.
+/// The keys that the budget allows by their typical errors and their costs, the best buy first.
+[[nodiscard]] std::vector<StudiedKey> within(const std::vector<StudiedKey>& keys, const Budget& budget);
+
+/// The best of them. Fault::input, for `subject`, where there is none; it says what is nearest.
 [[nodiscard]] Result<StudiedKey> choose(const std::vector<StudiedKey>& keys, const Budget& budget,
                                         const std::string& subject);
 

@@ -20,13 +20,13 @@ namespace gobo {
 /// A key that a budget chose, with the figures that it was chosen by.
 struct QualityChoice {
     Key key;
-    double promised_error = 0;  ///< linear radiance; no scene's is expected to be larger
+    /// Beyond the roundings of floats, at every input of the domain, as a part of the light that reaches the
+    /// point or of 1 where less does; nothing where none is promised.
+    std::optional<double> promised_error = {};
+    double typical_error = 0;   ///< linear radiance; no scene like the study's is expected to err by more
     double measured_error = 0;  ///< the worst of the study's scenes
-    /// The worst over the whole domain of the inputs, as a part of the light that reaches a point; nothing
-    /// where no value of the quality was searched.
-    std::optional<double> worst_error = {};
-    double cost = 0;     ///< additions a fragment
-    std::string source;  ///< "study", or "measured" for effects that the study does not hold
+    double cost = 0;            ///< additions a fragment
+    std::string source;         ///< "study", or "measured" for effects that the study does not hold
 };
 
 /// What a generated header and its manifest are made from.
@@ -38,6 +38,8 @@ struct EmitInput {
     std::vector<QualityChoice> qualities = {};  ///< where a budget chose, for the manifest
     /// What permutations declare differently; `declared` goes by their order in the composition.
     std::vector<Differing> differing = {};
+    /// Domains that are narrower than the family file's: errors are promised within them.
+    std::vector<Domain> narrowed = {};
     /// By stage of the composition, for dialects of SPIR-V: what the header holds instead of texts.
     std::vector<std::span<const std::uint32_t>> modules = {};
 };
@@ -60,8 +62,8 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 /// "digits", "stages" (of each kind "columns" and "rows": a row's digits choose lists of pieces, which joined
 /// are a stage) and "permutations" (key text, and the rows of its stages; where a budget chose it, by what),
 /// sorted by key text. Where permutations declare names differently, "differing" lists these, and "declared"
-/// of a permutation which declaration it has of each. One row or permutation a line. The same input gives the
-/// same bytes.
+/// of a permutation which declaration it has of each; "domain" has what is narrower than the family file's.
+/// One row or permutation a line. The same input gives the same bytes.
 [[nodiscard]] std::string emit_manifest(const EmitInput& input);
 
 /// A rule in the syntax of make (and so of Ninja and CMake): the outputs depend on the files, each named

@@ -60,6 +60,29 @@ std::string contents_name(const HeaderTemplates& templates, const TemplateValues
     return fmt::format("contents_{:016x}", hash);
 }
 
+/// The errors that a budget promises and the domain that they hold over, as lines of a comment; empty where
+/// none is promised and no domain narrowed.
+std::string promises_text(const EmitInput& input) {
+    std::string text;
+    for (const QualityChoice& choice : input.qualities)
+        if (choice.promised_error)
+            text += fmt::format("//     {:<10.3g} {}\n", *choice.promised_error,
+                                cpp_comment(key_text(input.family, choice.key)));
+    if (!text.empty())
+        text =
+            "//\n// At every input of the domain fragments err by no more than this beyond the roundings of "
+            "floats, as a "
+            "part of\n// the light that reaches the point, or of 1. check(block) tells what of a block lies "
+            "outside the "
+            "domain.\n" +
+            text;
+    if (!input.narrowed.empty()) text += "//\n// The domain is narrower than the family's:\n";
+    for (const Domain& domain : input.narrowed)
+        text += fmt::format("//     {}: {}\n", cpp_comment(domain.name),
+                            cpp_comment(domain_text(input.family.domains, domain.name)));
+    return text;
+}
+
 }  // namespace
 
 Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
@@ -119,6 +142,7 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     declaration_section(declarations, interface, values);
     GOBO_TRY_DO(permutation_section(input.composition, key, declarations, input.modules, templates, values));
     GOBO_TRY_DO(spirv_section(input, interface, key, declarations, templates, values));
+    values["promises"] = promises_text(input);
     values["contents"] = contents_name(templates, values);
     return fill(templates.at("header"), values);
 }

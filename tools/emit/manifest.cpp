@@ -109,10 +109,10 @@ std::string choice_text(const std::vector<QualityChoice>& qualities, const Key& 
     for (const QualityChoice& choice : qualities)
         if (choice.key == key)
             return fmt::format(
-                ",\"promised_error\":{:.6g},\"measured_error\":{:.6g}{},\"cost\":{:.6g},\"chosen_by\":{}",
-                choice.promised_error, choice.measured_error,
-                choice.worst_error ? fmt::format(",\"worst_error\":{:.6g}", *choice.worst_error) : "",
-                choice.cost, text_of(choice.source));
+                "{},\"typical_error\":{:.6g},\"measured_error\":{:.6g},\"cost\":{:.6g},\"chosen_by\":{}",
+                choice.promised_error ? fmt::format(",\"promised_error\":{:.6g}", *choice.promised_error)
+                                      : "",
+                choice.typical_error, choice.measured_error, choice.cost, text_of(choice.source));
     return "";
 }
 
@@ -141,6 +141,17 @@ std::vector<std::string> permutation_rows(const EmitInput& input, const std::vec
     return rows;
 }
 
+std::vector<std::string> domain_rows(const std::vector<Domain>& domains) {
+    std::vector<std::string> rows;
+    for (const Domain& domain : domains) {
+        Json row{{"name", domain.name}, {domain.of_length ? "length" : "range", {domain.low, domain.high}}};
+        if (!domain.also.empty()) row["also"] = domain.also;
+        if (!domain.last.empty()) row["last"] = domain.last;
+        rows.push_back(text_of(row));
+    }
+    return rows;
+}
+
 /// A text of several lines, as a value within the manifest's outermost object.
 std::string indented(const std::string& text) {
     std::string result;
@@ -160,12 +171,14 @@ std::string emit_manifest(const EmitInput& input) {
     for (const std::string_view name : tables.names) names.push_back(text_of(name));
     return fmt::format(
         "{{\n  \"family\": {},\n  \"dialect\": {},\n  \"features\": {},\n  \"interface\": {},\n"
-        "{}  \"pieces\": {},\n  \"digits\": \"{}\",\n  \"stages\": {},\n  \"permutations\": {}\n}}\n",
+        "{}{}  \"pieces\": {},\n  \"digits\": \"{}\",\n  \"stages\": {},\n  \"permutations\": {}\n}}\n",
         text_of(input.family.name), text_of(version_of(input.composition)),
         array_text(feature_rows(input.family)), indented(text_of(interface, kIndent)),
         input.differing.empty()
             ? std::string()
             : fmt::format("  \"differing\": {},\n", array_text(differing_rows(input.differing))),
+        input.narrowed.empty() ? std::string()
+                               : fmt::format("  \"domain\": {},\n", array_text(domain_rows(input.narrowed))),
         array_text(names), kDigits, stages_text(tables),
         array_text(permutation_rows(input, tables.positions)));
 }

@@ -400,4 +400,47 @@ Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::s
     return domains;
 }
 
+namespace {
+
+bool is_within(const Domain& narrower, const Domain& domain) {
+    const auto holds = [&](double number) {
+        return (domain.low <= number && number <= domain.high) ||
+               std::ranges::find(domain.also, number) != domain.also.end();
+    };
+    const bool is_range_within = (domain.low <= narrower.low && narrower.high <= domain.high) ||
+                                 (narrower.low == narrower.high && holds(narrower.low));
+    return narrower.of_length == domain.of_length && is_range_within &&
+           std::ranges::all_of(narrower.also, holds) &&
+           (narrower.last.empty() || (!domain.last.empty() && domain.last[0] <= narrower.last[0] &&
+                                      narrower.last[1] <= domain.last[1]));
+}
+
+}  // namespace
+
+Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower) {
+    Diagnostics errors;
+    for (const Domain& domain : narrower) {
+        const auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
+        if (own == family.domains.end()) {
+            std::vector<std::string> names;
+            for (const Domain& known : family.domains) names.push_back(known.name);
+            errors.push_back({.place = domain.place,
+                              .message = fmt::format("the family '{}' declares no domain for '{}'",
+                                                     family.name, domain.name),
+                              .help = suggestion(domain.name, names)});
+        } else if (!is_within(domain, *own)) {
+            errors.push_back(
+                {.place = domain.place,
+                 .message = fmt::format("'{}' may hold more here than the family allows", domain.name),
+                 .help = "what the shaders are made for stands in the family's [domain]: narrow it"});
+        } else {
+            const std::vector<double> last = domain.last.empty() ? own->last : domain.last;
+            *own = domain;
+            own->last = last;
+        }
+    }
+    if (!errors.empty()) return tl::unexpected(std::move(errors));
+    return {};
+}
+
 }  // namespace gobo

@@ -11,7 +11,7 @@ struct Application {
     std::string description;  ///< goes on after the name
     std::string examples;
     std::vector<Command> commands;
-    MeasureQualities measure = nullptr;  ///< null: gobo-lab does it
+    MeasureQualities measure = {};  ///< where it is not there gobo-lab does it
 };
 
 /// The exit status of the process.

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
-#include "core/csv.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "family/read_family.hpp"
 #include "gobo/input.hpp"
 
 namespace gobo {
@@ -26,50 +26,61 @@ Result<StudiedEffects> load_studied(const World& world, LoadedFamily& family, co
     return read_studied(study.text, study.path, family.family, split(join(options.gpus, ","), ','));
 }
 
-/// The worst error of each quality value over the whole domain, by effects and its text, "power=squaring"; of
-/// all effects together by "".
-using WorstErrors = std::map<std::pair<std::string, std::string>, double>;
-
-/// Those that came with the family; none where there are none.
-WorstErrors load_worst_errors(const World& world, const Family& family) {
-    WorstErrors errors;
-    const auto text = world.shipped.read(fmt::format("data/study/{}_worst.csv", family.name));
-    if (!text) return errors;
-    const CsvTable table = read_csv(*text);
-    const auto effects = table.column("effects");
-    const auto quality = table.column("quality");
-    const auto worst = table.column("worst");
-    if (!effects || !quality || !worst) return errors;
-    for (const auto& row : table.rows)
-        if (const auto number = number_in_cell(row[*worst]))
-            for (const std::string& of : {row[*effects], std::string()}) {
-                double& known = errors[{of, row[*quality]}];
-                known = std::max(known, *number);
-            }
-    return errors;
-}
-
-/// Of a key the worst among its values, with these effects where they were searched; nothing where no value
-/// is known.
-std::optional<double> worst_error_of(const Family& family, const Key& key, const std::string& effects,
-                                     const WorstErrors& errors) {
-    std::optional<double> worst;
-    for (std::size_t i = 0; i < family.features.size(); ++i) {
-        const Feature& feature = family.features[i];
-        if (feature.role != Role::quality) continue;
-        const std::string value =
-            fmt::format("{}={}", feature.name, feature.values[static_cast<std::size_t>(key[i])]);
-        auto found = errors.find({effects, value});
-        if (found == errors.end()) found = errors.find({"", value});
-        if (found != errors.end()) worst = std::max(worst.value_or(0), found->second);
+/// The best buy that is promised within the error over the whole domain.
+Result<StudiedKey> choose_over_domain(const World& world, const LoadedFamily& family,
+                                      const std::vector<StudiedKey>& keys, const BudgetOptions& options,
+                                      const std::string& effects) {
+    const auto is_promised = [&](const StudiedKey& key) {
+        return promised_error(key).value_or(HUGE_VAL) <= options.max_error;
+    };
+    std::vector<StudiedKey> candidates = within(keys, options);
+    if (candidates.empty()) return choose(keys, options, effects);  // says what is nearest
+    double least = HUGE_VAL;
+    for (std::size_t next = 0; next < candidates.size();) {
+        if (is_promised(candidates[next])) return candidates[next];
+        // What is known of the whole domain bounds a narrower one.
+        const auto is_open = [&](const StudiedKey& key) {
+            return !key.worst || (!family.narrowed.empty() && std::isfinite(*key.worst));
+        };
+        if (!is_open(candidates[next])) {
+            least = std::min(least, promised_error(candidates[next++]).value_or(HUGE_VAL));
+            continue;
+        }
+        if (!world.measure.over_domain)
+            return fail(
+                Fault::needs_lab,
+                fmt::format("no study has searched this domain for '{}': that needs gobo-lab", effects),
+                "; or choose by the error on scenes alone: --typical");
+        std::vector<Key> open;  // as many as there are threads
+        std::vector<std::size_t> places;
+        for (std::size_t i = next; i < candidates.size() && std::ssize(open) < world.jobs(); ++i) {
+            if (!is_open(candidates[i])) continue;
+            open.push_back(candidates[i].key);
+            places.push_back(i);
+        }
+        GOBO_TRY(const auto worst, world.measure.over_domain(world, family, open, options.max_error));
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            StudiedKey& key = candidates[places[i]];
+            key.worst = worst[i];
+            if (is_promised(key)) continue;
+            least = std::min(least, promised_error(key).value_or(HUGE_VAL));
+            key.worst = HUGE_VAL;
+        }
     }
-    return worst;
+    return fail(
+        {.message = fmt::format("no quality is promised within an error of {} over the whole domain",
+                                options.max_error),
+         .help = fmt::format(
+             "{}narrow the domain to what the application has, --domain FILE, or choose by "
+             "the error on scenes alone: --typical",
+             std::isfinite(least) ? fmt::format("raise it to {} or more, ", short_number(least)) : ""),
+         .subject = effects});
 }
 
 /// The key that the budget chooses for one combination of effects.
 Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
-                                 const StudiedEffects& studied, const WorstErrors& worst,
-                                 const BudgetOptions& options, const Key& effects) {
+                                 const StudiedEffects& studied, const BudgetOptions& options,
+                                 const Key& effects) {
     const std::string text = key_text(family.family, effects);
     const auto found = studied.find(effects);
     const bool is_studied = found != studied.end();
@@ -79,22 +90,24 @@ Result<QualityChoice> choose_for(const World& world, const LoadedFamily& family,
              .help = fmt::format("study them: gobo study {} --effects '{}' --no-time --gpu {} -o study",
                                  family.name, text, join(options.gpus, ",")),
              .subject = text});
-    if (!is_studied && !world.measure)
+    if (!is_studied && !world.measure.on_scenes)
         return fail(
             Fault::needs_lab, fmt::format("no study has measured '{}': that needs gobo-lab", text),
             fmt::format(
                 "; or have it measured elsewhere, gobo study {} --effects '{}' --no-time -o study, and "
                 "choose by --study study/study.csv",
                 family.name, text));
-    GOBO_TRY(auto keys, is_studied ? found->second : world.measure(world, family, studied, effects));
+    GOBO_TRY(auto keys,
+             is_studied ? found->second : world.measure.on_scenes(world, family, studied, effects));
     std::erase_if(keys, [&](const StudiedKey& key) {
         const bool has_cost = options.gpus.empty() || std::isfinite(key.cost);
         return !has_cost || forbidding_rule(family.family, key.key, name_of(family.dialect)) != nullptr;
     });
-    GOBO_TRY(const StudiedKey chosen, choose(keys, options, text));
-    return QualityChoice{chosen.key,   kSafety * chosen.error,
-                         chosen.error, worst_error_of(family.family, chosen.key, text, worst),
-                         chosen.cost,  is_studied ? "study" : "measured"};
+    const bool is_over_domain = options.max_error > 0 && !options.typical;
+    GOBO_TRY(const StudiedKey chosen, is_over_domain ? choose_over_domain(world, family, keys, options, text)
+                                                     : choose(keys, options, text));
+    return QualityChoice{chosen.key,  promised_error(chosen),           typical_error(chosen), chosen.error,
+                         chosen.cost, is_studied ? "study" : "measured"};
 }
 
 }  // namespace
@@ -103,9 +116,17 @@ OptionGroup budget_options(BudgetOptions& options) {
     return {
         "Choice by a budget",
         {{"--max-error", "X",
-          "For each combination of effects choose the cheapest quality that promises no larger error, in "
-          "linear radiance",
+          "For each combination of effects choose the cheapest quality that is promised to err by no more at "
+          "any "
+          "input of the domain, in linear radiance",
           &options.max_error, kPositive},
+         {"--domain", "FILE",
+          "A file whose [domain] is narrower than the family's: the promise, the manifest and check(block) "
+          "hold "
+          "over it",
+          &options.domain},
+         {"--typical", "", "The error need only hold on scenes like the study's, not over the whole domain",
+          &options.typical},
          {"--max-cost", "Y",
           "Choose the most accurate quality that costs no more, in additions a fragment; with --max-error a "
           "second limit",
@@ -119,7 +140,18 @@ OptionGroup budget_options(BudgetOptions& options) {
           &options.study}}};
 }
 
+Result<void> narrow_domains(const World& world, LoadedFamily& family, const std::string& file) {
+    if (file.empty()) return {};
+    GOBO_TRY(const std::string text, read_input(world, file));
+    GOBO_TRY(family.narrowed, read_domain_file(text, file));
+    if (file != "-") family.files.push_back(file);
+    return narrow_domains(family.family, family.narrowed);
+}
+
 Result<void> refuse_without_budget(const BudgetOptions& options) {
+    if (options.typical && options.max_error <= 0)
+        return fail(Fault::usage, "--typical says how an error is to hold, and there is none",
+                    "state one: --max-error 0.01");
     if (options.is_set() || (options.gpus.empty() && options.study.empty())) return {};
     return fail(Fault::usage,
                 fmt::format("{} says how a budget chooses qualities, and there is none",
@@ -131,7 +163,6 @@ Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFa
                                                     const BudgetOptions& options,
                                                     const std::vector<Key>& keys) {
     GOBO_TRY(const auto studied, load_studied(world, family, options));
-    const WorstErrors worst = load_worst_errors(world, family.family);
     std::map<Key, QualityChoice> chosen;
     Diagnostics problems;
     std::vector<QualityChoice> choices;
@@ -139,7 +170,7 @@ Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFa
         const Key effects = effects_of(family.family, key);
         const auto [choice, is_new] = chosen.try_emplace(effects);
         if (is_new) {
-            const auto made = choose_for(world, family, studied, worst, options, effects);
+            const auto made = choose_for(world, family, studied, options, effects);
             if (made)
                 choice->second = *made;
             else

@@ -87,6 +87,7 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     GOBO_TRY_DO(refuse_without_budget(options.budget));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const std::string stem, stem_of(options, family.family));
+    GOBO_TRY_DO(narrow_domains(world, family, options.budget.domain));
     if (options.comments) family.comments = Comments::keep;
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     std::vector<QualityChoice> qualities;
@@ -110,8 +111,8 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,
              read_header_templates(world.library(), world.in_library("templates/header")));
-    EmitInput input{family.family,         composition,          united.interface,
-                    options.cpp_namespace, std::move(qualities), united.differing};
+    EmitInput input{family.family,        composition,      united.interface, options.cpp_namespace,
+                    std::move(qualities), united.differing, family.narrowed};
     if (is_spirv(family.dialect))
         for (const ValidatedStage& stage : validated.stages) input.modules.emplace_back(stage.spirv);
     GOBO_TRY(const std::string header, emit_header(input, templates));

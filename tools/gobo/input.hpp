@@ -32,9 +32,18 @@ struct CommonOptions {
 
 struct LoadedFamily;
 
-/// Measures error and cost of a combination of effects that the study does not hold.
-using MeasureQualities = std::function<Result<std::vector<StudiedKey>>(
-    const World&, const LoadedFamily&, const StudiedEffects&, const Key& effects)>;
+/// What gobo-lab finds out of qualities; both null where it is not there.
+struct MeasureQualities {
+    /// Error and cost on the study's scenes, of a combination of effects that the study does not hold.
+    std::function<Result<std::vector<StudiedKey>>(const World&, const LoadedFamily&, const StudiedEffects&,
+                                                  const Key& effects)>
+        on_scenes;
+    /// StudiedKey::worst of each key, over the family's domain. One that errs by more than `enough` is
+    /// searched until that is seen.
+    std::function<Result<std::vector<double>>(const World&, const LoadedFamily&, const std::vector<Key>&,
+                                              double enough)>
+        over_domain;
+};
 
 /// The world that a command runs in.
 struct World {
@@ -63,7 +72,8 @@ struct LoadedFamily {
     std::string text;  ///< of the family file, for messages
     Family family;
     SearchPath search;
-    std::vector<std::string> files;  ///< on disk, for the depfile
+    std::vector<std::string> files;     ///< on disk, for the depfile
+    std::vector<Domain> narrowed = {};  ///< of its domains, those that --domain narrowed
     Dialect dialect = Dialect::own;
     Comments comments = Comments::remove;
 };
@@ -100,17 +110,22 @@ struct SelectionOptions {
 /// What a budget chooses qualities by.
 struct BudgetOptions : Budget {
     std::string study;                   ///< a study.csv or summary.csv; empty: the shipped one of the family
+    std::string domain;                  ///< a file of narrower domains
     std::vector<std::string> gpus = {};  ///< chips whose cycles are the cost
 };
 [[nodiscard]] OptionGroup budget_options(BudgetOptions& options);
 /// An error where options say how a budget chooses and there is none.
 [[nodiscard]] Result<void> refuse_without_budget(const BudgetOptions& options);
 
+/// Narrows the family's domains by --domain, where it is given.
+[[nodiscard]] Result<void> narrow_domains(const World& world, LoadedFamily& family, const std::string& file);
+
 /// For each key the one that the budget chooses for its effects, in the same order, with what it was chosen
 /// by. Effects that the study has not measured are measured now, on the study's scenes, at the qualities that
-/// lie on a front of the study. Keys that the dialect forbids are not chosen. Errors: no quality within the
-/// budget, for each combination; effects that cannot be measured here (Fault::needs_lab); a study that cannot
-/// be read (its file is added to `family.files`).
+/// lie on a front of the study; what errors are promised over the domain is searched for now, too, where the
+/// study does not say it or the domain is narrower. Keys that the dialect forbids are not chosen. Errors: no
+/// quality within the budget, for each combination; effects that cannot be measured here (Fault::needs_lab);
+/// a study that cannot be read (its file is added to `family.files`).
 [[nodiscard]] Result<std::vector<QualityChoice>> choose_qualities(const World& world, LoadedFamily& family,
                                                                   const BudgetOptions& options,
                                                                   const std::vector<Key>& keys);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <limits>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/study/qualities.hpp"
+#include "lab/study/worst_case.hpp"
 
 namespace gobo {
 namespace {
@@ -185,6 +187,23 @@ Result<std::vector<StudiedKey>> measure_qualities(const World& world, const Load
                                  plan, journal));
     progress("", 1, 1);
     return study::studied_keys(result, weights);
+}
+
+Result<std::vector<double>> worst_errors(const World& world, const LoadedFamily& family,
+                                         const std::vector<Key>& keys, double enough) {
+    const study::Progress progress = progress_on_terminal(world);
+    progress(fmt::format("searching the domain for the worst error of {} keys", keys.size()), 0, 1);
+    const study::WorstCaseOptions options{kPromisePoints, 1, enough};
+    GOBO_TRY(
+        const auto cases,
+        study::find_worst_cases({world.shipped, family.family, family.search, world.jobs()}, keys, options));
+    std::vector<double> errors;
+    for (const Key& key : keys) {
+        const auto found = std::ranges::find(cases, key, &study::WorstCase::key);
+        errors.push_back(found == cases.end() ? std::numeric_limits<double>::infinity() : found->error);
+    }
+    progress("", 1, 1);
+    return errors;
 }
 
 Diagnostic note_in(const std::string& file, std::string message) {

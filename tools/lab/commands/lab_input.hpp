@@ -80,6 +80,12 @@ inline constexpr std::string_view kVulkanBackend = "vulkan";
                                                                 const StudiedEffects& studied,
                                                                 const Key& effects);
 
+/// StudiedKey::worst of each key, over the family's domain, by a search of kPromisePoints points of each. One
+/// that errs by more than `enough` is searched until that is seen.
+[[nodiscard]] Result<std::vector<double>> worst_errors(const World& world, const LoadedFamily& family,
+                                                       const std::vector<Key>& keys, double enough);
+inline constexpr std::size_t kPromisePoints = 65536;
+
 /// What the keys of a study.csv at `path` cost on chips, by the drivers that `driver` names (see
 /// cost::find_driver()). What cannot be told is added to `diagnostics`.
 [[nodiscard]] std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,

@@ -16,6 +16,6 @@ int main(int argc, char** argv) {
                             {eval_command(), test_command(), sanitize_command(), prove_command(),
                              probe_command(), render_command(), link_command(), cost_command(),
                              study_command(), build, scene, compile_pipelines_command()},
-                            measure_qualities},
+                            {measure_qualities, worst_errors}},
                            argc, argv);
 }

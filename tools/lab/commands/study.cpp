@@ -1,8 +1,10 @@
 // gobo study: error against cost of every quality, as tables and as a report.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/csv.hpp"
 #include "core/file_system.hpp"
@@ -155,11 +157,52 @@ Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, c
     return effects;
 }
 
-/// The columns quality and error of a table.
-Result<std::vector<study::Promise>> read_promises(const World& world, const std::string& path) {
+/// Promises to be tried, and what they are about.
+struct PromisesToTry {
     std::vector<study::Promise> promises;
-    if (path.empty()) return promises;
+    std::vector<Key> keys;        ///< of a manifest; nothing of a table, whose promises are about any effects
+    std::vector<Domain> domains;  ///< of a manifest: narrower ones
+};
+
+/// Of a manifest that gobo build wrote where a budget chose: its keys, what is promised of them, and its
+/// domain.
+Result<PromisesToTry> promises_of_manifest(const Family& family, const std::string& text,
+                                           const std::string& path) {
+    const auto manifest = nlohmann::json::parse(text, nullptr, false);
+    if (!manifest.is_object() || !manifest.contains("permutations") ||
+        manifest.value("family", "") != family.name)
+        return fail({path, 1, 0}, "", fmt::format("is no manifest of '{}'", family.name),
+                    "name one that gobo build wrote, or a table of promises");
+    PromisesToTry all;
+    for (const auto& permutation : manifest["permutations"]) {
+        if (!permutation.contains("promised_error")) continue;
+        GOBO_TRY(const Key key, parse_key(family, permutation.value("key", "")));
+        all.keys.push_back(key);
+        all.promises.push_back({key_text(family, key), permutation.value("promised_error", 0.0)});
+    }
+    if (all.keys.empty())
+        return fail({path, 1, 0}, "", "promises nothing: no budget chose its keys, or only by typical errors",
+                    "build it with --max-error X");
+    for (const auto& row : manifest.value("domain", nlohmann::json::array())) {
+        Domain& domain = all.domains.emplace_back();
+        domain.name = row.value("name", "");
+        domain.of_length = row.contains("length");
+        const auto range = row.value(domain.of_length ? "length" : "range", std::vector<double>(2));
+        domain.low = range.front();
+        domain.high = range.back();
+        domain.also = row.value("also", std::vector<double>());
+        domain.last = row.value("last", std::vector<double>());
+        domain.place = {path, 1, 0};
+    }
+    return all;
+}
+
+/// The columns quality and error of a table, or what a manifest promises.
+Result<PromisesToTry> read_promises(const World& world, const Family& family, const std::string& path) {
+    PromisesToTry all;
+    if (path.empty()) return all;
     GOBO_TRY(const std::string text, read_input(world, path));
+    if (path.ends_with(".json")) return promises_of_manifest(family, text, path);
     const CsvTable table = read_csv(text);
     const auto quality = table.column("quality");
     const auto error = table.column("error");
@@ -168,51 +211,64 @@ Result<std::vector<study::Promise>> read_promises(const World& world, const std:
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
         const auto number = number_in_cell(table.rows[row][*error]);
         if (!number) return fail_at_row(path, row, "'error' is not a number", "write what is promised: 0.01");
-        promises.push_back({table.rows[row][*quality], *number});
+        all.promises.push_back({table.rows[row][*quality], *number});
     }
-    return promises;
+    return all;
 }
 
-/// The error on the study's scenes, or nothing where it has none of that key.
-std::optional<double> error_on_scenes(const std::vector<study::StudyRow>& rows, const std::string& key) {
-    const auto row = std::ranges::find(rows, key, &study::StudyRow::key);
-    return row == rows.end() ? std::nullopt : std::optional(row->total.max);
+/// The errors on the study's scenes by key text; nothing where there is no study.
+std::map<std::string, double> errors_on_scenes(const StudyCommandOptions& options, const World& world,
+                                               const Family& family) {
+    std::map<std::string, double> errors;
+    if (const auto rows = read_study(options, world, family, nullptr))
+        for (const study::StudyRow& row : *rows)
+            if (row.scene == kAllScenes) errors[row.key] = row.total.max;
+    return errors;
+}
+
+/// What is searched: the keys that are promised something, those of a study that is named, or every single
+/// choice.
+Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, const World& world,
+                                        const Family& family, const PromisesToTry& promised) {
+    if (!promised.keys.empty()) return promised.keys;
+    std::vector<Key> keys;
+    if (!options.study_file.empty()) {
+        GOBO_TRY(const auto rows, read_study(options, world, family, nullptr));
+        for (const study::StudyRow& row : rows)
+            if (row.scene == kAllScenes) keys.push_back(parse_key(family, row.key).value());
+        return keys;
+    }
+    GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
+    GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
+    for (const Key& of : effects) {
+        keys.push_back(study::most_accurate(family, of));
+        for (const study::Choice& choice : study::single_choices(family, of)) keys.push_back(choice.key);
+    }
+    return keys;
 }
 
 Result<Outcome> search_worst(const StudyCommandOptions& options, const World& world) {
-    GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
+    GOBO_TRY(LoadedFamily loaded, load_family(world, options.family));
+    GOBO_TRY(const PromisesToTry promised, read_promises(world, loaded.family, options.promises));
+    GOBO_TRY_DO(narrow_domains(loaded.family, promised.domains));
+    GOBO_TRY_DO(narrow_domains(world, loaded, options.domain));
     const Family& family = loaded.family;
-    GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
-    GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
-    study::WorstCaseOptions search{options.worst, 1, {}};
-    GOBO_TRY(const auto promises, read_promises(world, options.promises));
-    if (!options.domain.empty()) {
-        GOBO_TRY(const std::string text, read_input(world, options.domain));
-        GOBO_TRY(search.domains, read_domain_file(text, options.domain));
-    }
-    std::vector<int> rate;
-    for (std::size_t i = 0; i < family.features.size(); ++i)
-        if (std::ranges::find(plan.rate, family.features[i].name) != plan.rate.end())
-            rate.push_back(static_cast<int>(i));
+    GOBO_TRY(const std::vector<Key> keys, keys_to_search(options, world, family, promised));
     const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
-    GOBO_TRY(const auto cases, study::find_worst_cases(subject, effects, rate, search));
-    const auto shipped =
-        read_or_shipped(world, options.study_file, fmt::format("data/study/{}.csv", family.name));
+    GOBO_TRY(const auto cases, study::find_worst_cases(subject, keys, {options.worst}));
+    const std::map<std::string, double> typical = errors_on_scenes(options, world, family);
     std::string text =
-        fmt::format("{:<40} {:<32} {:>9} {:>9} {:>9}\n", "effects", "quality", "scenes", "worst", "accurate");
+        fmt::format("{:<40} {:<32} {:>9} {:>9} {:>9}\n", "effects", "quality", "scenes", "worst", "rounding");
     Diagnostics diagnostics;
     std::size_t number = 0;
     for (const study::WorstCase& worst : cases) {
-        std::optional<double> typical;
-        if (shipped)
-            if (const auto rows = study::read_rows(shipped->text, shipped->path, family, worst.effects))
-                typical = error_on_scenes(*rows, key_text(family, worst.key));
-        text +=
-            fmt::format("{:<40} {:<32} {:>9} {:>9.2g} {:>9.2g}\n", key_text(family, worst.effects),
-                        study::quality_text(family, worst.key),
-                        typical ? fmt::format("{:.2g}", *typical) : "-", worst.error, worst.accurate_error);
-        if (options.folder.empty()) continue;
         const std::string key = key_text(family, worst.key);
+        const auto on_scenes = typical.find(key);
+        text += fmt::format("{:<40} {:<32} {:>9} {:>9.2g} {:>9.2g}\n", key_text(family, worst.effects),
+                            study::quality_text(family, worst.key),
+                            on_scenes == typical.end() ? "-" : fmt::format("{:.2g}", on_scenes->second),
+                            worst.error, worst.rounding);
+        if (options.folder.empty() || worst.error <= 0) continue;
         const std::string path = fmt::format("{}/{}.toml", options.folder, ++number);
         const std::string follow =
             fmt::format("gobo eval {} '{}' --inputs {}", shell_word(options.family), key, shell_word(path));
@@ -220,14 +276,20 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
                keep_file(world, path,
                          evaluate::eval_file("fragment", worst.input, {follow}, evaluate::Digits::of_float)));
     }
-    for (const study::Promise& promise : study::broken_promises(family, promises, cases))
+    for (const study::Promise& promise : study::broken_promises(family, promised.promises, cases))
         diagnostics.push_back(
             {.message = fmt::format("{} is promised to err by at most {:.3g}, and errs by more",
                                     promise.quality, promise.error),
              .help = "promise more, or narrow the domain: --domain FILE"});
-    if (!options.folder.empty())
+    if (!options.folder.empty()) {
         append(diagnostics,
                keep_file(world, options.folder + "/worst.csv", study::worst_case_csv(family, cases)));
+        if (!options.study_file.empty()) {
+            GOBO_TRY(const std::string studied, read_input(world, options.study_file));
+            append(diagnostics, keep_file(world, options.folder + "/study.csv",
+                                          csv_text(study::with_worst(read_csv(studied), family, cases))));
+        }
+    }
     return Outcome{text, std::move(diagnostics)};
 }
 
@@ -390,15 +452,17 @@ Command study_command() {
           &options->fronts},
          {"--study", "FILE",
           "With --front and --fronts: a study.csv or summary.csv; by default the one that came with the "
-          "family",
+          "family. With --worst its keys are searched, and -o gets it with their worst errors in a column "
+          "more",
           &options->study_file},
          {"--worst", "N",
-          "Instead, search N points of the domain for the worst error of each quality's values, beside that "
-          "on "
-          "the study's scenes; with -o its input, for gobo eval",
+          "Instead, search N points of the domain for the worst error of each quality's values beyond "
+          "rounding, "
+          "beside that on the study's scenes; with -o its input, for gobo eval",
           &options->worst, between(1, 1e12)},
          {"--promises", "FILE",
-          "With --worst: a CSV table of quality and error; those that the search breaks are errors",
+          "With --worst: a manifest that gobo build --max-error wrote, or a CSV table of quality and error; "
+          "promises that the search breaks are errors",
           &options->promises},
          {"--domain", "FILE", "With --worst: a file whose [domain] is narrower than the family's",
           &options->domain},

@@ -15,6 +15,7 @@
 #include "lab/render/render.hpp"
 #include "lab/verify/cross_check.hpp"
 #include "lab/verify/on_mesh.hpp"
+#include "lab/verify/stage_check.hpp"
 #include "lab/verify/verify.hpp"
 
 namespace gobo {
@@ -68,6 +69,27 @@ Diagnostics report_failure(const World& world, const TestOptions& options, const
     return diagnostics;
 }
 
+/// One error for the key whose formula loses what its inputs have, and a note for the worst point.
+Diagnostics report_unexplained(const World& world, const TestOptions& options, const std::string& key,
+                               const verify::PermutationReport& report) {
+    const verify::Failure& failure = *report.least_explained;
+    Diagnostics diagnostics =
+        fail(
+            Fault::input,
+            fmt::format(
+                "{} of {} points err by more than {} roundings of their inputs explain: a formula loses them",
+                report.figures.unexplained, report.figures.points, verify::kConditionFactor),
+            fmt::format("compare its operations in fp32 and fp64: gobo eval {} '{}' --inputs FILE --trace{}",
+                        shell_word(options.family), key,
+                        options.folder.empty() ? "; keep the worst point with -o DIR" : ""))
+            .value();
+    diagnostics.front().subject = key;
+    append(diagnostics, keep_point(world, options, file_name(key, failure.stage, "unexplained"),
+                                   verify::eval_input(failure, key),
+                                   fmt::format("{} stage: {}", name_of(failure.stage), to_text(failure))));
+    return diagnostics;
+}
+
 /// One error at the relation, and a note for the worst point on either side.
 Diagnostics report_broken_relation(const World& world, const TestOptions& options, const Family& family,
                                    const Key& key, const verify::RelationReport& report) {
@@ -105,6 +127,9 @@ Diagnostics report_failures(const World& world, const TestOptions& options, cons
         if (permutation.failed_points > 0)
             append(diagnostics,
                    report_failure(world, options, key_text(family, permutation.key), permutation));
+        if (permutation.least_explained)
+            append(diagnostics,
+                   report_unexplained(world, options, key_text(family, permutation.key), permutation));
         for (const verify::RelationReport& relation : permutation.relations)
             if (relation.failed > 0)
                 append(diagnostics,
@@ -146,6 +171,10 @@ std::string figures_text(const verify::VerifyReport& report) {
             report.points_on_meshes, figures.largest_fp64_error);
     text += relations_text(report);
     text += fmt::format("fp32: at most {:.2f} of the error bound\n", figures.largest_fp32_ratio);
+    if (report.without_oracle < report.permutations.size())
+        text += fmt::format(
+            "fp32: at {} points the bound is above the value, at {} of them above {} of the light\n",
+            figures.vacuous, figures.loose, verify::kLooseBound);
     text += fmt::format(
         "{} permutations, {} points, {} ({:.3f} %) at a discontinuity, {} permutations without an "
         "oracle\n",

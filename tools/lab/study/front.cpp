@@ -179,8 +179,31 @@ std::vector<const StudyRow*> front_of(const std::vector<const StudyRow*>& rows) 
     for (const StudyRow* row : rows)
         if (row->on_front) front.push_back(row);
     std::sort(front.begin(), front.end(), is_more_accurate);
+    if (front.empty()) return front;
+    // Where errors are nothing but roundings, on scenes and over the domain, the cheapest stands for all.
+    const double rounding = (1 + kChance) * front.front()->total.max;
+    const auto is_alike = [&](const StudyRow* row, const StudyRow* other) {
+        const bool worst_alike = row->worst.has_value() == other->worst.has_value() &&
+                                 (!row->worst || *other->worst <= *row->worst + rounding);
+        return other->total.max <= rounding && other->costs.total < row->costs.total && worst_alike;
+    };
+    const std::vector<const StudyRow*> all = front;
+    std::erase_if(front, [&](const StudyRow* row) {
+        return row->total.max <= rounding &&
+               std::ranges::any_of(all, [&](const StudyRow* other) { return is_alike(row, other); });
+    });
     return front;
 }
+
+namespace {
+
+/// Of the domain, beyond rounding.
+std::string worst_text(const StudyRow& row) {
+    if (!row.worst) return "\u2013";
+    return std::isfinite(*row.worst) ? short_number(*row.worst) : "not promised";
+}
+
+}  // namespace
 
 std::string front_table(const std::vector<StudyRow>& rows) {
     std::vector<const StudyRow*> all;
@@ -191,11 +214,12 @@ std::string front_table(const std::vector<StudyRow>& rows) {
     if (lines.size() > kFrontLines) lines.erase(lines.begin() + 1, lines.end() - (kFrontLines - 1));
     fill_up(front, lines);
     std::string text =
-        "| quality | largest error | RMS error | cost, additions | time, ns |\n|---|---|---|---|---|\n";
+        "| quality | largest error | RMS error | worst of the domain | cost, additions | time, ns |\n"
+        "|---|---|---|---|---|---|\n";
     for (const StudyRow* row : lines)
-        text += fmt::format("| {} | {} | {} | {} | {} |\n",
+        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n",
                             row->quality.empty() ? "most accurate" : "`" + row->quality + "`",
-                            short_number(row->total.max), short_number(row->total.rms),
+                            short_number(row->total.max), short_number(row->total.rms), worst_text(*row),
                             short_number(row->costs.total), row->timing ? spread_text(row->time()) : "");
     return text;
 }

@@ -77,7 +77,8 @@ class Chart {
 /// -1 where there is none.
 [[nodiscard]] int coloured_feature(const Family& family, const std::vector<std::string>& rate);
 
-/// What is on the front, most accurate first.
+/// What is on the front, most accurate first. Of rows whose errors are alike, nothing but roundings (within
+/// kChance times those of the most accurate one) on the scenes and over the domain, the cheapest.
 [[nodiscard]] std::vector<const StudyRow*> front_of(const std::vector<const StudyRow*>& rows);
 
 /// A table in Markdown, of at most six lines: the most accurate quality on the front, then for each power of

@@ -121,6 +121,7 @@ void visit_columns(Row& row, const auto& column, const auto& derived) {
     if constexpr (!std::is_const_v<Row>)
         if (rounds) row.timing = timing;
     column("fragment_instructions", row.instructions);
+    if constexpr (!std::is_const_v<Row>) column("error_worst", row.worst);
     derived("fragment_operations", counts_text(row.work.fragments));
     derived("vertex_operations", counts_text(row.work.vertices));
 }
@@ -175,10 +176,6 @@ void mark_time_front(std::vector<StudyRow*> rows, const std::optional<Control>& 
             return other->total.max <= row->total.max && other->time().high < row->time().low;
         });
 }
-
-/// Errors that differ by less than so many times that of the most accurate key, which has nothing but
-/// roundings, are alike: which of two such is the smaller is chance.
-constexpr double kChance = 2;
 
 bool is_less(const ErrorFigures& first, const ErrorFigures& second, const ErrorFigures& accurate) {
     return first.max + kChance * accurate.max < second.max || first.rms + kChance * accurate.rms < second.rms;

@@ -10,6 +10,10 @@
 
 namespace gobo::study {
 
+/// Errors that differ by less than so many times that of the most accurate key, which has nothing but
+/// roundings, are alike: which of two such is the smaller is chance.
+inline constexpr double kChance = 2;
+
 /// What a row costs on a chip, by its compiler's estimate.
 struct ChipRow {
     std::string gpu;               ///< "navi21"
@@ -33,6 +37,8 @@ struct StudyRow : Measurement {
     /// Whether no key that is as accurate is measurably faster. Nothing where the row was not timed, or the
     /// control of its combination of effects does not hold.
     std::optional<bool> on_time_front;
+    /// Over the domain, as StudiedKey::worst has it; only in a study that `--worst` searched.
+    std::optional<double> worst;
     std::vector<ChipRow> chips;  ///< read from a study that has them; in the order of its columns
 
     /// Nanoseconds of a fragment with its part of the vertices, as Costs::total; of a row that was timed.

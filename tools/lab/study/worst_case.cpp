@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/raster/random_numbers.hpp"
+#include "lab/study/parallel_results.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/inputs.hpp"
@@ -54,64 +56,83 @@ void bring_to_edges(Sample& sample, Random& random) {
     }
 }
 
-/// A number, vector or matrix that both stages may read.
+/// A number, vector or matrix that the stage reads.
 struct SearchedField {
     verify::Field field;
     std::string name;
     std::optional<Domain> domain;
-    bool is_direction = false;
+
+    [[nodiscard]] bool is_of_length() const { return domain && domain->of_length; }
 };
 
-bool is_direction(const std::string& name) {
-    return name.ends_with(".direction") || name.ends_with(".axis") || name == "eyeNormal";
-}
-
-std::vector<SearchedField> fields_of(const evaluate::Program& program, const std::vector<Domain>& narrower,
-                                     const std::vector<Domain>& domains) {
+std::vector<SearchedField> fields_of(const evaluate::Program& program, const std::vector<Domain>& domains) {
     std::vector<SearchedField> fields;
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports) {
             const auto field = verify::field_of(port.name);
             if (!field || port.scalar != evaluate::Scalar::float32) continue;
-            const Domain* domain = verify::domain_of(narrower, port.name);
-            if (domain == nullptr) domain = verify::domain_of(domains, port.name);
-            fields.push_back({*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain),
-                              is_direction(port.name)});
+            const Domain* domain = verify::domain_of(domains, port.name);
+            fields.push_back({*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain)});
         }
     return fields;
 }
 
+double nearest_in(const Domain& domain, double number) {
+    return std::ranges::find(domain.also, number) != domain.also.end()
+               ? number
+               : std::clamp(number, domain.low, domain.high);
+}
+
+/// A domain's length is of all numbers but a last one that has a range of its own.
 void bring_into_domain(const SearchedField& field, Sample& sample) {
+    if (!field.domain) return;
+    const Domain& domain = *field.domain;
     std::vector<double> numbers = field.field.get(sample);
-    double square = 0;
-    for (const double number : numbers) square += number * number;
-    if (field.is_direction && square > 0) {
-        for (double& number : numbers) number /= std::sqrt(square);
-    } else if (field.domain && !field.domain->of_length) {
-        for (double& number : numbers) {
-            const auto& also = field.domain->also;
-            if (std::ranges::find(also, number) == also.end())
-                number = std::clamp(number, field.domain->low, field.domain->high);
-        }
+    const std::span<double> first(numbers.data(), numbers.size() - (domain.last.empty() ? 0 : 1));
+    if (domain.of_length) {
+        double square = 0;
+        for (const double number : first) square += number * number;
+        const double length = std::sqrt(square);
+        if (length > 0)
+            for (double& number : first) number *= nearest_in(domain, length) / length;
+    } else {
+        for (double& number : first) number = nearest_in(domain, number);
     }
+    if (!domain.last.empty()) numbers.back() = std::clamp(numbers.back(), domain.last[0], domain.last[1]);
     field.field.set(sample, numbers);
 }
 
-/// One quality against the most accurate one.
+/// Puts one of the numbers at an end of its domain, or makes it one of those allowed besides.
+void bring_to_end(const SearchedField& field, Sample& sample, Random& random) {
+    if (!field.domain) return;
+    std::vector<double> numbers = field.field.get(sample);
+    if (numbers.empty()) return;
+    std::vector<double> ends = field.domain->also;
+    ends.push_back(field.domain->low);
+    ends.push_back(field.domain->high);
+    const double end = random.pick(ends);
+    if (field.is_of_length())
+        for (double& number : numbers) number *= end;
+    else
+        numbers[random.index(numbers.size())] = end;
+    field.field.set(sample, numbers);
+}
+
+/// One key against the oracle's most accurate model.
 class Search {
   public:
-    Search(const Family& family, const Variant& choice, const Variant& accurate, const oracle::Model& model,
+    Search(const Family& family, const Variant& variant, const oracle::Model& model,
            const oracle::Model& own_model, const WorstCaseOptions& options)
-        : choice_(choice),
-          accurate_(accurate),
+        : variant_(variant),
           model_(model),
           own_model_(own_model),
           options_(options),
           random_(options.seed),
-          fields_(fields_of(choice.program.fragment, options.domains, family.domains)) {}
+          fields_(fields_of(variant.program.fragment, family.domains)) {}
 
     Result<WorstCase> run() {
-        for (std::size_t done = 0; done < options_.points; done += kPortion) {
+        for (std::size_t done = 0; done < options_.points && worst_.error <= options_.enough;
+             done += kPortion) {
             const std::size_t count = std::min(kPortion, options_.points - done);
             const bool is_fresh = kept_.empty() || done / kPortion % 2 == 0;
             std::vector<Sample> samples = is_fresh ? drawn(count) : varied(count);
@@ -123,7 +144,7 @@ class Search {
     }
 
   private:
-    /// An input and by how much the choice errs more there.
+    /// An input and by how much more the key errs there than roundings explain.
     struct Kept {
         double excess = 0;
         Sample sample;
@@ -132,8 +153,11 @@ class Search {
     std::vector<Sample> drawn(std::size_t count) {
         std::vector<Sample> samples = verify::make_samples(own_model_, StageKind::fragment,
                                                            static_cast<int>(count), ++draws_ + options_.seed);
-        for (Sample& sample : samples)
+        for (Sample& sample : samples) {
             if (!random_.one_in(4)) bring_to_edges(sample, random_);
+            while (!fields_.empty() && random_.one_in(3))
+                bring_to_end(random_.pick(fields_), sample, random_);
+        }
         return samples;
     }
 
@@ -147,12 +171,14 @@ class Search {
     }
 
     void change(Sample& sample) {
+        if (fields_.empty()) return;
         const SearchedField& field = random_.pick(fields_);
+        if (random_.one_in(16)) return bring_to_end(field, sample, random_);
         std::vector<double> numbers = field.field.get(sample);
         if (numbers.empty()) return;
         double& number = numbers[random_.index(numbers.size())];
         const double size = std::exp2(random_.between(-20, 1));
-        if (field.is_direction)
+        if (field.is_of_length())
             number += size * random_.between(-1, 1);
         else
             number *=
@@ -161,36 +187,40 @@ class Search {
     }
 
     Result<void> judge(const std::vector<Sample>& samples) {
-        GOBO_TRY(const auto invocations, verify::bind_inputs(choice_.program.fragment, samples));
-        GOBO_TRY(const auto accurate_invocations, verify::bind_inputs(accurate_.program.fragment, samples));
-        GOBO_TRY(const auto outputs, evaluate::run<float>(choice_.program.fragment, invocations));
-        GOBO_TRY(const auto accurate, evaluate::run<float>(accurate_.program.fragment, accurate_invocations));
+        const evaluate::Program& program = variant_.program.fragment;
+        GOBO_TRY(const auto invocations, verify::bind_inputs(program, samples));
+        GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations));
         for (std::size_t i = 0; i < samples.size(); ++i) {
             ++worst_.points;
             oracle::Decisions decisions;
             const auto all = verify::expect(model_, StageKind::fragment, samples[i], decisions);
-            const auto expected = std::ranges::find(all, choice_.program.color, &verify::Expected::output);
+            const auto expected = std::ranges::find(all, variant_.program.color, &verify::Expected::output);
             if (decisions.open() > 0 || expected == all.end() || outputs.discarded[i]) continue;
-            const double error = error_of(outputs, *expected, i);
-            const double accurate_error = error_of(accurate, *expected, i);
-            if (!std::isfinite(error) || !std::isfinite(accurate_error)) continue;
-            keep(error - accurate_error, samples[i]);
-            if (error - accurate_error <= worst_.error - worst_.accurate_error) continue;
-            worst_.error = error;
-            worst_.accurate_error = accurate_error;
-            worst_.input = evaluate::point_of(choice_.program.fragment, invocations, i);
+            const auto [excess, rounding] = excess_of(outputs, *expected, i);
+            keep(excess, samples[i]);
+            if (excess <= worst_.error) continue;
+            worst_.error = excess;
+            worst_.rounding = rounding;
+            worst_.input = evaluate::point_of(program, invocations, i);
         }
         return {};
     }
 
-    [[nodiscard]] double error_of(const evaluate::Outputs& outputs, const verify::Expected& expected,
-                                  std::size_t invocation) const {
-        const std::vector<double>& values = outputs.values.at(choice_.program.color);
-        double error = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            error = std::max(error, std::abs(values[c * outputs.count + invocation] - expected.value[c]) /
-                                        std::max(expected.largest[c], 1.0));
-        return error;
+    /// Of the worst channel: its error beyond the bound of rounding, and that bound.
+    [[nodiscard]] std::pair<double, double> excess_of(const evaluate::Outputs& outputs,
+                                                      const verify::Expected& expected,
+                                                      std::size_t invocation) const {
+        const std::vector<double>& values = outputs.values.at(variant_.program.color);
+        std::pair<double, double> worst{-std::numeric_limits<double>::infinity(), 0};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double unit = std::max(expected.largest[c], 1.0);
+            const double error = std::abs(values[c * outputs.count + invocation] - expected.value[c]);
+            if (!std::isfinite(expected.value[c]) || !std::isfinite(expected.float_error[c])) continue;
+            const double excess = std::isfinite(error) ? (error - expected.float_error[c]) / unit
+                                                       : std::numeric_limits<double>::infinity();
+            if (excess > worst.first) worst = {excess, expected.float_error[c] / unit};
+        }
+        return worst;
     }
 
     void keep(double excess, const Sample& sample) {
@@ -202,8 +232,7 @@ class Search {
         if (excess > least->excess) *least = {excess, sample};
     }
 
-    const Variant& choice_;
-    const Variant& accurate_;
+    const Variant& variant_;
     const oracle::Model& model_;
     const oracle::Model& own_model_;
     const WorstCaseOptions& options_;
@@ -214,43 +243,44 @@ class Search {
     WorstCase worst_;
 };
 
+/// Whether the fragments are handed nothing that the most accurate key computes for each of them.
+bool is_per_fragment(const Variant& variant, const Variant& accurate) {
+    const auto& known = accurate.program.fragment.inputs;
+    return std::ranges::all_of(variant.program.fragment.inputs, [&](const evaluate::Port& port) {
+        return std::ranges::find(known, port.name, &evaluate::Port::name) != known.end();
+    });
+}
+
 }  // namespace
 
-Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const std::vector<Key>& effects,
-                                                const std::vector<int>& rate,
+Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const std::vector<Key>& keys,
                                                 const WorstCaseOptions& options) {
     const Family& family = subject.family;
-    std::vector<Key> keys;
-    std::vector<std::pair<Key, Key>> wanted;  // effects and choice
-    for (const Key& of : effects) {
-        keys.push_back(most_accurate(family, of));
-        for (const Choice& choice : single_choices(family, of)) {
-            if (std::ranges::find(rate, choice.feature) != rate.end()) continue;
-            keys.push_back(choice.key);
-            wanted.emplace_back(of, choice.key);
-        }
+    std::vector<Key> needed;
+    for (const Key& key : keys) {
+        needed.push_back(key);
+        needed.push_back(most_accurate(family, key));
     }
-    std::ranges::sort(keys);
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-    GOBO_TRY(const Variants variants, load_variants(subject, std::move(keys)));
-    std::vector<std::optional<Result<WorstCase>>> found(wanted.size());
-    parallel_for(subject.jobs, wanted.size(), [&](std::size_t i) {
-        const auto& [of, key] = wanted[i];
-        const Key accurate = most_accurate(family, of);
+    std::ranges::sort(needed);
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+    GOBO_TRY(const Variants variants, load_variants(subject, std::move(needed)));
+    std::vector<Key> searched;
+    std::vector<std::pair<oracle::Model, oracle::Model>> models;  // the most accurate one, the key's own
+    for (const Key& key : keys) {
+        const Key accurate = most_accurate(family, key);
         const auto model = oracle::model_of(family, accurate);
         const auto own = oracle::model_of(family, key);
-        if (!model || !own) return;
-        found[i] = Search(family, variants.at(key), variants.at(accurate), *model, *own, options).run();
-    });
-    std::vector<WorstCase> cases;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        if (!found[i]) continue;
-        GOBO_TRY(WorstCase worst, std::move(*found[i]));
-        worst.effects = wanted[i].first;
-        worst.key = wanted[i].second;
-        cases.push_back(std::move(worst));
+        if (!model || !own || !is_per_fragment(variants.at(key), variants.at(accurate))) continue;
+        searched.push_back(key);
+        models.emplace_back(*model, *own);
     }
-    return cases;
+    return parallel_results(subject.jobs, searched.size(), [&](std::size_t i) -> Result<WorstCase> {
+        Search search(family, variants.at(searched[i]), models[i].first, models[i].second, options);
+        GOBO_TRY(WorstCase worst, search.run());
+        worst.effects = effects_of(family, searched[i]);
+        worst.key = searched[i];
+        return worst;
+    });
 }
 
 std::vector<Promise> broken_promises(const Family& family, const std::vector<Promise>& promises,
@@ -258,17 +288,38 @@ std::vector<Promise> broken_promises(const Family& family, const std::vector<Pro
     std::vector<Promise> broken;
     for (const Promise& promise : promises)
         if (std::ranges::any_of(cases, [&](const WorstCase& worst) {
-                return quality_text(family, worst.key) == promise.quality && worst.error > promise.error;
+                return (quality_text(family, worst.key) == promise.quality ||
+                        key_text(family, worst.key) == promise.quality) &&
+                       worst.error > promise.error;
             }))
             broken.push_back(promise);
     return broken;
 }
 
+CsvTable with_worst(CsvTable study, const Family& family, const std::vector<WorstCase>& cases) {
+    std::map<std::string, double> errors;
+    for (const WorstCase& worst : cases) errors[key_text(family, worst.key)] = worst.error;
+    constexpr const char* kColumn = "error_worst";
+    if (!study.column(kColumn)) {
+        study.columns.emplace_back(kColumn);
+        for (auto& row : study.rows) row.emplace_back();
+    }
+    const std::size_t at = study.column(kColumn).value();
+    const auto key_at = study.column("key");
+    const auto scene_at = study.column("scene");
+    for (auto& row : study.rows) {
+        const auto found = key_at ? errors.find(row[*key_at]) : errors.end();
+        const bool is_of_all = scene_at && row[*scene_at] == kAllScenes;
+        row[at] = !is_of_all ? "" : found == errors.end() ? "none" : fmt::format("{:.3g}", found->second);
+    }
+    return study;
+}
+
 std::string worst_case_csv(const Family& family, const std::vector<WorstCase>& cases) {
-    std::string text = "effects,quality,worst,most_accurate,points\n";
+    std::string text = "effects,quality,worst,rounding,points\n";
     for (const WorstCase& worst : cases)
         text += fmt::format("{},{},{:.3g},{:.3g},{}\n", key_text(family, worst.effects),
-                            quality_text(family, worst.key), worst.error, worst.accurate_error, worst.points);
+                            quality_text(family, worst.key), worst.error, worst.rounding, worst.points);
     return text;
 }
 

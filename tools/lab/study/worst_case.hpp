@@ -2,47 +2,49 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/csv.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/study/points.hpp"
 
 namespace gobo::study {
 
-/// One quality that differs from the most accurate one in a single value, at the worst input found.
+/// A key at the worst input found.
 struct WorstCase {
     Key effects;
     Key key;
-    /// Of a channel of the fragment's colour in fp32, as a part of the light that reaches the point (each
-    /// light's, taken before its cosine weakens it), or of 1 where less does.
+    /// How much further from the exact answer a channel of the fragment's colour is in fp32 than the
+    /// roundings of floats explain at that input, as a part of the light that reaches the point (each
+    /// light's, taken before its cosine weakens it), or of 1 where less does. Infinite where it is no number.
     double error = 0;
-    double accurate_error = 0;  ///< of the most accurate quality at the same input
+    double rounding =
+        0;  ///< what they explain there: the bound that verify::expect() derives, in the same unit
     std::uint64_t points = 0;
     evaluate::EvalPoint input;  ///< of the fragment stage
 };
 
 struct WorstCaseOptions {
-    std::size_t points = 20000;  ///< of each quality; half are drawn, half vary the worst so far
+    std::size_t points = 20000;  ///< of each key; half are drawn, half vary the worst so far
     std::uint64_t seed = 1;
-    std::vector<Domain> domains;  ///< narrower ones, ahead of the family's
+    double enough =
+        std::numeric_limits<double>::infinity();  ///< a key that errs by more is searched no further
 };
 
-/// For each combination of effects and each single choice of a quality feature that is computed in the
-/// fragment stage (`rate` names the features that say where light is computed, whose error hangs on the
-/// mesh). Inputs are those of verify::make_samples(), with shininess from 0.1 to 1e6 and cones from 1e-3
-/// radians on, points beside the cones' edges, within the domains; the search maximises by how much the
-/// choice errs more than the most accurate quality, so that it finds what the choice costs and no
-/// ill-conditioned inputs. Points at a discontinuity are left out. Choices whose model the oracle does not
-/// know are left out too.
+/// For each key, searched where its fragment stage may err most within the family's domains: inputs are those
+/// of verify::make_samples(), with shininess from 0.1 to 1e6 and cones from 1e-3 radians on, points beside
+/// the cones' edges, and numbers at the ends of their domains. Points at a discontinuity are left out. No
+/// case for keys whose vertices hand over what the most accurate key computes for each fragment (their errors
+/// hang on the mesh), nor for those whose model the oracle does not know.
 [[nodiscard]] Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject,
-                                                              const std::vector<Key>& effects,
-                                                              const std::vector<int>& rate,
+                                                              const std::vector<Key>& keys,
                                                               const WorstCaseOptions& options);
 
-/// A promise about a quality: that it errs by no more.
+/// A promise about a key, or about a quality with any effects: that it errs by no more.
 struct Promise {
-    std::string quality;  ///< "power=squaring"
+    std::string quality;  ///< "power=squaring", as quality_text() has it, or the text of a key
     double error = 0;
 };
 
@@ -50,7 +52,11 @@ struct Promise {
 [[nodiscard]] std::vector<Promise> broken_promises(const Family& family, const std::vector<Promise>& promises,
                                                    const std::vector<WorstCase>& cases);
 
-/// A table: effects, quality, its worst error, the most accurate quality's there, and points tried.
+/// The study.csv with what the cases found in the column error_worst of the rows of all scenes; "none" for
+/// keys that they leave out.
+[[nodiscard]] CsvTable with_worst(CsvTable study, const Family& family, const std::vector<WorstCase>& cases);
+
+/// A table: effects, quality, its worst error, what roundings explain there besides, and points tried.
 [[nodiscard]] std::string worst_case_csv(const Family& family, const std::vector<WorstCase>& cases);
 
 }  // namespace gobo::study

@@ -22,6 +22,9 @@ Figures& Figures::operator+=(const Figures& other) {
     largest_fp64_error = std::max(largest_fp64_error, other.largest_fp64_error);
     largest_fp32_error = std::max(largest_fp32_error, other.largest_fp32_error);
     largest_fp32_ratio = std::max(largest_fp32_ratio, other.largest_fp32_ratio);
+    vacuous += other.vacuous;
+    loose += other.loose;
+    unexplained += other.unexplained;
     return *this;
 }
 
@@ -36,6 +39,8 @@ void StageReport::add(StageReport other, std::size_t most) {
     figures += other.figures;
     failed_points += other.failed_points;
     for (Failure& failure : other.worst) add(std::move(failure), most);
+    if (other.least_explained && (!least_explained || other.least_explained->ratio > least_explained->ratio))
+        least_explained = std::move(other.least_explained);
 }
 
 std::string to_text(const Failure& failure) {

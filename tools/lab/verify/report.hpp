@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,17 +40,23 @@ struct Figures {
     double largest_fp64_error = 0;  ///< relative to the largest term
     double largest_fp32_error = 0;  ///< as well; without an oracle, to the output's largest component
     double largest_fp32_ratio = 0;  ///< of the error to its derived bound
+    std::size_t vacuous = 0;  ///< points where some output's bound is above its value, and so says little
+    std::size_t loose = 0;    ///< of them, those with a bound of more than kLooseBound of the largest term
+    std::size_t unexplained = 0;  ///< points where floats err by more than roundings of the inputs explain
 
     Figures& operator+=(const Figures& other);
 };
 
 inline constexpr std::size_t kWorstPoints = 3;
+inline constexpr double kLooseBound = 0.01;
 
 /// Of a stage.
 struct StageReport {
     Figures figures;
     std::size_t failed_points = 0;
     std::vector<Failure> worst;  ///< at most kWorstPoints, largest ratio first
+    /// The point, of Figures::unexplained, that is furthest from what its inputs explain, `tolerance`.
+    std::optional<Failure> least_explained;
 
     /// Keeps the failure if it is among so many worst.
     void add(Failure failure, std::size_t most = kWorstPoints);

@@ -1,6 +1,7 @@
 #include "lab/verify/stage_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -87,6 +88,69 @@ bool is_at_edge(const Evaluations& all, std::size_t count, std::size_t index, Fi
 
 }  // namespace
 
+void StageCheck::weigh_bounds(const std::vector<Expected>& all, const evaluate::Outputs& outputs,
+                              std::size_t index, std::size_t point) {
+    Large large{point, {}, 0};
+    large.component.stage = stage_;
+    for (const Expected& expected : all) {
+        const auto found = outputs.values.find(expected.output);
+        if (found == outputs.values.end()) continue;
+        for (std::uint32_t c = 0; c < expected.components; ++c) {
+            const double bound = expected.float_error[c];
+            if (expected.value[c] != 0 && bound > std::abs(expected.value[c])) {
+                vacuous_[point] = true;
+                if (bound > kLooseBound * expected.largest[c]) loose_[point] = true;
+            }
+            const double actual = found->second[c * outputs.count + index];
+            const double limit = kConditionFactor * kRoundingStep * expected.largest[c];
+            const double ratio = ratio_of(std::abs(actual - expected.value[c]), limit);
+            if (ratio <= std::max(1.0, large.component.ratio)) continue;
+            large.component = {stage_, Precision::fp32, expected.output, c, expected.value[c],
+                               actual, limit,           ratio,           {}};
+            large.largest = expected.largest[c];
+        }
+    }
+    if (large.component.ratio > 1 && !at_edge_[point]) large_.push_back(std::move(large));
+}
+
+Result<void> StageCheck::explain_errors(std::span<const Sample> samples) {
+    if (large_.empty()) return {};
+    std::vector<Sample> chosen;
+    for (const Large& large : large_) chosen.push_back(samples[large.point]);
+    GOBO_TRY(const auto invocations, bind_inputs(program_, chosen));
+    const auto in_double = [&](const evaluate::Invocations& moved) -> Result<NamedValues> {
+        GOBO_TRY(auto outputs, evaluate::run<double>(program_, moved));
+        return std::move(outputs.values);
+    };
+    std::vector<evaluate::Port> ports = program_.inputs;
+    ports.insert(ports.end(), program_.uniforms.begin(), program_.uniforms.end());
+    GOBO_TRY(const NamedValues exact, in_double(invocations));
+    // Inputs are moved so far at once: where a slope is infinite, a step's multiple says nothing.
+    constexpr double kStep = kConditionFactor * kRoundingStep;
+    constexpr std::array<std::uint64_t, 5> kSeeds = {1, 11, 21, 31, 41};  // either side of an edge is met
+    std::vector<NamedValues> spreads;
+    for (const std::uint64_t seed : kSeeds) {
+        GOBO_TRY(NamedValues widest, spread(ports, invocations, exact, kStep, seed, in_double));
+        spreads.push_back(std::move(widest));
+    }
+    for (std::size_t i = 0; i < large_.size(); ++i) {
+        Failure component = std::move(large_[i].component);
+        double by_inputs = 0;
+        for (const NamedValues& widest : spreads)
+            by_inputs =
+                std::max(by_inputs, widest.at(component.output)[component.component * invocations.count + i]);
+        component.tolerance = by_inputs + kStep * large_[i].largest;
+        component.ratio = ratio_of(std::abs(component.actual - component.expected), component.tolerance);
+        if (component.ratio <= 1) continue;
+        ++report_.figures.unexplained;
+        if (report_.least_explained && report_.least_explained->ratio >= component.ratio) continue;
+        component.point = evaluate::point_of(program_, invocations, i);
+        report_.least_explained = std::move(component);
+    }
+    large_.clear();
+    return {};
+}
+
 std::vector<Expected> StageCheck::judge(Precision precision, const Sample& sample,
                                         const evaluate::Invocations& invocations,
                                         const evaluate::Outputs& outputs, std::size_t index,
@@ -109,7 +173,10 @@ std::vector<Expected> StageCheck::judge(Precision precision, const Sample& sampl
     const bool is_double = precision == Precision::fp64;
     double& largest = is_double ? figures.largest_fp64_error : figures.largest_fp32_error;
     largest = std::max(largest, least.of_largest);
-    if (!is_double) figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, least.worst.ratio);
+    if (!is_double) {
+        figures.largest_fp32_ratio = std::max(figures.largest_fp32_ratio, least.worst.ratio);
+        weigh_bounds(expected, outputs, index, point);
+    }
     if (least.worst.ratio <= 1) return expected;
     failed_[point] = true;
     plain.point = evaluate::point_of(program_, invocations, index);
@@ -136,6 +203,8 @@ StageReport StageCheck::report() && {
     };
     report_.figures.points = failed_.size();
     report_.figures.edges = marked(at_edge_);
+    report_.figures.vacuous = marked(vacuous_);
+    report_.figures.loose = marked(loose_);
     report_.failed_points = marked(failed_);
     return std::move(report_);
 }
@@ -148,6 +217,7 @@ Result<StageReport> check_against_oracle(const evaluate::Program& program, Stage
         const std::vector<Sample> samples = precision == Precision::fp64 ? exact : rounded_to_float(exact);
         GOBO_TRY(const auto invocations, bind_inputs(program, samples));
         GOBO_TRY_DO(check.run(precision, samples, invocations));
+        if (precision == Precision::fp32) GOBO_TRY_DO(check.explain_errors(samples));
     }
     return std::move(check).report();
 }

@@ -19,7 +19,13 @@ class StageCheck {
   public:
     StageCheck(const evaluate::Program& program, StageKind stage, const oracle::Model& model,
                std::size_t points)
-        : program_(program), stage_(stage), model_(model), at_edge_(points), failed_(points) {}
+        : program_(program),
+          stage_(stage),
+          model_(model),
+          at_edge_(points),
+          failed_(points),
+          vacuous_(points),
+          loose_(points) {}
 
     struct Judged {
         evaluate::Outputs outputs;
@@ -32,10 +38,16 @@ class StageCheck {
                                      const evaluate::Invocations& invocations,
                                      const std::vector<std::size_t>& own = {});
 
+    /// Of the last run, in fp32, with these samples: whether roundings of the inputs explain each error that
+    /// is larger than kConditionFactor roundings of the largest term.
+    [[nodiscard]] Result<void> explain_errors(std::span<const Sample> samples);
+
     /// Of all runs; a point counts as failed, or at an edge, where it was so in any of them.
     [[nodiscard]] StageReport report() &&;
 
   private:
+    void weigh_bounds(const std::vector<Expected>& all, const evaluate::Outputs& outputs, std::size_t index,
+                      std::size_t point);
     std::vector<Expected> judge(Precision precision, const Sample& sample,
                                 const evaluate::Invocations& invocations, const evaluate::Outputs& outputs,
                                 std::size_t index, std::size_t point);
@@ -45,6 +57,15 @@ class StageCheck {
     const oracle::Model& model_;
     std::vector<bool> at_edge_;
     std::vector<bool> failed_;
+    std::vector<bool> vacuous_;
+    std::vector<bool> loose_;
+    /// A point with a large error, and the component that has it.
+    struct Large {
+        std::size_t point = 0;
+        Failure component;
+        double largest = 0;
+    };
+    std::vector<Large> large_;
     StageReport report_;
 };
 
