@@ -20,6 +20,17 @@ vec2 environmentBrdf(float nv, float roughness) {
     return clamp(vec2(-1.04, 1.04) * a + r.zw, 0.0, 1.0);  // guard: rounded out of its range
 }
 
+#piece lazarov
+// The fit that Karis' came from, of gloss 1 - roughness; 1 / 0.96 and so on, since it was made for f0 from 0.04 to 1.
+// Source: Lazarov, Getting More Physical in Call of Duty: Black Ops II, SIGGRAPH 2013 course notes.
+/// A and B.
+vec2 environmentBrdf(float nv, float roughness) {
+    float gloss = 1.0 - roughness;
+    float b = (gloss / 0.96) * min(0.475 * gloss, exp2(-9.28 * nv)) + (0.0175 * gloss - 0.015) / 0.96;
+    float both = 0.75 + 0.25 * gloss;
+    return vec2(both - b, max(b, 0.0));  // guard: a fit that falls below 0
+}
+
 #piece constant
 // As if every surface were smooth and seen head-on: f0.
 /// A and B.

@@ -8,6 +8,7 @@
 #include <occlusion_map>
 #include <point>
 #include <reflection/split_sum>
+#include <sheen>
 #include <spot>
 #include "pbr/surface.glsl"
 
@@ -15,8 +16,10 @@
 vec3 litSurface() {
     beginSurface();
     beginCoat();
+    beginSheen();
     float occlusion = ambientOcclusion();
-    vec3 radiance = underCoat(emittedRadiance() + occlusion * environmentRadiance()) + occlusion * coatEnvironment();
+    vec3 ambient = underSheen(environmentRadiance()) + sheenEnvironment();
+    vec3 radiance = underCoat(emittedRadiance() + occlusion * ambient) + occlusion * coatEnvironment();
 #if DIRECTIONAL_LIGHTS + POINT_LIGHTS + SPOT_LIGHTS > 0
     beginResponse();
 #endif

@@ -7,6 +7,7 @@
 #include <emissive_map>
 #include <metallic_roughness_map>
 #include <sides>
+#include <specular_antialiasing>
 #include <viewer>
 #include "pbr/base_color.glsl"
 
@@ -37,7 +38,8 @@ void beginSurface() {
     vec3 texel = metallicRoughnessTexel();
     surface.metallic = material.metallic * texel.b;
     surface.roughness = material.roughness * texel.g;
-    surface.alpha = max(surface.roughness * surface.roughness, 0.002);  // guard: peak beyond what directions resolve
+    float alpha = max(surface.roughness * surface.roughness, 0.002);  // guard: peak beyond what directions resolve
+    surface.alpha = widenedAlpha(alpha);
     surface.f0 = mix(material.dielectric, surface.base, surface.metallic);
     surface.f90 = mix(material.dielectricEdge, 1.0, surface.metallic);
     surface.diffuse = (1.0 - surface.metallic) * surface.base;

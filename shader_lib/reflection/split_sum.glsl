@@ -23,10 +23,10 @@ vec3 environmentRadiance() { return surface.diffuse * ambientLight(); }
 /// The ambient light that the surface reflects, and what it mirrors.
 vec3 environmentRadiance() {
     vec3 ambient = ambientLight();
-    if (mirroredDirection() == vec3(0.0)) return surface.diffuse * ambient;  // guard: zero vector
+    if (mirroredDirection(surface.normal) == vec3(0.0)) return surface.diffuse * ambient;  // guard: zero vector
     vec2 brdf = environmentBrdf(surface.nv, surface.roughness);
     vec3 once = brdf.x * surface.f0 + brdf.y * surface.f90;
     vec3 again = reflection.weight * returnedToEnvironment(brdf);
     vec3 scattered = max(1.0 - reflection.weight * once - again, 0.0) * surface.diffuse;
-    return once * mirroredRadiance(surface.roughness) + (again + scattered) * ambient;
+    return once * mirroredRadiance(surface.normal, surface.roughness) + (again + scattered) * ambient;
 }

@@ -6,12 +6,12 @@
 
 namespace gobo {
 
-inline constexpr std::array<std::string_view, 25> kRenderSources = {
+inline constexpr std::array<std::string_view, 26> kRenderSources = {
     // matrices
     "model", "view", "projection", "model_view", "view_projection", "model_view_projection", "inverse_view",
     "normal_matrix", "world_normal_matrix",
     // vectors
-    "camera_position", "viewport", "eye_point", "eye_direction",
+    "camera_position", "viewport", "eye_point", "eye_point_and", "eye_direction",
     // attributes
     "position", "normal", "texcoord", "color", "tint", "material_number", "tile",
     // samplers

@@ -13,6 +13,7 @@
 #include <fresnel>
 #include <light_sum>
 #include <multiple_scattering>
+#include <sheen>
 #include "light_ambient/none.glsl"
 #include "pbr/surface.glsl"
 
@@ -36,15 +37,16 @@ vec3 reflectance(vec3 toLight, float nl) {
     vec3 mirrored = fresnelReflectance(vh);
     vec3 scattered = max(1.0 - mirrored, 0.0);  // guard: colours of vertices rounded above 1
     vec3 diffuse = scattered * diffuseLobe(toLight, nl, vh);
-    if (square < 1e-12) return underCoat(diffuse);  // guard: light behind the viewer's ray
+    if (square < 1e-12) return underCoat(underSheen(diffuse, nl));  // guard: light behind the viewer's ray
     vec3 reflected = diffuse + scaleOfHighlights * mirrored * highlightLobe(toLight, sum, square, nl);
-    return underCoat(reflected) + coatHighlight(toLight, sum, square, nl);
+    return underCoat(underSheen(reflected, nl) + sheenHighlight(toLight, sum, square, nl));
 }
 
 /// Adds a light that arrives with irradiance `light` from the unit direction `toLight` (zero: from nowhere).
 void addLight(vec3 toLight, vec3 light) {
     float nl = dot(surface.normal, toLight);
     if (nl > 0.0) addTerm(reflectedSum, (nl * light) * reflectance(toLight, nl));  // guard: light from behind; NaN does not pass
+    addCoatHighlight(reflectedSum, toLight, light);
 }
 
 /// The radiance that the surface reflects of all lights added.

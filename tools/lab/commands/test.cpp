@@ -169,6 +169,9 @@ std::string figures_text(const verify::VerifyReport& report) {
             "{} of the points on rasterised meshes\n"
             "fp64: at most {:.1e} of the largest term away from the oracle\n",
             report.points_on_meshes, figures.largest_fp64_error);
+    if (report.points_of_laws > 0)
+        text += fmt::format("furnace, reciprocity, mirror image and metal tried at {} points\n",
+                            report.points_of_laws);
     text += relations_text(report);
     text += fmt::format("fp32: at most {:.2f} of the error bound\n", figures.largest_fp32_ratio);
     if (report.without_oracle < report.permutations.size())

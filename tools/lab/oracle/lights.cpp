@@ -8,20 +8,27 @@
 namespace gobo::oracle {
 namespace {
 
-IncidentLight incident_light_of(const PointLight& light, const glm::dvec3& position) {
+/// KHR_lights_punctual: max(min(1 - (d / range)^4, 1), 0).
+double range_window(const Model& model, const PointLight& light, double distance) {
+    if (model.light_range == LightRange::unlimited) return 1;
+    return std::clamp(1 - std::pow(distance * light.nearness, 4), 0.0, 1.0);
+}
+
+IncidentLight incident_light_of(const Model& model, const PointLight& light, const glm::dvec3& position) {
     const glm::dvec3 ray = light.position - position;
     IncidentLight incident;
     incident.to_light = direction_of(ray);
     incident.distance = glm::length(ray);
+    incident.window = range_window(model, light, incident.distance);
     incident.attenuation = attenuation(light.attenuation, incident.distance);
     incident.unshaped = light.color * incident.attenuation;
-    incident.radiance = incident.unshaped;
+    incident.radiance = incident.window * incident.unshaped;
     return incident;
 }
 
 IncidentLight incident_light_of(const Model& model, const SpotLight& light, const glm::dvec3& position,
                                 Decisions& decisions) {
-    IncidentLight incident = incident_light_of(static_cast<const PointLight&>(light), position);
+    IncidentLight incident = incident_light_of(model, static_cast<const PointLight&>(light), position);
     incident.spot = &light;
     incident.cone_angle = angle_between(light.axis, -incident.to_light);
     incident.radiance *= cone_weight(light, incident.cone_angle, decisions,
@@ -47,7 +54,8 @@ IncidentLight incident_light_of(const DirectionalLight& light) {
     return incident;
 }
 
-IncidentLight incident_light_of(const DirectionalOrPointLight& light, const glm::dvec3& position) {
+IncidentLight incident_light_of(const Model& model, const DirectionalOrPointLight& light,
+                                const glm::dvec3& position) {
     const glm::dvec3 place(light.position);
     if (std::abs(light.position.w) < 0x1p-20) {
         IncidentLight incident = incident_light_of(DirectionalLight{direction_of(place), light.color});
@@ -55,7 +63,7 @@ IncidentLight incident_light_of(const DirectionalOrPointLight& light, const glm:
         return incident;
     }
     const PointLight local{place / light.position.w, light.color, light.attenuation};
-    IncidentLight incident = incident_light_of(local, position);
+    IncidentLight incident = incident_light_of(model, local, position);
     incident.place_size = light.position.w == 1 ? 0 : glm::length(local.position);
     return incident;
 }
@@ -137,11 +145,11 @@ std::vector<IncidentLight> incident_lights(const Model& model, const Scene& scen
                                            Decisions& decisions) {
     std::vector<IncidentLight> result;
     for (const DirectionalLight& light : scene.directional) result.push_back(incident_light_of(light));
-    for (const PointLight& light : scene.point) result.push_back(incident_light_of(light, position));
+    for (const PointLight& light : scene.point) result.push_back(incident_light_of(model, light, position));
     for (const SpotLight& light : scene.spot)
         result.push_back(incident_light_of(model, light, position, decisions));
     for (const DirectionalOrPointLight& light : scene.directional_or_point)
-        result.push_back(incident_light_of(light, position));
+        result.push_back(incident_light_of(model, light, position));
     return result;
 }
 

@@ -76,6 +76,7 @@ struct IncidentLight {
     glm::dvec3 unshaped{0};  ///< after attenuation alone: an upper bound, by which errors are measured
     double distance = 0;     ///< 0 for a directional light
     double attenuation = 1;  ///< the attenuation alone
+    double window = 1;       ///< what the range leaves, 0 to 1
     bool is_given = false;   ///< `to_light` is an input, made unit by the application
     double place_size = 0;   ///< |P| of a position that is divided by its w, and so rounded
     double cone_angle = 0;   ///< between the ray and a spot light's axis

@@ -11,11 +11,13 @@ namespace {
 
 /// Constants of the models as a float holds them, written as short as tells it.
 constexpr double kPi = 3.1415927;
+constexpr double kTwoPi = 6.2831855;
 constexpr double kFujiiNorm = 0.2877934;      // 1/2 - 2 / (3 pi)
 constexpr double kFujiiAverage = 0.07248821;  // 2/3 - 28 / (15 pi)
 
 constexpr double kLeastAlpha = 0.002;
 constexpr double kLeastCosineToViewer = 1e-4;
+constexpr double kLeastSheenAlpha = 0.07;
 
 /// Fresnel's equations, both polarisations, of a dielectric with that F0, from air (Born and Wolf, Principles
 /// of Optics, 1.5.2). At F0 near 1 no index of refraction is left: 0.999 of its square root is the most.
@@ -53,8 +55,27 @@ glm::dvec3 oren_nayar(const glm::dvec3& color, double roughness, double nl, doub
     return (color * norm * std::max(shape, 0.0) + again) / kPi;
 }
 
+/// The exponent of sheen_shadow(), l(x) = a / (1 + b x^c) + d x + e.
+double sheen_exponent(double alpha, double x, Roundings& r) {
+    const double t = (1 - alpha) * (1 - alpha);
+    const auto between = [&](double rough, double smooth) { return rough + t * (smooth - rough); };
+    const double first =
+        between(21.5473, 25.3245) / (1 + between(3.82987, 3.32435) * std::pow(x, between(0.19823, 0.16801)));
+    return r(first, 8 * first) + r(between(-1.9776, -1.27393) * x + between(-4.32054, -4.85967), 20);
+}
+
+/// The sheen as its lights and its environment see it.
+struct SheenOfPoint {
+    glm::dvec3 color{0};
+    double strength = 0;
+    double alpha = 1;
+    double seen = 0;  ///< the albedo towards the viewer
+    double masking = 0;
+};
+
 /// Lights and environment find the same surface.
 struct Surface {
+    SheenOfPoint sheen;
     Reflectance reflectance;
     glm::dvec3 diffuse{0};
     double roughness = 0;
@@ -70,10 +91,20 @@ Surface surface_of(const Model& model, const Scene& scene, const PhysicalPoint& 
     surface.reflectance = {base, material.dielectric, material.dielectric_edge, point.metallic};
     surface.diffuse = (1 - point.metallic) * base;
     surface.roughness = point.roughness;
-    surface.alpha = r(alpha_of_roughness(surface.roughness));
+    surface.alpha =
+        r(widened_alpha(model, r(alpha_of_roughness(surface.roughness)), r(point.bend, 8 * point.bend)));
     surface.nv = std::max(r(glm::dot(point.normal, point.to_viewer), 2), kLeastCosineToViewer);
     surface.brdf =
         environment_brdf(model.environment_brdf, scene.environment_brdf, surface.nv, surface.roughness);
+    if (model.sheen == Sheen::charlie) {
+        SheenOfPoint& sheen = surface.sheen;
+        sheen.color = material.sheen_color;
+        sheen.strength = std::max({sheen.color.r, sheen.color.g, sheen.color.b});
+        sheen.alpha = std::max(r(material.sheen_roughness * material.sheen_roughness), kLeastSheenAlpha);
+        const double cosine = std::min(surface.nv, 1.0);
+        sheen.seen = sheen_albedo(sheen.alpha, cosine, r);
+        sheen.masking = sheen_shadow(sheen.alpha, cosine, r);
+    }
     return surface;
 }
 
@@ -104,6 +135,20 @@ double brushed_lobe(const Material& material, const PhysicalPoint& point, const 
     };
     const double masking = nl * length_of(point.to_viewer, surface.nv) + surface.nv * length_of(to_light, nl);
     return 1 / (kPi * at * ab * spread * spread) / (2 * masking);
+}
+
+/// What a light adds by the sheen, per solid angle.
+glm::dvec3 sheen_lobe(const PhysicalPoint& point, const Surface& surface, const glm::dvec3& sum, double nl,
+                      Roundings& r) {
+    const SheenOfPoint& sheen = surface.sheen;
+    const double length = glm::length(sum);
+    const glm::dvec3 across = r(glm::cross(point.normal, sum), 2) / length;
+    const double power = r(std::min(r(glm::dot(across, across)), 1.0), 1);
+    const double distribution =
+        (2 + 1 / sheen.alpha) * std::pow(std::clamp(power, 0.0, 1.0), 0.5 / sheen.alpha) / kTwoPi;
+    const double cosine = std::clamp(nl, 1e-4, 1.0);
+    const double shadow = sheen_shadow(sheen.alpha, cosine, r);
+    return sheen.color * (distribution / (4 * surface.nv * cosine * (1 + sheen.masking + shadow)));
 }
 
 /// What several reflections give back (Turquin 2019; Fdez-Aguera 2019).
@@ -138,6 +183,12 @@ void add_environment(const Model& model, const Scene& scene, const PhysicalPoint
     }
     radiance.value += point.occlusion * scattered * point.ambient.value;
     radiance.largest += scattered * point.ambient.largest;
+    // What the ambient light loses beneath the sheen, and the sheen's own.
+    const double left = 1 - surface.sheen.strength * surface.sheen.seen;
+    const glm::dvec3 sheen = surface.sheen.seen * surface.sheen.color;
+    radiance.value = point.emission + left * (radiance.value - point.emission) +
+                     point.occlusion * sheen * point.ambient.value;
+    radiance.largest += sheen * point.ambient.largest;
 }
 
 }  // namespace
@@ -159,6 +210,11 @@ glm::dvec3 Roundings::operator()(const glm::dvec3& value, double size) {
 
 double alpha_of_roughness(double roughness) {
     return std::max(roughness * roughness, kLeastAlpha);
+}
+
+double widened_alpha(const Model& model, double alpha, double bend) {
+    if (model.specular_antialiasing == SpecularAntialiasing::none) return alpha;
+    return std::sqrt(std::min(alpha * alpha + std::min(0.31830987 * bend, 0.18), 1.0));
 }
 
 double normal_distribution(Distribution kind, double alpha, const glm::dvec3& normal,
@@ -231,9 +287,40 @@ glm::dvec3 diffuse_lobe(DiffuseLobe kind, const glm::dvec3& color, double roughn
     return color * (towards(nl) * towards(nv) / kPi);
 }
 
+double sheen_shadow(double alpha, double cosine, Roundings& r) {
+    if (cosine < 0.5) return std::exp(sheen_exponent(alpha, cosine, r));
+    return std::exp(2 * sheen_exponent(alpha, 0.5, r) - sheen_exponent(alpha, 1 - cosine, r));
+}
+
+double sheen_albedo(double alpha, double cosine, Roundings& r) {
+    // exp of a polynomial of degree 2 in the cosine, whose coefficients are cubic in the roughness.
+    constexpr double kFit[3][4] = {{0.968151, -5.64098, 8.59661, -3.98256},
+                                   {-11.9792, 31.6348, -36.0005, 13.8504},
+                                   {4.20783, -15.6925, 21.3047, -8.95853}};
+    const double roughness = std::sqrt(alpha);
+    double exponent = 0;
+    double size = 0;
+    for (int k = 2; k >= 0; --k) {
+        double by_roughness = 0;
+        for (int m = 3; m >= 0; --m) by_roughness = by_roughness * roughness + kFit[k][m];
+        exponent = exponent * cosine + by_roughness;
+        for (int m = 0; m < 4; ++m)
+            size += std::abs(kFit[k][m]) * std::pow(roughness, m) * std::pow(cosine, k);
+    }
+    return std::min(std::exp(r(exponent, 4 * size)), 1.0);
+}
+
 glm::dvec2 environment_brdf(EnvironmentBrdf kind, const glm::dvec2& table, double nv, double roughness) {
     if (kind == EnvironmentBrdf::table) return table;
     if (kind == EnvironmentBrdf::constant) return {1, 0};
+    if (kind == EnvironmentBrdf::lazarov) {
+        // t0 min(t1, 2^(-9.28 n.v)) + t2 and t3 of gloss, as printed.
+        const double gloss = 1 - roughness;
+        const double a0 = gloss / 0.96 * std::min(0.475 * gloss, std::exp2(-9.28 * nv)) +
+                          (0.0275 - 0.25 * 0.04) / 0.96 * gloss + (0.015 - 0.75 * 0.04) / 0.96;
+        const double a1 = 0.25 * gloss + 0.75;
+        return {a1 - a0, std::max(a0, 0.0)};
+    }
     const double x = 1 - roughness;
     const double y = 0.0425 - 0.0275 * roughness;
     const double a = std::min(x * x, std::exp2(-9.28 * nv)) * x + y;
@@ -248,20 +335,28 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
     const bool is_coated = model.clearcoat == Clearcoat::layer;
     // KHR_materials_clearcoat: mix(beneath, coat, factor (0.04 + 0.96 (1 - n.v)^5)).
     // At grazing incidence next to nothing is left of 1 - coat: its rounding is one of 1.
-    const double coat = is_coated ? r(material.clearcoat * (0.04 + 0.96 * schlick_weight(surface.nv)), 4) : 0;
-    const double coat_alpha = r(alpha_of_roughness(material.clearcoat_roughness));
+    const double coat_nv = std::max(r(glm::dot(point.coat_normal, point.to_viewer), 2), kLeastCosineToViewer);
+    const double coat = is_coated ? r(material.clearcoat * (0.04 + 0.96 * schlick_weight(coat_nv)), 4) : 0;
+    const double coat_alpha = r(widened_alpha(model, r(alpha_of_roughness(material.clearcoat_roughness)),
+                                              r(point.bend, 8 * point.bend)));
     PhysicalRadiance radiance{point.emission, point.emission};
     add_environment(model, scene, point, surface, radiance);
     radiance.value *= 1 - coat;
     if (is_coated && model.reflection == Reflection::image) {
-        const glm::dvec2 brdf = environment_brdf(model.environment_brdf, scene.environment_brdf, surface.nv,
+        const glm::dvec2 brdf = environment_brdf(model.environment_brdf, scene.environment_brdf, coat_nv,
                                                  material.clearcoat_roughness);
         const glm::dvec3 mirrored =
-            coat * (brdf.x + brdf.y) * scene.reflection.weight * point.reflected.value;
+            coat * (brdf.x + brdf.y) * scene.reflection.weight * point.coat_reflected.value;
         radiance.value += point.occlusion * mirrored;
         radiance.largest += glm::abs(mirrored);
     }
     const glm::dvec3 scale = highlight_scale(model, surface);
+    const bool has_sheen = model.sheen == Sheen::charlie;
+    const auto lobe = [&](const glm::dvec3& normal, double alpha, const glm::dvec3& to_light, double cosine,
+                          double nv, const glm::dvec3& sum) {
+        return normal_distribution(model.distribution, alpha, normal, to_light, point.to_viewer, r) *
+               visibility_term(model.masking_shadowing, alpha, cosine, nv, glm::dot(sum, sum), r);
+    };
     for (std::size_t i = 0; i < point.lights.size(); ++i) {
         const IncidentLight& light = point.lights[i];
         const double nl = r(glm::dot(point.normal, light.to_light), 2);
@@ -274,23 +369,31 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
             glm::dvec3 factor = glm::max(1.0 - mirrored, glm::dvec3(0)) *
                                 diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness, cosine,
                                              surface.nv, lv, vh);
-            if (!point.has_half[i]) return (1 - coat) * factor;
-            const auto lobe = [&](double alpha) {
-                return normal_distribution(model.distribution, alpha, point.normal, light.to_light,
-                                           point.to_viewer, r) *
-                       visibility_term(model.masking_shadowing, alpha, cosine, surface.nv, glm::dot(sum, sum),
-                                       r);
-            };
-            const double own = model.anisotropy == Anisotropy::brushed
-                                   ? brushed_lobe(material, point, surface, light.to_light, cosine, r)
-                                   : lobe(surface.alpha);
-            factor = (1 - coat) * (factor + scale * mirrored * own);
-            if (is_coated) factor += coat * lobe(coat_alpha);
+            const double left = 1 - coat;
+            const double under_sheen =
+                has_sheen ? 1 - surface.sheen.strength *
+                                    std::max(surface.sheen.seen, sheen_albedo(surface.sheen.alpha, cosine, r))
+                          : 1;
+            if (!point.has_half[i]) return left * under_sheen * factor;
+            const double own =
+                model.anisotropy == Anisotropy::brushed
+                    ? brushed_lobe(material, point, surface, light.to_light, cosine, r)
+                    : lobe(point.normal, surface.alpha, light.to_light, cosine, surface.nv, sum);
+            factor = left * under_sheen * (factor + scale * mirrored * own);
+            if (has_sheen) factor += left * sheen_lobe(point, surface, sum, cosine, r);
             return factor;
+        };
+        const auto coated = [&](double cosine) {
+            return coat * lobe(point.coat_normal, coat_alpha, light.to_light, cosine, coat_nv, sum);
         };
         if (nl > 0) radiance.value += reflected(nl) * nl * light.radiance;
         const double least = std::max(nl, 0.01);
         if (nl > -0.01) radiance.largest += glm::abs(reflected(least)) * least * light.unshaped;
+        if (!is_coated || !point.has_half[i]) continue;
+        const double coat_nl = r(glm::dot(point.coat_normal, light.to_light), 2);
+        if (coat_nl > 0) radiance.value += coated(coat_nl) * coat_nl * light.radiance;
+        const double least_of_coat = std::max(coat_nl, 0.01);
+        if (coat_nl > -0.01) radiance.largest += coated(least_of_coat) * least_of_coat * light.unshaped;
     }
     return radiance;
 }

@@ -39,6 +39,9 @@ class Roundings {
 /// The width of the slopes' distribution: roughness squared, at least 0.002.
 [[nodiscard]] double alpha_of_roughness(double roughness);
 
+/// What a pixel shows of it where normals turn within the pixel (Tokuyoshi and Kaplanyan 2019).
+[[nodiscard]] double widened_alpha(const Model& model, double alpha, double bend);
+
 /// Trowbridge and Reitz' distribution of normals at the half vector of two directions (glTF 2.0, B.3.2). With
 /// normals that are shorter than 1 the sine is what the key's formula makes of them.
 [[nodiscard]] double normal_distribution(Distribution kind, double alpha, const glm::dvec3& normal,
@@ -78,12 +81,19 @@ struct Reflectance {
 [[nodiscard]] glm::dvec2 environment_brdf(EnvironmentBrdf kind, const glm::dvec2& table, double nv,
                                           double roughness);
 
+/// Charlie's sheen (Estevez, Kulla 2017): L, what Smith's term of a direction at that cosine amounts to, and
+/// the albedo of a white sheen in even light at that cosine, as fitted.
+[[nodiscard]] double sheen_shadow(double alpha, double cosine, Roundings& roundings);
+[[nodiscard]] double sheen_albedo(double alpha, double cosine, Roundings& roundings);
+
 /// A surface point and all that reaches it.
 struct PhysicalPoint {
-    glm::dvec3 normal{0};      ///< unit, unless it is interpolated as it is
-    glm::dvec3 to_viewer{0};   ///< unit, or zero
-    glm::dvec4 tangent{0};     ///< as it is given, and the bitangent's sign
-    double normal_length = 1;  ///< of the normal of a picture before it is made unit
+    glm::dvec3 normal{0};       ///< unit, unless it is interpolated as it is
+    glm::dvec3 coat_normal{0};  ///< of the mesh, whatever a picture makes of it
+    glm::dvec3 to_viewer{0};    ///< unit, or zero
+    glm::dvec4 tangent{0};      ///< as it is given, and the bitangent's sign
+    double normal_length = 1;   ///< of the normal of a picture before it is made unit
+    double bend = 0;            ///< |dn/dx|^2 + |dn/dy|^2 of the mesh's normals, from pixel to pixel
     glm::dvec4 base_color{0};
     double metallic = 0;
     double roughness = 0;
@@ -92,7 +102,8 @@ struct PhysicalPoint {
     std::vector<IncidentLight> lights;
     std::vector<bool> has_half;  ///< per light, whether it and the viewer have a half vector
     AmbientLight ambient;
-    LookedUp reflected;  ///< what the environment shows in the mirrored direction
+    LookedUp reflected;       ///< what the environment shows in the mirrored direction
+    LookedUp coat_reflected;  ///< and in that of the coat
 };
 
 /// The radiance that leaves the point towards the viewer, before fog, and at least the sum of its absolute

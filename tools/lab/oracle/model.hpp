@@ -42,13 +42,15 @@ enum class Distribution { cross_product, plain };
 enum class MaskingShadowing { correlated, interpolated, half_angle };
 enum class Fresnel { exact, schlick, gaussian, constant };
 enum class DiffuseLobe { oren_nayar, burley, lambert };
-enum class EnvironmentBrdf { table, karis, constant };
+enum class EnvironmentBrdf { table, karis, lazarov, constant };
 enum class MultipleScattering { returned, none };
 enum class Picture { none, texture };
-enum class NormalMap { none, tangent };
+enum class NormalMap { none, tangent, derivatives };
+enum class SpecularAntialiasing { none, widened };
 enum class Placement { plain, placed };
 enum class Clearcoat { none, layer };
 enum class Sheen { none, charlie };
+enum class LightRange { unlimited, windowed };
 enum class Anisotropy { none, brushed };
 
 /// One model: everything about a key that the radiance and the depth depend on.
@@ -100,11 +102,18 @@ struct Model {
     Placement texture_placement = Placement::plain;
     Clearcoat clearcoat = Clearcoat::none;
     Sheen sheen = Sheen::none;
+    SpecularAntialiasing specular_antialiasing = SpecularAntialiasing::none;
+    LightRange light_range = LightRange::unlimited;
     Anisotropy anisotropy = Anisotropy::none;
 
     /// Whether it is of the family `pbr`.
     [[nodiscard]] bool is_physical() const {
         return lighting == Lighting::metallic_roughness || lighting == Lighting::base_color;
+    }
+
+    /// Whether a point hangs on its neighbours in the picture.
+    [[nodiscard]] bool takes_derivatives() const {
+        return normal_map == NormalMap::derivatives || specular_antialiasing == SpecularAntialiasing::widened;
     }
 
     /// Whether normals are given per fragment, interpolated.

@@ -122,22 +122,72 @@ glm::dvec4 base_color_of(const Model& model, const Scene& scene, const SurfacePo
            (model.vertex_color == VertexColor::modulate ? point.color : glm::dvec4(1));
 }
 
-/// The unit normal that a picture bends (glTF 2.0, 3.9.3): x T + y w (N x T) + z N of 2 texel - 1.
+/// Two vectors along which a picture's x and y lie, and how much larger than the longer one the terms are
+/// that it is the sum of.
+struct PictureAxes {
+    glm::dvec3 tangent{0};
+    glm::dvec3 bitangent{0};
+    double condition = 0;
+};
+
+/// A picture's axes as gradients of its coordinates along the surface (Mikkelsen 2010), times what both have
+/// in common. The picture's y runs against its second coordinate.
+PictureAxes axes_of_steps(const Model& model, const Scene& scene, const SurfacePoint& point,
+                          const glm::dvec3& normal, Decisions& decisions) {
+    const TexturePlacement& at = scene.placements[static_cast<std::size_t>(MapKind::normal)];
+    const auto placed = [&](const PixelStep& step) {
+        if (model.texture_placement == Placement::plain) return step.texture_coordinate;
+        const glm::dvec2 uv = at.set == 0 ? step.texture_coordinate : step.texture_coordinate1;
+        return glm::dvec2(at.linear[0] * uv.x + at.linear[1] * uv.y,
+                          at.linear[2] * uv.x + at.linear[3] * uv.y);
+    };
+    const auto size_of = [&](const PixelStep& step) {
+        const double factor = model.texture_placement == Placement::plain ? 1 : 2 * glm::length(at.linear);
+        return factor * (glm::length(step.texture_coordinate) + glm::length(step.texture_coordinate1));
+    };
+    const glm::dvec3& px = point.along_x.position;
+    const glm::dvec3& py = point.along_y.position;
+    const double area = glm::length(px) * glm::length(py);
+    const double facing = area > 0 ? glm::dot(normal, glm::cross(px, py)) / area : 0;
+    const double side = area > 0 && decisions.above(0, facing) ? -1 : 1;
+    const glm::dvec2 x = placed(point.along_x);
+    const glm::dvec2 y = placed(point.along_y);
+    const auto gradient = [&](int i) {
+        return side * (x[i] * glm::cross(py, normal) + y[i] * glm::cross(normal, px));
+    };
+    PictureAxes axes{gradient(0), -gradient(1), 0};
+    const double longer =
+        std::max(glm::dot(axes.tangent, axes.tangent), glm::dot(axes.bitangent, axes.bitangent));
+    const double length = std::sqrt(std::max(longer, 1e-30));
+    axes.condition =
+        (size_of(point.along_x) * glm::length(py) + size_of(point.along_y) * glm::length(px)) / length;
+    axes.tangent /= length;
+    axes.bitangent /= length;
+    return axes;
+}
+
+/// The unit normal that a picture bends (glTF 2.0, 3.9.3): x T + y w (N x T) + z N of 2 texel - 1. `length`
+/// becomes that of the sum, smaller by as much as its axes are less sure than vectors that are given.
 glm::dvec3 bent(const Model& model, const Scene& scene, const SurfacePoint& point, const glm::dvec3& normal,
                 double& length, Decisions& decisions) {
     if (model.normal_map == NormalMap::none) return normal;
     const glm::dvec3 texel =
         2.0 * glm::dvec3(texel_of(model, scene, point, MapKind::normal, true)) - glm::dvec3(1);
-    const glm::dvec3 tangent(point.tangent);
-    const glm::dvec3 bitangent = point.tangent.w * glm::cross(normal, tangent);
+    const glm::dvec3 given(point.tangent);
+    const PictureAxes axes = model.normal_map == NormalMap::derivatives
+                                 ? axes_of_steps(model, scene, point, normal, decisions)
+                                 : PictureAxes{given, point.tangent.w * glm::cross(normal, given), 0};
     const double scale = scene.material.normal_scale;
-    const glm::dvec3 sum = scale * texel.x * tangent + scale * texel.y * bitangent + texel.z * normal;
+    const glm::dvec3 sum =
+        scale * texel.x * axes.tangent + scale * texel.y * axes.bitangent + texel.z * normal;
     length = glm::length(sum);
     if (!decisions.above(length, 1e-6)) {
         length = 1;
         return normal;
     }
-    return sum / length;
+    const glm::dvec3 result = sum / length;
+    length /= 1 + axes.condition;
+    return result;
 }
 
 /// Of a metallic-roughness surface.
@@ -161,10 +211,14 @@ Radiance physical_radiance(const Model& model, const Scene& scene, const Surface
     const double occlusion =
         texel_of(model, scene, point, MapKind::occlusion, model.occlusion_map == Picture::texture).r;
     physical.occlusion = 1 + material.occlusion_strength * (occlusion - 1);
-    physical.normal =
-        bent(model, scene, point, shading_direction(model, point.normal), physical.normal_length, decisions);
+    physical.coat_normal = shading_direction(model, point.normal);
+    physical.normal = bent(model, scene, point, physical.coat_normal, physical.normal_length, decisions);
     if (is_flipped) physical.normal = -physical.normal;
+    if (is_flipped) physical.coat_normal = -physical.coat_normal;
     physical.tangent = point.tangent;
+    const glm::dvec3& nx = point.along_x.normal;
+    const glm::dvec3& ny = point.along_y.normal;
+    physical.bend = glm::dot(nx, nx) + glm::dot(ny, ny);
     physical.to_viewer = to_viewer(model, point.position);
     physical.lights = incident_lights(model, scene, point.position, decisions);
     cast_shadows(model, scene, point.position, physical.lights, decisions);
@@ -175,6 +229,7 @@ Radiance physical_radiance(const Model& model, const Scene& scene, const Surface
         ImageLight whole = scene.reflection;
         whole.weight = 1;
         physical.reflected = reflection_from_image(whole, physical.normal, physical.to_viewer);
+        physical.coat_reflected = reflection_from_image(whole, physical.coat_normal, physical.to_viewer);
     }
     Roundings exact;
     const PhysicalRadiance found = radiance_of(model, scene, physical, exact);

@@ -13,6 +13,14 @@
 
 namespace gobo::oracle {
 
+/// How a surface's values change from a pixel to its neighbour in one direction of the picture.
+struct PixelStep {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0};
+    glm::dvec2 texture_coordinate{0};
+    glm::dvec2 texture_coordinate1{0};
+};
+
 /// A point of a surface.
 struct SurfacePoint {
     glm::dvec3 position{0};
@@ -24,6 +32,8 @@ struct SurfacePoint {
     glm::dvec2 texture_coordinate{0};   ///< of the first set
     glm::dvec2 texture_coordinate1{0};  ///< of the second
     glm::dvec4 tangent{0};              ///< and in w the sign of the bitangent
+    PixelStep along_x = {};             ///< to the right
+    PixelStep along_y = {};             ///< upwards
 
     /// Per light, where its cosine to the front's normal is found at the vertices and interpolated.
     std::vector<double> cosines = {};
@@ -92,6 +102,7 @@ struct PointLight {
     glm::dvec3 position{0};
     glm::dvec3 color{0};        ///< radiance where the attenuation is 1
     glm::dvec3 attenuation{0};  ///< k_c, k_l, k_q of 1 / (k_c + k_l d + k_q d^2)
+    double nearness = 0;        ///< 1 / range, where the key has ranges; 0: no end
 };
 
 /// A point light with a cone. Of its half angles it has 1 - cos.

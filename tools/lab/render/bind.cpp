@@ -132,6 +132,10 @@ constexpr auto kUniformSources = std::to_array<Source>({
      false, [](Seen o, Numbers) { return column(glm::inverse(o.view)[3]); }},
     // In eye space; a direction has w = 0, and in the second unit length.
     {"eye_point", "", false, true, [](Seen o, Numbers world) { return column(o.view * world); }},
+    {"eye_point_and", "", false, true,
+     [](Seen o, Numbers world) {
+         return column(glm::dvec4(glm::dvec3(o.view * glm::dvec4(glm::dvec3(world), 1)), world.w));
+     }},
     {"eye_direction", "", false, true,
      [](Seen o, Numbers world) {
          return column(glm::dvec4(glm::normalize(glm::dmat3(o.view) * glm::dvec3(world)), 0));

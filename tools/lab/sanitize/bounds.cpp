@@ -137,7 +137,7 @@ class LitBounds {
 std::shared_ptr<LitBounds> lit_bounds(const Family& family, const Key& key, StageKind stage,
                                       const evaluate::Program& program, const InputSpace& space) {
     auto model = oracle::model_of(family, key);
-    if (!model) return nullptr;
+    if (!model || model->takes_derivatives()) return nullptr;  // which hang on what other pixels are given
     // A shadow only takes light away.
     model->directional_shadows = model->point_shadows = model->spot_shadows = 0;
     auto bounds = std::make_shared<LitBounds>(*model, stage, program);

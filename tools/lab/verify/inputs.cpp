@@ -66,14 +66,9 @@ template <class At>
 void add_fields(Fields& fields, const std::string& name, std::size_t most, At at) {
     using Value = std::remove_cvref_t<decltype(at(std::declval<Sample&>(), 0))>;
     if constexpr (kIsNumbers<Value>) {
-        const bool is_place = name.ends_with("[].position");  // as the shaders take it: its w is 1
         fields[name] = [=](std::size_t index) -> std::optional<Field> {
             if (index >= most) return std::nullopt;
-            return Field{[=](const Sample& sample) {
-                             std::vector<double> values = numbers(at(sample, index));
-                             if (is_place && values.size() == 3) values.push_back(1);
-                             return values;
-                         },
+            return Field{[=](const Sample& sample) { return numbers(at(sample, index)); },
                          [=](Sample& sample, const std::vector<double>& values) {
                              assign(at(sample, index), values);
                          }};
@@ -92,6 +87,24 @@ void add_fields(Fields& fields, const std::string& name, std::size_t most, At at
         };
         for_each_member<Value>(add_member);
     }
+}
+
+/// A local light's position. Its w is 1, or 1 / range where the key has ranges.
+template <class Light>
+auto places(std::vector<Light> oracle::Scene::*lights) {
+    return [=](std::size_t index) -> std::optional<Field> {
+        return Field{[=](const Sample& sample) {
+                         const Light& light = element(sample.scene.*lights, index);
+                         const bool has_range = sample.model.light_range == oracle::LightRange::windowed;
+                         return std::vector<double>{light.position.x, light.position.y, light.position.z,
+                                                    has_range ? light.nearness : 1};
+                     },
+                     [=](Sample& sample, const std::vector<double>& values) {
+                         Light& light = element(sample.scene.*lights, index);
+                         light.position = {values.at(0), values.at(1), values.at(2)};
+                         light.nearness = values.size() > 3 ? values[3] : 0;
+                     }};
+    };
 }
 
 /// The cosines of four lights.
@@ -117,6 +130,8 @@ const Fields& fields_of_lit() {
         add_fields(
             fields, "", kMostElements<Sample>, [](auto& sample, std::size_t) -> auto& { return sample; });
         fields["lightCosines[]"] = &cosines;
+        fields["PointLights.lights[].position"] = places(&oracle::Scene::point);
+        fields["SpotLights.lights[].position"] = places(&oracle::Scene::spot);
         fields["gl_FragCoord"] = [](std::size_t) {
             return Field{
                 [](const Sample& sample) {

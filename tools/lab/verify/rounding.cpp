@@ -214,11 +214,12 @@ glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene
     const double normal = errors.normal + given_direction(model);
     const double to_viewer = viewer_error(model, surface.position, errors.position);
     const glm::dvec3 ambient = ambient_error(exact.ambient, normal);
-    const glm::dvec3 mirrored =
-        exact.reflected.slope * (to_viewer + 4 * normal + 14 * kU) + exact.reflected.value * (5 * kU);
+    const auto mirrored_error = [&](const oracle::LookedUp& reflected) {
+        return reflected.slope * (to_viewer + 4 * normal + 14 * kU) + reflected.value * (5 * kU);
+    };
     // A texel at a place that is rounded: eight roundings of what it is multiplied by. A normal of a picture
     // is a sum of three such vectors, made unit.
-    const bool is_bent = model.normal_map == oracle::NormalMap::tangent;
+    const bool is_bent = model.normal_map != oracle::NormalMap::none;
     const bool has_pictures = is_bent || model.base_color_map == oracle::Picture::texture ||
                               model.metallic_roughness_map == oracle::Picture::texture ||
                               model.occlusion_map == oracle::Picture::texture ||
@@ -233,6 +234,7 @@ glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene
         const auto off = [&](const glm::dvec3& most) { return most * random.components(-1, 1); };
         oracle::PhysicalPoint point = exact;
         point.normal += off(glm::dvec3(bent_normal));
+        point.coat_normal += off(glm::dvec3(normal));
         point.tangent += glm::dvec4(off(glm::dvec3(4 * kU)), 0);
         point.base_color += glm::dvec4(off(glm::dvec3(texel)), 0);
         const glm::dvec3 factors = off(glm::dvec3(texel));
@@ -247,12 +249,13 @@ glm::dvec3 physical_error(const oracle::Model& model, const oracle::Scene& scene
             light.radiance += off(incident.radiance);
         }
         point.ambient.value += off(ambient);
-        point.reflected.value += off(mirrored);
+        point.reflected.value += off(mirrored_error(exact.reflected));
+        point.coat_reflected.value += off(mirrored_error(exact.coat_reflected));
         oracle::Roundings roundings(kU, static_cast<std::uint64_t>(i));
         change = glm::max(
             change, glm::abs(oracle::radiance_of(model, scene, point, roundings).value - radiance.value));
     }
-    const double sums = sum_roundings(model.light_sum, exact.lights.size()) + 16;
+    const double sums = sum_roundings(model.light_sum, 2 * exact.lights.size()) + 16;
     return kRoundedFactor * change + radiance.largest * (sums * kU);
 }
 
@@ -271,7 +274,11 @@ IncidentErrors incident_errors(const oracle::Model& model, const oracle::Inciden
     const double direction = ray + kDirectionError;
     const double attenuation = 2 * direction + 7 * kU;
     const double cone = incident.spot != nullptr ? cone_error(model.spot_edge, incident, direction) : 0;
-    return {direction, attenuation, incident.radiance * attenuation + incident.unshaped * cone + shadow};
+    // 1 - x^4, x a product of the distance.
+    const bool has_range = model.light_range == oracle::LightRange::windowed;
+    const double window = has_range ? 4 * (direction + 3 * kU) * (1 - incident.window) + kU : 0;
+    return {direction, attenuation,
+            incident.radiance * attenuation + incident.unshaped * (cone + window) + shadow};
 }
 
 double viewer_error(const oracle::Model& model, const glm::dvec3& position, double position_error) {

@@ -161,6 +161,8 @@ class SampleMaker {
     void set_brightness(oracle::PointLight& light, double distance) {
         for (int i = 0; i < 3; ++i) light.attenuation[i] = random_.one_in(4) ? 0 : random_.across(1e-3, 1);
         if (light.attenuation == glm::dvec3(0)) light.attenuation.x = 1;
+        if (model_.light_range == oracle::LightRange::windowed)
+            light.nearness = random_.one_in(8) ? 0 : 1 / (distance * random_.across(0.9, 10));
         const glm::dvec3& k = light.attenuation;
         const double brightness = std::min(k.x + distance * (k.y + distance * k.z), 1e5);
         light.color = random_.components(0, 2) * brightness;

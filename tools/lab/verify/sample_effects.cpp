@@ -190,6 +190,8 @@ void fill_metallic_roughness(Random& random, Sample& sample) {
     material.occlusion_strength = factor();
     material.clearcoat = factor();
     material.clearcoat_roughness = factor();
+    material.sheen_color = random.components(0, 1);
+    material.sheen_roughness = factor();
     material.anisotropy = factor();
     const double brush = random.between(0, 6.28);
     material.anisotropy_direction = {std::cos(brush), std::sin(brush)};

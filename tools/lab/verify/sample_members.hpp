@@ -52,7 +52,8 @@ inline constexpr auto kMembers<oracle::DirectionalLight> =
 template <>
 inline constexpr auto kMembers<oracle::PointLight> = std::tuple(
     std::pair("position", &oracle::PointLight::position), std::pair("color", &oracle::PointLight::color),
-    std::pair("attenuation", &oracle::PointLight::attenuation));
+    std::pair("attenuation", &oracle::PointLight::attenuation),
+    std::pair("nearness", &oracle::PointLight::nearness));
 template <>
 inline constexpr auto kMembers<oracle::SpotLight> =
     std::tuple_cat(kMembers<oracle::PointLight>,

@@ -50,6 +50,25 @@ Deviation deviation_of(const std::vector<Expected>& all, const evaluate::Outputs
     return deviation;
 }
 
+/// The sample with what changes from it to its neighbours, as the evaluation of a quad takes derivatives.
+Sample with_steps(std::span<const Sample> samples, std::size_t index) {
+    Sample sample = samples[index];
+    const std::size_t quad = index - index % 4;
+    if (quad + 3 >= samples.size()) return sample;
+    const auto step = [&](std::size_t from, std::size_t to) {
+        const oracle::SurfacePoint& here = samples[quad + from].surface;
+        const oracle::SurfacePoint& there = samples[quad + to].surface;
+        return oracle::PixelStep{there.position - here.position, there.normal - here.normal,
+                                 there.texture_coordinate - here.texture_coordinate,
+                                 there.texture_coordinate1 - here.texture_coordinate1};
+    };
+    const std::size_t row = index & 2U;
+    const std::size_t column = index & 1U;
+    sample.surface.along_x = step(row, row + 1);
+    sample.surface.along_y = step(column, column + 2);
+    return sample;
+}
+
 /// Both evaluations of all points, and how far they may be apart.
 struct Evaluations {
     NamedValues in_float;
@@ -192,7 +211,10 @@ Result<StageCheck::Judged> StageCheck::run(Precision precision, std::span<const 
                                                           : evaluate::run<float>(program_, invocations));
     for (std::size_t i = 0; i < failed_.size(); ++i) {
         const std::size_t index = own.empty() ? i : own[i];
-        judged.expected = judge(precision, samples[index], invocations, judged.outputs, index, i);
+        judged.expected =
+            model_.takes_derivatives()
+                ? judge(precision, with_steps(samples, index), invocations, judged.outputs, index, i)
+                : judge(precision, samples[index], invocations, judged.outputs, index, i);
     }
     return judged;
 }

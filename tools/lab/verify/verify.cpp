@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "family/key.hpp"
 #include "lab/verify/on_mesh.hpp"
+#include "lab/verify/reflection_laws.hpp"
 #include "lab/verify/stage_check.hpp"
 
 namespace gobo::verify {
@@ -79,6 +80,11 @@ class Verifier {
                 report.add(std::move(stage), 2 * kWorstPoints);
             }
         }
+        if (models.size() == 1 && models.front().is_physical()) {
+            GOBO_TRY(auto laws, check_laws(pipeline.fragment, models.front(), seed));
+            report.points_of_laws = laws.figures.points;
+            report.add(std::move(laws), 2 * kWorstPoints);
+        }
         GOBO_TRY(report.relations, try_relations(family_, decoded_, permutation, pipeline, seed));
         return {};
     }
@@ -115,6 +121,7 @@ VerifyReport verify(const Family& family, const Composition& composition, const 
     for (const PermutationReport& permutation : report.permutations) {
         report.figures += permutation.figures;
         report.points_on_meshes += permutation.points_on_meshes;
+        report.points_of_laws += permutation.points_of_laws;
         if (!permutation.has_oracle) ++report.without_oracle;
     }
     return report;

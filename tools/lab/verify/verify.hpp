@@ -30,6 +30,7 @@ struct PermutationReport : StageReport {
     Key key;
     bool has_oracle = false;
     std::size_t points_on_meshes = 0;       ///< of figures.points
+    std::size_t points_of_laws = 0;         ///< of figures.points
     std::vector<RelationReport> relations;  ///< those that were tried
     Diagnostics diagnostics;                ///< why a stage could not be evaluated
 };
@@ -41,6 +42,7 @@ struct VerifyReport {
     std::vector<PermutationReport> permutations;  ///< in the composition's order
     Figures figures;
     std::size_t points_on_meshes = 0;
+    std::size_t points_of_laws = 0;  ///< see check_laws()
     std::size_t without_oracle = 0;
 };
 
