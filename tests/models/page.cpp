@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* kHeading = R"(# The lighting models
 
-Every lighting model of the classic texts: a permutation that has it as an example, the files with its pieces, a picture, and the largest errors that `gobo test` found over all permutations that have it, in single precision
+Every lighting model of the classic texts, and of physically based surfaces: a permutation that has it as an example, the files with its pieces, a picture, and the largest errors that `gobo test` found over all permutations that have it, in single precision
 (fp32) and, for the same shader, in double precision (fp64), both relative to the largest term of the light ([verification](verification.md)). The permutations are those of `gobo test lit
---cover 3` and, for the ubershader, those of `tests/ubershader`. They mix models and qualities, so the largest errors are those of `spot_edge=cosine`, which resolves narrow cones no better than a cosine in single
+--cover 3`, of `gobo test pbr --cover 2` and, for the ubershader, those of `tests/ubershader`. They mix models and qualities, so the largest errors are those of `spot_edge=cosine`, which resolves narrow cones no better than a cosine in single
 precision does ([quality](quality.md#the-rim-of-a-cone-spot_edge)). [Numerics](numerics.md) names models by these ids. One command writes this page, its pictures and its figures; a test fails
 where it is out of date:
 
