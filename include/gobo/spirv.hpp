@@ -21,6 +21,7 @@ enum class DescriptorKind : std::uint32_t {
     storage_texel_buffer = 5,
     uniform_buffer = 6,
     storage_buffer = 7,
+    input_attachment = 10,
 };
 
 /// Where a sampler is bound.

@@ -80,17 +80,38 @@ TEST(VulkanHeader, LaysSetsOutAsTheFamilySays) {
     EXPECT_EQ(write.pBufferInfo, &buffer);
 }
 
-TEST(VulkanHeader, GivesArraysOfBlocksOneBinding) {
+TEST(VulkanHeader, GivesArraysOneBindingAndKnowsEveryKind) {
     struct Row {
         std::string_view name;
         std::uint32_t set, binding, count;
+        VkDescriptorType type;
         bool operator==(const Row&) const = default;
     };
     std::vector<Row> rows;
-    for (const runtime::Descriptor& descriptor : descriptor_arrays::descriptors)
-        rows.push_back({descriptor.name, descriptor.set, descriptor.binding, descriptor.count});
-    EXPECT_EQ(rows, (std::vector<Row>{
-                        {"Records", 0, 0, 3}, {"Tints", 0, 1, 4}, {"Scales", 1, 0, 2}, {"Bias", 1, 1, 1}}));
+    for (std::uint32_t set = 0; set < vulkan::set_count(descriptor_arrays::descriptors); ++set) {
+        const auto bindings = vulkan::layout_bindings(descriptor_arrays::descriptors, set);
+        for (const runtime::Descriptor& descriptor : descriptor_arrays::descriptors)
+            for (const VkDescriptorSetLayoutBinding& binding : bindings)
+                if (descriptor.set == set && descriptor.binding == binding.binding)
+                    rows.push_back({descriptor.name, set, binding.binding, binding.descriptorCount,
+                                    binding.descriptorType});
+    }
+    EXPECT_EQ(rows, (std::vector<Row>{{"Records", 0, 0, 3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                      {"Tints", 0, 1, 4, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+                                      {"Scales", 1, 0, 2, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+                                      {"Bias", 1, 1, 1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
+                                      {"maps", 2, 0, 5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                      {"plain", 2, 1, 1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+                                      {"filtering", 2, 2, 1, VK_DESCRIPTOR_TYPE_SAMPLER},
+                                      {"grid", 2, 3, 1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                                      {"row", 2, 4, 1, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
+                                      {"noise", 2, 5, 1, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER},
+                                      {"drawn", 2, 6, 1, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT}}));
+    const auto ranges = vulkan::push_constant_ranges(descriptor_arrays::push_constants);
+    ASSERT_EQ(ranges.size(), 1u);
+    EXPECT_EQ(ranges[0].stageFlags, static_cast<VkShaderStageFlags>(VK_SHADER_STAGE_FRAGMENT_BIT));
+    EXPECT_EQ(ranges[0].offset, 0u);
+    EXPECT_EQ(ranges[0].size, sizeof(descriptor_arrays::Pushed));
     EXPECT_EQ(descriptor_arrays::Records::binding, 0);
     EXPECT_EQ(descriptor_arrays::Tints::binding, 1);
     EXPECT_EQ(descriptor_arrays::Scales::binding, 0);

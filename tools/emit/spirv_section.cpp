@@ -22,6 +22,7 @@ unsigned stage_bits(const std::vector<std::string>& stages) {
 
 /// The enumerator of gobo::DescriptorKind for a sampler's GLSL type.
 std::string_view kind_of(std::string_view type) {
+    if (type.find("subpassInput") != std::string_view::npos) return "input_attachment";
     const bool is_buffer = type.ends_with("Buffer");
     if (type.find("image") != std::string_view::npos)
         return is_buffer ? "storage_texel_buffer" : "storage_image";
@@ -162,7 +163,7 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
     std::map<int, const SpecializationConstant*> known;  // by constant_id
     for (const SpecializationConstant& constant : interface.specialization_constants) {
         const auto [at, is_new] = known.try_emplace(constant.id, &constant);
-        if (!is_new && dialect == Dialect::vulkan) {
+        if (!is_new) {
             const SpecializationConstant& first = *at->second;
             const std::string problem =
                 first.name == constant.name && first.type == constant.type

@@ -308,12 +308,12 @@ class Reader {
 };
 
 std::string image_name(const Module& module, const Type& type, std::string_view kind) {
-    constexpr std::string_view kDimensions[] = {"1D", "2D", "3D", "Cube", "2DRect", "Buffer"};
+    constexpr std::string_view kDimensions[] = {"1D", "2D", "3D", "Cube", "2DRect", "Buffer", ""};
     const Scalar texel = module.type(type.element).value.scalar;
     const std::string_view prefix = texel == Scalar::int32 ? "i" : texel == Scalar::uint32 ? "u" : "";
     return fmt::format(
         "{}{}{}{}{}{}", prefix, kind,
-        kDimensions[type.image.dimension <= spv::DimBuffer ? type.image.dimension : spv::Dim2D],
+        kDimensions[type.image.dimension <= spv::DimSubpassData ? type.image.dimension : spv::Dim2D],
         type.image.multisampled ? "MS" : "", type.image.arrayed ? "Array" : "",
         type.image.depth ? "Shadow" : "");
 }
@@ -370,6 +370,7 @@ std::string type_name(const Module& module, Id id) {
         case spv::OpTypeSampledImage:
             return image_name(module, module.type(type.element), "sampler");
         case spv::OpTypeImage:
+            if (type.image.dimension == spv::DimSubpassData) return image_name(module, type, "subpassInput");
             return image_name(module, type, type.image.storage ? "image" : "texture");
         case spv::OpTypeSampler:
             return "sampler";

@@ -24,8 +24,6 @@ class DescriptorCheck {
             for (const Block& block : stage.interface.blocks) add(stage, "uniform block", block);
             for (const Block& block : stage.interface.storage_blocks) add(stage, "storage block", block);
             for (const Sampler& sampler : stage.interface.samplers) add(stage, "sampler", sampler);
-            for (const SpecializationConstant& constant : stage.interface.specialization_constants)
-                add_constant(stage, constant);
             for (const Block& block : stage.interface.push_constants)
                 if (block.size > kGuaranteedPushConstants)
                     add_warning(
@@ -66,22 +64,6 @@ class DescriptorCheck {
                 fmt::format("Vulkan guarantees {} sets, 0 to {}", kGuaranteedSets, kGuaranteedSets - 1));
     }
 
-    /// A pipeline is given one value for each constant_id.
-    void add_constant(const StageView& stage, const SpecializationConstant& constant) {
-        const auto [at, is_new] = constants_.try_emplace(constant.id, constant, &stage);
-        const auto& [first, in_stage] = at->second;
-        if (is_new || first == constant) return;
-        const std::string where = declaration_of(first.name, "constant_id", in_stage->pieces).text();
-        found_.push_back(diagnostic_at(
-            declaration_of(constant.name, "constant_id", stage.pieces), Severity::error,
-            first.name == constant.name && first.type == constant.type
-                ? fmt::format("the default of '{}' with constant_id {} is another at {}", constant.name,
-                              constant.id, where)
-                : fmt::format("constant_id {} is the {} '{}', and at {} the {} '{}'", constant.id,
-                              constant.type, constant.name, where, first.type, first.name),
-            "declare it alike in all stages, or give one of them another constant_id"));
-    }
-
     void refuse(const StageView& stage, const std::string& name, std::string message) {
         found_.push_back(diagnostic_at(declaration_of(name, "", stage.pieces), Severity::error,
                                        std::move(message),
@@ -97,7 +79,6 @@ class DescriptorCheck {
     const std::vector<StageView>& stages_;
     std::map<std::pair<int, int>, Taken> taken_;
     std::map<std::string, std::pair<int, int>> place_of_;
-    std::map<int, std::pair<SpecializationConstant, const StageView*>> constants_;  ///< by constant_id
     Diagnostics found_;
 };
 
@@ -105,6 +86,27 @@ class DescriptorCheck {
 
 Diagnostics check_descriptors(const std::vector<StageView>& stages) {
     return DescriptorCheck(stages).run();
+}
+
+Diagnostics check_constants(const std::vector<StageView>& stages) {
+    Diagnostics found;
+    std::map<int, std::pair<const SpecializationConstant*, const StageView*>> known;  // by constant_id
+    for (const StageView& stage : stages)
+        for (const SpecializationConstant& constant : stage.interface.specialization_constants) {
+            const auto [at, is_new] = known.try_emplace(constant.id, &constant, &stage);
+            const auto& [first, in_stage] = at->second;
+            if (is_new || *first == constant) continue;
+            const std::string where = declaration_of(first->name, "constant_id", in_stage->pieces).text();
+            found.push_back(diagnostic_at(
+                declaration_of(constant.name, "constant_id", stage.pieces), Severity::error,
+                first->name == constant.name && first->type == constant.type
+                    ? fmt::format("the default of '{}' with constant_id {} is another at {}", constant.name,
+                                  constant.id, where)
+                    : fmt::format("constant_id {} is the {} '{}', and at {} the {} '{}'", constant.id,
+                                  constant.type, constant.name, where, first->type, first->name),
+                "declare it alike in all stages, or give one of them another constant_id"));
+        }
+    return found;
 }
 
 }  // namespace gobo

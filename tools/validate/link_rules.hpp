@@ -22,10 +22,13 @@ struct StageView {
 /// The stages stand in the order of the pipeline.
 [[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
-/// Of stages for Vulkan: blocks and samplers that share a place, and specialisation constants that share a
-/// constant_id but are not alike, with both lines; sets and push constants beyond what every device has, as
-/// warnings.
+/// Of stages for Vulkan: blocks and samplers that share a place, with both lines; sets and push constants
+/// beyond what every device has, as warnings.
 [[nodiscard]] Diagnostics check_descriptors(const std::vector<StageView>& stages);
+
+/// Of stages that are shipped as SPIR-V: specialisation constants that share a constant_id but are not alike,
+/// with both lines. The header has one table of them for all stages.
+[[nodiscard]] Diagnostics check_constants(const std::vector<StageView>& stages);
 
 /// What the stages need beyond the least that every driver of the dialect offers (OpenGL 4.5 core, tables
 /// 23.53 to 23.64; OpenGL 3.3 core, table 6.40 ff.; OpenGL ES 3.0, tables 6.29 to 6.33). Only what is used

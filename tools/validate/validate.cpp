@@ -284,6 +284,7 @@ class Validator {
         if (exit_status(found) != 0) all.clear();
         append(all, found);
         if (composition_.dialect == Dialect::vulkan) append(all, check_descriptors(views));
+        if (is_spirv(composition_.dialect)) append(all, check_constants(views));
         if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }
 
