@@ -19,6 +19,7 @@
 
 #include <gobo/driver_log.hpp>
 #include <gobo/permutation.hpp>
+#include <gobo/spirv.hpp>
 
 #if !defined(GOBO_GL_NO_LOADER) && !defined(GL_VERSION_2_0) && !defined(GL_ES_VERSION_3_0)
 #error \
@@ -45,6 +46,7 @@ inline constexpr unsigned link_status = 0x8B82;
 inline constexpr unsigned info_log_length = 0x8B84;
 inline constexpr unsigned current_program = 0x8B8D;
 inline constexpr unsigned shader_storage_block = 0x92E6;
+inline constexpr unsigned shader_binary_format_spirv = 0x9551;
 inline constexpr unsigned invalid_index = 0xFFFFFFFF;
 }  // namespace constant
 
@@ -97,6 +99,16 @@ struct LoadedFunctions {
         glShaderStorageBlockBinding(program, block, binding);
     }
 #endif
+#ifdef GL_VERSION_4_6
+    void ShaderBinary(int count, const unsigned* shaders, unsigned format, const void* words,
+                      int bytes) const {
+        glShaderBinary(count, shaders, format, words, bytes);
+    }
+    void SpecializeShader(unsigned shader, const char* entry_point, unsigned count, const unsigned* ids,
+                          const unsigned* values) const {
+        glSpecializeShader(shader, entry_point, count, ids, values);
+    }
+#endif
 };
 #endif
 
@@ -109,6 +121,12 @@ template <class Functions>
 struct BindsStorage<
     Functions, std::void_t<decltype(std::declval<const Functions&>().ShaderStorageBlockBinding(0U, 0U, 0U))>>
     : std::true_type {};
+
+/// Whether a header holds SPIR-V, which states all locations and bindings and need not have names.
+template <class Tables, class = void>
+struct IsSpirv : std::false_type {};
+template <class Tables>
+struct IsSpirv<Tables, std::void_t<decltype(Tables::modules)>> : std::true_type {};
 
 /// The log of a shader or program. `get_length(int*)`, `get_log(size, int*, char*)`.
 template <class GetLength, class GetLog>
@@ -123,7 +141,22 @@ template <class GetLength, class GetLog>
     return log;
 }
 
-/// A compiled shader, or 0 with `error` set. `translated(log)` has the log's places name files.
+/// The shader where it has been compiled, else 0 with `error` set. `translated(log)` has the log's places
+/// name files.
+template <class Functions, class Translated>
+[[nodiscard]] unsigned if_compiled(unsigned shader, runtime::StageKind kind, const Functions& gl,
+                                   std::string& error, Translated translated) {
+    int compiled = 0;
+    gl.GetShaderiv(shader, constant::compile_status, &compiled);
+    if (compiled != 0) return shader;
+    const std::string log =
+        read_log([&](int* size) { gl.GetShaderiv(shader, constant::info_log_length, size); },
+                 [&](int size, int* length, char* text) { gl.GetShaderInfoLog(shader, size, length, text); });
+    error = std::string(runtime::name_of(kind)) + " stage does not compile\n" + translated(log);
+    gl.DeleteShader(shader);
+    return 0;
+}
+
 template <class Functions, class Translated>
 [[nodiscard]] unsigned compile_texts(const std::vector<std::string_view>& pieces, runtime::StageKind kind,
                                      const Functions& gl, std::string& error, Translated translated) {
@@ -136,24 +169,36 @@ template <class Functions, class Translated>
     const unsigned shader = gl.CreateShader(constant::shader_of_stage[static_cast<std::size_t>(kind)]);
     gl.ShaderSource(shader, static_cast<int>(texts.size()), texts.data(), lengths.data());
     gl.CompileShader(shader);
-    int compiled = 0;
-    gl.GetShaderiv(shader, constant::compile_status, &compiled);
-    if (compiled != 0) return shader;
-    const std::string log =
-        read_log([&](int* size) { gl.GetShaderiv(shader, constant::info_log_length, size); },
-                 [&](int size, int* length, char* text) { gl.GetShaderInfoLog(shader, size, length, text); });
-    error = std::string(runtime::name_of(kind)) + " stage does not compile\n" + translated(log);
-    gl.DeleteShader(shader);
-    return 0;
+    return if_compiled(shader, kind, gl, error, translated);
 }
 
-template <class Tables, class Functions>
-[[nodiscard]] unsigned compile(const runtime::Stage<Tables>& stage, runtime::StageKind kind,
-                               const Functions& gl, std::string& error) {
+template <class Permutation, class Tables, class Functions>
+[[nodiscard]] unsigned compile(const Permutation&, const runtime::Stage<Tables>& stage,
+                               runtime::StageKind kind, const Functions& gl, std::string& error) {
     std::vector<std::string_view> pieces;
     stage.for_each_piece([&pieces](std::string_view text) { pieces.push_back(text); });
     return compile_texts(pieces, kind, gl, error,
                          [&stage](const std::string& log) { return runtime::translated_log(stage, log); });
+}
+
+/// Of a module, with the permutation's values for those specialisation constants that the module has: OpenGL
+/// takes no others.
+template <class Permutation, class Tables, class Functions>
+[[nodiscard]] unsigned compile(const Permutation& permutation, const runtime::SpirvStage<Tables>& stage,
+                               runtime::StageKind kind, const Functions& gl, std::string& error) {
+    std::vector<unsigned> ids;
+    std::vector<unsigned> values;
+    for (std::size_t i = 0; i < Tables::specialization_constants.size(); ++i) {
+        if (!runtime::has_constant(stage, Tables::specialization_constants[i].id)) continue;
+        ids.push_back(Tables::specialization_constants[i].id);
+        values.push_back(permutation.specialization()[i]);
+    }
+    const unsigned shader = gl.CreateShader(constant::shader_of_stage[static_cast<std::size_t>(kind)]);
+    gl.ShaderBinary(1, &shader, constant::shader_binary_format_spirv, stage.words(),
+                    static_cast<int>(stage.size()));
+    gl.SpecializeShader(shader, stage.entry_point, static_cast<unsigned>(ids.size()), ids.data(),
+                        values.data());
+    return if_compiled(shader, kind, gl, error, [](const std::string& log) { return log; });
 }
 
 }  // namespace detail
@@ -223,11 +268,13 @@ template <class Permutation, class Functions>
     }
     const unsigned id = gl.CreateProgram();
     for (const unsigned shader : shaders) gl.AttachShader(id, shader);
-    for (const runtime::VariableLocation& attribute : Permutation::Tables::attributes) {
-        if (!attribute.only.applies_to(permutation)) continue;
-        gl.BindAttribLocation(id, static_cast<unsigned>(attribute.location),
-                              std::string(attribute.name).c_str());
-    }
+    constexpr bool states_places = IsSpirv<typename Permutation::Tables>::value;
+    if constexpr (!states_places)
+        for (const runtime::VariableLocation& attribute : Permutation::Tables::attributes) {
+            if (!attribute.only.applies_to(permutation)) continue;
+            gl.BindAttribLocation(id, static_cast<unsigned>(attribute.location),
+                                  std::string(attribute.name).c_str());
+        }
     gl.LinkProgram(id);
     // They live on within the program until it is deleted.
     for (const unsigned shader : shaders) gl.DeleteShader(shader);
@@ -241,7 +288,7 @@ template <class Permutation, class Functions>
         gl.DeleteProgram(id);
         return program;
     }
-    gl::set_bindings(permutation, id, gl);
+    if constexpr (!states_places) gl::set_bindings(permutation, id, gl);
     program.id = id;
     return program;
 }
@@ -249,13 +296,14 @@ template <class Permutation, class Functions>
 }  // namespace detail
 
 /// Compiles and links a permutation of a generated header, and binds its attributes, blocks and samplers as
-/// the header says. Needs a current context of OpenGL 3.3 or OpenGL ES 3.0 at least.
+/// the header says. Needs a current context of OpenGL 3.3 or OpenGL ES 3.0 at least; a header of the dialect
+/// gl_spirv one of OpenGL 4.6, or functions ShaderBinary and SpecializeShader (glSpecializeShaderARB).
 template <class Permutation, class Functions>
 [[nodiscard]] Program build_program(const Permutation& permutation, const Functions& gl) {
     std::string error;
     std::vector<unsigned> shaders;
     runtime::for_each_stage(permutation, [&](runtime::StageKind kind, const auto& stage) {
-        const unsigned shader = error.empty() ? detail::compile(stage, kind, gl, error) : 0;
+        const unsigned shader = error.empty() ? detail::compile(permutation, stage, kind, gl, error) : 0;
         if (shader != 0) shaders.push_back(shader);
     });
     return detail::link(permutation, shaders, gl, std::move(error));

@@ -62,6 +62,19 @@ struct SpirvStage {
     }
 };
 
+/// Whether the module of a stage has the specialisation constant of that constant_id.
+template <class Tables>
+[[nodiscard]] constexpr bool has_constant(const SpirvStage<Tables>& stage, std::uint32_t id) {
+    constexpr std::uint32_t decorate = 71;  // OpDecorate: target, decoration, literals
+    constexpr std::uint32_t spec_id = 1;
+    for (std::size_t at = 5; at + 3 < stage.word_count() && stage.words()[at] >> 16U != 0;
+         at += stage.words()[at] >> 16U)
+        if ((stage.words()[at] & 0xffffU) == decorate && stage.words()[at + 2] == spec_id &&
+            stage.words()[at + 3] == id)
+            return true;
+    return false;
+}
+
 /// A block or sampler of some permutation, sorted by set and binding. `stages` are the bits of
 /// VkShaderStageFlags, of all permutations together.
 struct Descriptor {

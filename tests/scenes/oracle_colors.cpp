@@ -74,7 +74,7 @@ Result<OracleColors> oracle_colors(const Family& family, const Key& key, const r
     GOBO_TRY(const auto even, evaluate::run<double>(pipeline.fragment, inputs));
     spell_out_blocks(pipeline.fragment, inputs);
     for (std::size_t i = 0; i < object.fragments.size(); ++i) {
-        const std::size_t place = raster::own_place(object.fragments[i], i, pipeline.needs_quads);
+        const std::size_t place = raster::own_place(object, i, pipeline.needs_quads);
         std::array<double, 4>& color = result.colors.emplace_back(color_of(stage, pipeline.color, place));
         if (stage.discarded[place]) continue;
         evaluate::Invocations one = one_of(pipeline.fragment, inputs, place);

@@ -393,7 +393,7 @@ std::vector<RenderValue> read_render_values(const TomlTable& table, std::string_
         } else {
             value.numbers = table.reader.numbers_of(node, value.name);
         }
-        if (!value.source.empty() && std::ranges::count(kRenderSources, value.source) == 0)
+        if (!value.source.empty() && !is_render_source(value.source))
             table.reader.error(node, fmt::format("unknown source '{}' for '{}'", value.source, value.name),
                                suggestion(value.source, {kRenderSources.begin(), kRenderSources.end()}));
         values.push_back(std::move(value));

@@ -1,6 +1,7 @@
 // What `gobo render` can supply, by the names that [render] of a family file uses.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -16,5 +17,9 @@ inline constexpr std::array<std::string_view, 26> kRenderSources = {
     "position", "normal", "texcoord", "color", "tint", "material_number", "tile",
     // samplers
     "texture_checker", "texture_white", "texture_ramp", "texture_normal", "texture_lattice"};
+
+[[nodiscard]] constexpr bool is_render_source(std::string_view name) {
+    return std::find(kRenderSources.begin(), kRenderSources.end(), name) != kRenderSources.end();
+}
 
 }  // namespace gobo

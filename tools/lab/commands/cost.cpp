@@ -59,8 +59,15 @@ Result<Outcome> list_chips(const CostCommandOptions& options, const World& world
         "--driver"};
 }
 
-/// A permutation's two stages: indices into Composition::stages.
-using Pair = std::pair<int, int>;
+/// A permutation's two stages, indices into Composition::stages, and the values of its specialisation
+/// constants by constant_id.
+struct Pair {
+    int vertex = 0;
+    int fragment = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
+
+    friend auto operator<=>(const Pair&, const Pair&) = default;
+};
 
 /// What is compiled: each distinct pair once.
 struct Pairs {
@@ -70,7 +77,25 @@ struct Pairs {
 };
 
 Pair pair_of(const Permutation& permutation) {
-    return {permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]};
+    Pair pair{permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]};
+    for (const SpecializedCount& count : permutation.specialized)
+        pair.constants.emplace_back(count.id, count.value);
+    return pair;
+}
+
+Result<cost::Pipeline> pipeline_of(const Composition& composition, const Validated& validated,
+                                   const Permutation& permutation) {
+    const Pair pair = pair_of(permutation);
+    const ValidatedStage& vertex = validated.stage(pair.vertex);
+    const ValidatedStage& fragment = validated.stage(pair.fragment);
+    const bool is_vulkan = composition.dialect == Dialect::vulkan;
+    GOBO_TRY(cost::Pipeline pipeline, is_vulkan ? cost::pipeline_of_vulkan(vertex.spirv, fragment.spirv)
+                                                : cost::pipeline_of(vertex.spirv, fragment.spirv));
+    pipeline.constants = pair.constants;
+    for (const ValidatedStage* stage : {&vertex, &fragment})
+        for (const Block& block : stage->interface.push_constants)
+            pipeline.push_bytes = std::max(pipeline.push_bytes, static_cast<std::uint32_t>(block.size));
+    return pipeline;
 }
 
 /// "fog=linear", or the files' names.
@@ -84,8 +109,7 @@ Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const 
     std::map<Pair, bool> seen;
     for (const Permutation& permutation : subject.composition.permutations) {
         if (!seen.try_emplace(pair_of(permutation)).second) continue;
-        const auto [vertex, fragment] = pair_of(permutation);
-        auto pipeline = cost::pipeline_of(validated.stage(vertex).spirv, validated.stage(fragment).spirv);
+        auto pipeline = pipeline_of(subject.composition, validated, permutation);
         if (pipeline) {
             pairs.numbers[pair_of(permutation)] = pairs.pipelines.size();
             pairs.pipelines.push_back(*std::move(pipeline));
@@ -305,13 +329,10 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
         if (counted.specialized.empty()) continue;
         keys.push_back(key_text(family.family, counted.key));
         for (const Side* side : {&literal, &specialized}) {
-            const auto [vertex, fragment] = pair_of(side->composition.permutations[i]);
-            GOBO_TRY(cost::Pipeline pipeline, cost::pipeline_of(side->validated.stage(vertex).spirv,
-                                                                side->validated.stage(fragment).spirv));
+            GOBO_TRY(cost::Pipeline pipeline,
+                     pipeline_of(side->composition, side->validated, side->composition.permutations[i]));
             pipelines.push_back(std::move(pipeline));
         }
-        for (const SpecializedCount& count : counted.specialized)
-            pipelines.back().constants.emplace_back(count.id, count.value);
     }
     std::string text = fmt::format(
         "{} keys, of which {} have specialised counts\n"
@@ -361,7 +382,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
                     "name a family, or shader files: gobo cost lit");
     if (!options.study.empty()) return cost_study(world, options, chips);
     if (options.specialized) return compare_specialized(world, options, chips);
-    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
+    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect, &options));
     if (subject.composition.permutations.empty())
         return Outcome{{},
                        {{.severity = Severity::warning,
@@ -470,6 +491,7 @@ Command cost_command() {
         {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
           &options->names},
          stages_option(options->stages),
+         dialect_option(options->dialect),
          {"--gpu", "A,B,...",
           "Chips, such as navi21,vega10; list prints those that this machine's driver knows", &options->gpus,
           kRequired},
@@ -482,14 +504,18 @@ Command cost_command() {
           &options->tolerance,
           {.least = 0, .needs = "--baseline"}},
          {"--update", "", "Write the table instead", &options->update, {.needs = "--baseline"}},
-         {"--study", "FILE",
+         {"--study",
+          "FILE",
           "Print this study.csv with cycles and fronts of the chips, for gobo build --max-error --gpu",
-          &options->study},
-         {"--specialized", "",
+          &options->study,
+          {.excludes = "--dialect"}},
+         {"--specialized",
+          "",
           "Compile each key with its counts as specialisation constants too: what assembly differs, and how "
           "many "
           "modules and bytes that saves",
-          &options->specialized},
+          &options->specialized,
+          {.excludes = "--dialect"}},
          {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
          {"--cycles", "", "Print cycles only: a row for each key and stage, a column for each chip",
           &options->cycles},
@@ -503,6 +529,7 @@ Command cost_command() {
         "  gobo cost lit --key 'point=2 light_sum=compensated' --against point=2 --gpu navi21\n"
         "  gobo cost lit --cover 2 --specialized --gpu navi21\n"
         "  gobo cost game.vert game.frag --gpu navi21\n"
+        "  gobo cost game.vert game.frag --gpu navi21 --dialect vulkan\n"
         "  gobo cost lit --gpu navi21 --baseline costs.csv --update\n"
         "  gobo cost --gpu list",
         [options](const World& world) { return run(*options, world); },

@@ -92,10 +92,10 @@ Diagnostics report_unexplained(const World& world, const TestOptions& options, c
 
 /// One error at the relation, and a note for the worst point on either side.
 Diagnostics report_broken_relation(const World& world, const TestOptions& options, const Family& family,
-                                   const Key& key, const verify::RelationReport& report) {
+                                   Dialect dialect, const Key& key, const verify::RelationReport& report) {
     const Relation& relation = family.relations[report.relation];
     const std::string one = key_text(family, key);
-    const auto partner = verify::partner_of(family, relation, key, name_of(Dialect::own));
+    const auto partner = verify::partner_of(family, relation, key, name_of(dialect));
     Diagnostic error;
     error.subject = one;
     error.place = relation.place;
@@ -120,7 +120,7 @@ Diagnostics report_broken_relation(const World& world, const TestOptions& option
 }
 
 Diagnostics report_failures(const World& world, const TestOptions& options, const Family& family,
-                            const verify::VerifyReport& report) {
+                            Dialect dialect, const verify::VerifyReport& report) {
     Diagnostics diagnostics;
     for (const verify::PermutationReport& permutation : report.permutations) {
         append(diagnostics, permutation.diagnostics);
@@ -133,7 +133,7 @@ Diagnostics report_failures(const World& world, const TestOptions& options, cons
         for (const verify::RelationReport& relation : permutation.relations)
             if (relation.failed > 0)
                 append(diagnostics,
-                       report_broken_relation(world, options, family, permutation.key, relation));
+                       report_broken_relation(world, options, family, dialect, permutation.key, relation));
     }
     const verify::Figures& figures = report.figures;
     if (static_cast<double>(figures.edges) > verify::kLargestEdgeShare * static_cast<double>(figures.points))
@@ -329,8 +329,12 @@ std::string figures_of_shard(std::string figures, const std::string& shard) {
 }
 
 Result<Outcome> run(const TestOptions& options, const World& world) {
-    GOBO_TRY(const std::string dialect, dialect_for(options.backend, ""));
+    GOBO_TRY(const std::string dialect, options.render ? dialect_for(options.backend, options.dialect)
+                                                       : Result<std::string>(options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
+    // Evaluated are the literal counts: drivers make the same code of both (gobo cost --specialized).
+    if (!options.render)
+        for (Feature& feature : family.family.features) feature.is_specialized = false;
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     verify::VerifyOptions verify_options;
     if (!options.render) {  // behind the keys stand those that relations compare them with
@@ -356,7 +360,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     verify_options.meshes = verify::test_meshes(std::move(teapot));
     const auto report = verify::verify(family.family, composition, validated, verify_options);
     GOBO_TRY(const auto valid, count_selected(family.family, {.all = true}, name_of(family.dialect)));
-    Diagnostics diagnostics = report_failures(world, options, family.family, report);
+    Diagnostics diagnostics = report_failures(world, options, family.family, family.dialect, report);
     if (!options.figures_file.empty()) {
         const auto written =
             world.disk.write(options.figures_file,
@@ -384,12 +388,14 @@ Command test_command() {
               "Write each key's points and largest errors to this file, as JSON",
               &options->figures_file,
               {.excludes = "--render"}},
-             {"--backend", kBackends, "What draws", &options->backend, {.needs = "--render"}}},
+             {"--backend", kBackends, "What draws", &options->backend, {.needs = "--render"}},
+             dialect_option(options->dialect)},
             {selection_options(*options)},
             "  gobo test lit                               the family's default set\n"
             "  gobo test lit --cover 3\n"
             "  gobo test lit --cover 2 --render            every key drawn, too\n"
             "  gobo test lit --cover 2 --render --backend vulkan\n"
+            "  gobo test lit --dialect es300\n"
             "  gobo test lit --figures figures.json\n"
             "  gobo test lit --key 'fog=linear point=3' -I my_pieces\n"
             "  gobo test game.toml -o build/failed_points",

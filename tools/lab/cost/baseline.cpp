@@ -47,6 +47,9 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
             return {};
         };
         for (const Figure& figure : figures()) GOBO_TRY_DO(read(figure.name, row.cost.*figure.value));
+        std::uint64_t has_loop = 0;
+        GOBO_TRY_DO(read("loop", has_loop));
+        row.cost.has_loop = has_loop != 0;
         for (std::size_t kind = 0; kind < kKindNames.size(); ++kind)
             GOBO_TRY_DO(read(kKindNames[kind], row.cost.kinds[kind]));
     }
@@ -60,7 +63,7 @@ std::string growth(const StageCost& before, const StageCost& now, double percent
         const bool counts = figure.value == &StageCost::instructions ||
                             figure.value == &StageCost::vector_registers ||
                             figure.value == &StageCost::scalar_registers ||
-                            (figure.value == &StageCost::cycles && !now.has_loop);
+                            (figure.value == &StageCost::cycles && !now.has_loop && !before.has_loop);
         const std::uint64_t old_value = before.*figure.value;
         const std::uint64_t new_value = now.*figure.value;
         if (!counts || static_cast<double>(new_value) <= static_cast<double>(old_value) * (1 + percent / 100))

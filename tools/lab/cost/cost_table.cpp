@@ -134,7 +134,7 @@ nlohmann::ordered_json to_json(const std::vector<ChipCost>& costs, bool with_ass
 }
 
 std::string assembly_text(const std::vector<ChipCost>& costs) {
-    std::string text;
+    std::string text = "; drivers keep no lines of the source in their assembly: it is grouped by stage\n";
     for (const ChipCost& cost : costs)
         for (const KeyCost& key : cost.keys)
             for (const StageCost& stage : key.stages)

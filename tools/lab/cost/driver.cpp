@@ -54,6 +54,12 @@ VkDescriptorType type_of(Descriptor::Kind kind) {
             return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         case Descriptor::Kind::image_buffer:
             return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+        case Descriptor::Kind::bare_texture:
+            return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        case Descriptor::Kind::sampler:
+            return VK_DESCRIPTOR_TYPE_SAMPLER;
+        case Descriptor::Kind::input_attachment:
+            return VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
     }
     return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 }
@@ -346,6 +352,9 @@ Result<std::vector<CompiledStage>> Driver::compile(const Pipeline& pipeline) con
     auto layout_info = made<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout_info.setLayoutCount = 1;
     layout_info.pSetLayouts = &set;
+    const VkPushConstantRange pushed{VK_SHADER_STAGE_ALL_GRAPHICS, 0, pipeline.push_bytes};
+    layout_info.pushConstantRangeCount = pushed.size > 0 ? 1 : 0;
+    layout_info.pPushConstantRanges = &pushed;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     GOBO_VULKAN(vkCreatePipelineLayout, device, &layout_info, nullptr, &layout);
     GOBO_TRY(const VkShaderModule vertex, device_->module_of(pipeline.vertex));

@@ -64,7 +64,8 @@ Words words_in(const json& content) {
 json to_json(const Pipeline& pipeline) {
     json content = {{"vertex", to_json(pipeline.vertex)}, {"fragment", to_json(pipeline.fragment)},
                     {"descriptors", json::array()},       {"inputs", json::array()},
-                    {"outputs", json::array()},           {"constants", json::array()}};
+                    {"outputs", json::array()},           {"constants", json::array()},
+                    {"push_bytes", pipeline.push_bytes}};
     for (const auto& [id, value] : pipeline.constants) content["constants"].push_back({id, value});
     for (const Descriptor& descriptor : pipeline.descriptors)
         content["descriptors"].push_back({static_cast<int>(descriptor.kind), descriptor.count});
@@ -88,6 +89,7 @@ Pipeline pipeline_in(const json& content) {
     }
     for (const json& constant : content["constants"])
         pipeline.constants.emplace_back(constant[0], constant[1]);
+    pipeline.push_bytes = content["push_bytes"];
     return pipeline;
 }
 

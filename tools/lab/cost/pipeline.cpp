@@ -46,10 +46,13 @@ Descriptor descriptor_of(const Module& module, const Variable& variable) {
     using enum Descriptor::Kind;
     const auto [element, count] = element_of(module, variable.type);
     const Type& type = module.type(element);
+    if (type.opcode == spv::OpTypeSampler) return Descriptor{sampler, count};
     if (type.is_image()) {
         const bool is_buffer = type.image.dimension == spv::DimBuffer;
+        if (type.image.dimension == spv::DimSubpassData) return Descriptor{input_attachment, count};
         if (type.image.storage) return Descriptor{is_buffer ? image_buffer : image, count};
-        return Descriptor{is_buffer ? texel_buffer : texture, count};
+        if (is_buffer) return Descriptor{texel_buffer, count};
+        return Descriptor{type.opcode == spv::OpTypeImage ? bare_texture : texture, count};
     }
     const bool is_storage = variable.storage == spv::StorageClassStorageBuffer ||
                             module.decoration(element, spv::DecorationBufferBlock).has_value();
@@ -192,11 +195,8 @@ Result<Words> with_blocks_only(const Words& words, const std::string& stage) {
     return with_uniform_block(module, words, stage + " stage's uniforms outside blocks");
 }
 
-}  // namespace
-
-Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl) {
-    GOBO_TRY(const Words vertex_words, with_blocks_only(vertex_of_opengl, "vertex"));
-    GOBO_TRY(const Words fragment_words, with_blocks_only(fragment_of_opengl, "fragment"));
+/// `match` gives varyings that meet by name the same locations.
+Result<Pipeline> linked(const Words& vertex_words, const Words& fragment_words, bool match) {
     GOBO_TRY(const Module vertex, spirv::read_module(vertex_words));
     GOBO_TRY(const Module fragment, spirv::read_module(fragment_words));
     Pipeline pipeline;
@@ -221,10 +221,23 @@ Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragmen
             if (is_resource(variable)) bindings[variable.id] = binding_of.at(name_of(module, variable));
         return bindings;
     };
-    const auto [outputs, inputs] = matched_locations(vertex, fragment);
+    const auto [outputs, inputs] =
+        match ? matched_locations(vertex, fragment) : std::pair<Numbers, Numbers>();
     pipeline.vertex = rewritten(vertex, vertex_words, bindings_of(vertex), outputs);
     pipeline.fragment = rewritten(fragment, fragment_words, bindings_of(fragment), inputs);
     return pipeline;
+}
+
+}  // namespace
+
+Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl) {
+    GOBO_TRY(const Words vertex, with_blocks_only(vertex_of_opengl, "vertex"));
+    GOBO_TRY(const Words fragment, with_blocks_only(fragment_of_opengl, "fragment"));
+    return linked(vertex, fragment, true);
+}
+
+Result<Pipeline> pipeline_of_vulkan(const Words& vertex, const Words& fragment) {
+    return linked(vertex, fragment, false);
 }
 
 }  // namespace gobo::cost

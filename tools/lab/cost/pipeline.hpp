@@ -14,7 +14,17 @@ namespace gobo::cost {
 using Words = std::vector<std::uint32_t>;
 
 struct Descriptor {
-    enum class Kind { uniform_buffer, storage_buffer, texture, texel_buffer, image, image_buffer };
+    enum class Kind {
+        uniform_buffer,
+        storage_buffer,
+        texture,  ///< with its sampler
+        texel_buffer,
+        image,
+        image_buffer,
+        bare_texture,
+        sampler,
+        input_attachment,
+    };
     Kind kind = Kind::uniform_buffer;
     std::uint32_t count = 1;  ///< elements of an array
 };
@@ -38,6 +48,7 @@ struct Pipeline {
     bool fragment_loop_varies = false;
     /// Specialisation constants of both stages: constant_id and value.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
+    std::uint32_t push_bytes = 0;  ///< of push constants
 };
 
 /// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one
@@ -45,5 +56,9 @@ struct Pipeline {
 /// varyings matched by location instead of by name, gl_VertexID and the origin of gl_FragCoord. Errors: what
 /// Vulkan lacks, such as samplers within structs.
 [[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl);
+
+/// The same of stages in Vulkan's SPIR-V, whose resources are gathered in set 0. Push constants are left to
+/// the caller.
+[[nodiscard]] Result<Pipeline> pipeline_of_vulkan(const Words& vertex, const Words& fragment);
 
 }  // namespace gobo::cost

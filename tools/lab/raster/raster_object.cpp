@@ -218,7 +218,8 @@ std::vector<std::uint32_t> drop_unseen_triangles(RasterObject& object) {
 
 RasterObject part_of(const Pipeline& pipeline, const RasterObject& object,
                      const std::function<bool(int, int)>& is_wanted) {
-    RasterObject part{{}, object.uniforms, object.indices, object.positions, {}, object.width, object.height};
+    RasterObject part{{}, object.uniforms, object.indices, object.positions,
+                      {}, object.width,    object.height,  object.rows_run_down};
     std::copy_if(object.fragments.begin(), object.fragments.end(), std::back_inserter(part.fragments),
                  [&](const Fragment& fragment) { return is_wanted(fragment.x, fragment.y); });
     part.vertices = selected(pipeline.vertex, object.vertices, drop_unseen_triangles(part));

@@ -28,6 +28,7 @@ struct RasterObject {
     std::vector<Fragment> fragments;
     int width = 0;
     int height = 0;
+    bool rows_run_down = false;  ///< the window's first row is the upper one, as Vulkan has it
 
     /// The corners' weights on a triangle.
     [[nodiscard]] Interpolator interpolator(std::uint32_t triangle) const;

@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::size_t kQuad = 4;
 
+/// From a pixel's y, upwards, to its row as the window counts them, and back.
+int row_of(const RasterObject& object, int y) {
+    return object.rows_run_down ? object.height - 1 - y : y;
+}
+
 /// A depth as its buffer holds it.
 double stored_depth(double depth) {
     return static_cast<float>(std::clamp(depth, 0.0, 1.0));
@@ -89,7 +94,7 @@ Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline, const Rast
     std::vector<Shaded> result;
     const std::size_t each = pipeline.needs_quads ? kQuad : 1;
     for (std::size_t i = 0; i < object.fragments.size(); ++i) {
-        const std::size_t own = own_place(object.fragments[i], i, pipeline.needs_quads);
+        const std::size_t own = own_place(object, i, pipeline.needs_quads);
         result.push_back(shaded(pipeline, outputs, own, object.fragments[i]));
         for (std::size_t place = each * i; work != nullptr && place < each * (i + 1); ++place)
             add(outputs.counts[place], place == own ? work->fragments : work->helpers);
@@ -102,22 +107,26 @@ Result<std::vector<Shaded>> shade_fragments(const Pipeline& pipeline, const Rast
 std::vector<FragmentPlace> places_of(const RasterObject& object, bool in_quads) {
     std::vector<FragmentPlace> places;
     for (const Fragment& fragment : object.fragments) {
+        const int own_row = row_of(object, fragment.y);
         if (!in_quads) {
-            places.push_back({&fragment, fragment.x, fragment.y, fragment.weights});
+            places.push_back({&fragment, fragment.x, fragment.y, fragment.weights, own_row + 0.5});
             continue;
         }
         const Interpolator interpolator = object.interpolator(fragment.triangle);
         for (int i = 0; i < static_cast<int>(kQuad); ++i) {
             const int x = (fragment.x & ~1) + i % 2;
-            const int y = (fragment.y & ~1) + i / 2;
-            places.push_back({&fragment, x, y, interpolator.at(x + 0.5, y + 0.5)});
+            const int row = (own_row & ~1) + i / 2;
+            const int y = row_of(object, row);
+            places.push_back({&fragment, x, y, interpolator.at(x + 0.5, y + 0.5), row + 0.5});
         }
     }
     return places;
 }
 
-std::size_t own_place(const Fragment& fragment, std::size_t index, bool in_quads) {
-    return in_quads ? kQuad * index + static_cast<std::size_t>(fragment.x % 2 + 2 * (fragment.y % 2)) : index;
+std::size_t own_place(const RasterObject& object, std::size_t index, bool in_quads) {
+    const Fragment& fragment = object.fragments[index];
+    const int row = row_of(object, fragment.y);
+    return in_quads ? kQuad * index + static_cast<std::size_t>(fragment.x % 2 + 2 * (row % 2)) : index;
 }
 
 std::vector<double> interpolated(const std::vector<double>& at_vertices, std::uint32_t components,

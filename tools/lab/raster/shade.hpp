@@ -19,17 +19,19 @@ struct FragmentPlace {
     int y = 0;
     Weights weights;
 
+    double window_y = 0;  ///< of gl_FragCoord
+
     /// gl_FragCoord.
     [[nodiscard]] std::array<double, 4> window_position() const {
-        return {x + 0.5, y + 0.5, weights.depth, weights.inverse_w};
+        return {x + 0.5, window_y, weights.depth, weights.inverse_w};
     }
 };
 
 /// A place for each fragment; with `in_quads` four, as evaluate::Invocations wants them.
 [[nodiscard]] std::vector<FragmentPlace> places_of(const RasterObject& object, bool in_quads);
 
-/// The place of a fragment's own pixel among places_of().
-[[nodiscard]] std::size_t own_place(const Fragment& fragment, std::size_t index, bool in_quads);
+/// The place of a fragment's own pixel, by its number in the object, among places_of().
+[[nodiscard]] std::size_t own_place(const RasterObject& object, std::size_t index, bool in_quads);
 
 /// What reaches the places of so many components of a vertex output. OpenGL's last vertex is the provoking
 /// one unless told otherwise.

@@ -17,6 +17,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/text.hpp"
+#include "family/render_sources.hpp"
 #include "lab/render/camera.hpp"
 
 namespace gobo {
@@ -143,6 +144,9 @@ constexpr auto kUniformSources = std::to_array<Source>({
     {"viewport", "viewport viewportsize resolution", false, false,
      [](Seen o, Numbers) { return column(glm::dvec4(o.viewport, 0, 1)); }},
 });
+// A family file may name each of them.
+static_assert(std::ranges::all_of(kUniformSources,
+                                  [](const Source& source) { return is_render_source(source.name); }));
 
 /// Sources of attributes, each with its spellings.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kAttributeSpellings = {

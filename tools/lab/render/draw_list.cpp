@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
+#include "lab/render/chosen_values.hpp"
+
 namespace gobo {
 namespace {
 
@@ -69,20 +71,12 @@ Result<void> DrawList::add_attributes(Item& item, const Interface& interface, co
         const GLint found = gl.GetAttribLocation(program_.id(), input.name.c_str());
         if (found < 0) continue;
         const auto location = static_cast<GLuint>(found);
-        const RenderValue* value = find_value(values, input.name);
-        const std::string source(value != nullptr ? value->source : attribute_source_of(input.name));
-        if (value != nullptr && source.empty()) {
-            item.constants.push_back({location, value->numbers});
-        } else if (const auto own = attribute_values(mesh, source)) {
-            upload(resources_, location, *own);
-        } else if (source == "color") {
-            item.constants.push_back({location, {1, 1, 1, 1}});
-        } else if (value != nullptr) {
-            return unknown_source(*value, attribute_sources());
-        } else {
-            item.constants.push_back({location, {0, 0, 0, 0}});
-            warn(no_value(fmt::format("the attribute '{}' has no value and stays 0", input.name)));
-        }
+        GOBO_TRY(ChosenAttribute chosen, chosen_attribute(input.name, mesh, values));
+        if (chosen.warning) warn(*std::move(chosen.warning));
+        if (chosen.is_constant)
+            item.constants.push_back({location, {chosen.values.floats.begin(), chosen.values.floats.end()}});
+        else
+            upload(resources_, location, chosen.values);
     }
     return {};
 }
@@ -157,10 +151,7 @@ void DrawList::draw() const {
             gl.BindBufferBase(GL_UNIFORM_BUFFER, block.binding, block.buffer);
         for (const Assignment& uniform : item.uniforms) set_uniform(gl, program_, uniform);
         for (const Constant& constant : item.constants) {
-            std::array<GLfloat, 4> values = {0, 0, 0, 1};
-            std::copy_n(constant.numbers.begin(), std::min<std::size_t>(constant.numbers.size(), 4),
-                        values.begin());
-            gl.VertexAttrib4fv(constant.location, values.data());
+            gl.VertexAttrib4dv(constant.location, constant.numbers.data());
         }
         if (item.culled == GL_NONE) {
             gl.Disable(GL_CULL_FACE);
@@ -181,13 +172,7 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
                                 const ViewedObject& view, const GivenTextures& textures) {
     context.make_current();
     const GladGLContext& gl = context.gl();
-    const std::vector<std::string>& known = texture_sources();
-    for (const Sampler& sampler : interface.samplers) {
-        const RenderValue* value = find_value(values, sampler.name);
-        if (value != nullptr && !value->source.empty() &&
-            std::find(known.begin(), known.end(), value->source) == known.end())
-            return unknown_source(*value, known);
-    }
+    GOBO_TRY_DO(check_textures(interface, values));
     DrawList list(context, program);
     GOBO_TRY(list.primitive_, primitive_of(gl, program, interface));
     list.add_textures(interface, values, textures);

@@ -400,6 +400,7 @@ CostAndTime cost_against_time(const Study& study, const Weights& weights, bool o
     for (const EffectsResult& effects : study.effects) {
         for (const KeyResult& key : effects.keys) {
             if (!key.timing) continue;
+            if (effects.control && effects.control->ranked(key.timing->renderer) > kLargestControl) continue;
             const Costs costs = costs_of(key.scenes.front(), weights);
             const Slopes& slopes = key.timing->ranked();
             result.cost.push_back(of_vertices ? costs.vertex : costs.fragment);

@@ -285,13 +285,15 @@ Result<SpirvModule> module_of(const Validated& validated, const Permutation& per
 }
 
 Result<raster::PictureReport> compare(const Validated& validated, const Permutation& permutation,
-                                      const Result<Drawn>& maybe_drawn, const CrossCheckScene& scene) {
+                                      const Result<Drawn>& maybe_drawn, const CrossCheckScene& scene,
+                                      bool rows_run_down) {
     GOBO_TRY(const Drawn& drawn, maybe_drawn);
     GOBO_TRY(const SpirvModule vertex, module_of(validated, permutation, StageKind::vertex));
     GOBO_TRY(const SpirvModule fragment, module_of(validated, permutation, StageKind::fragment));
     GOBO_TRY(const auto pipeline, raster::pipeline_of(vertex, fragment));
-    GOBO_TRY(const auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects,
-                                                           drawn.values, scene.view, drawn.images));
+    GOBO_TRY(auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values,
+                                                     scene.view, drawn.images));
+    for (raster::RasterObject& object : objects) object.rows_run_down = rows_run_down;
     return raster::compare_picture(drawn.color, pipeline, objects, scene.view.background);
 }
 
@@ -340,7 +342,8 @@ CrossCheckReport cross_check_by(Renderer& renderer, const Composition& compositi
         for (std::size_t i = next++; i < permutations.size(); i = next++) {
             for (std::size_t now = ready; now <= i; now = ready) ready.wait(now);
             raster::PictureReport& picture = report.pictures[i];
-            if (Result<raster::PictureReport> found = compare(validated, permutations[i], drawn[i], scene))
+            if (Result<raster::PictureReport> found = compare(validated, permutations[i], drawn[i], scene,
+                                                              composition.dialect == Dialect::vulkan))
                 picture = *std::move(found);
             else
                 picture.diagnostics = std::move(found).error();

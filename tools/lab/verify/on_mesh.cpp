@@ -120,7 +120,7 @@ Result<std::vector<StageReport>> check_on_mesh(const raster::Pipeline& pipeline,
     const std::vector<raster::Fragment>& fragments = drawn.object.fragments;
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < fragments.size(); ++i)
-        own.push_back(raster::own_place(fragments[i], i, pipeline.needs_quads));
+        own.push_back(raster::own_place(drawn.object, i, pipeline.needs_quads));
     StageCheck vertex(pipeline.vertex, StageKind::vertex, model, drawn.vertices.size());
     StageCheck fragment(pipeline.fragment, StageKind::fragment, model, fragments.size());
     for (const Precision precision : {Precision::fp64, Precision::fp32}) {

@@ -1,0 +1,6 @@
+// What tells the upper edge of a window from its lower one.
+VARYING(0) float height;
+OUTPUT(0) vec4 color;
+void main() {
+    color = vec4(gl_FragCoord.y / 64.0, 0.5 + 4.0 * dFdy(height), 0.5 + 4.0 * dFdx(height), 1.0);
+}

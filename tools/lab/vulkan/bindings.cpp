@@ -1,0 +1,157 @@
+#include "lab/vulkan/bindings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "lab/render/chosen_values.hpp"
+
+namespace gobo::vulkan {
+
+Result<void> Bindings::make(std::size_t objects, const std::vector<RenderValue>& values,
+                            const Textures& given) {
+    GOBO_TRY_DO(make_layouts());
+    GOBO_TRY_DO(make_pool(objects));
+    return make_textures(values, given);
+}
+
+Result<void> Bindings::make_layouts() {
+    const Functions& vk = resources_.state().vk;
+    const auto add = [&](const auto& entry, VkDescriptorType type, int count) {
+        const auto set = static_cast<std::size_t>(std::max(entry.set, 0));
+        const auto binding = static_cast<std::uint32_t>(entry.binding);
+        VkShaderStageFlags stages = 0;
+        for (const std::string& name : entry.stages)
+            if (const auto kind = stage_named(name)) stages |= stage_bit(*kind);
+        bindings_.resize(std::max(bindings_.size(), set + 1));
+        for (VkDescriptorSetLayoutBinding& other : bindings_[set])
+            if (other.binding == binding) {  // another element of an array of blocks
+                ++other.descriptorCount;
+                other.stageFlags |= stages;
+                return;
+            }
+        bindings_[set].push_back({binding, type, static_cast<std::uint32_t>(count), stages, nullptr});
+    };
+    for (const Block& block : interface_.blocks) add(block, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1);
+    if (!interface_.storage_blocks.empty())
+        return fail(Fault::input, fmt::format("the renderer has no contents for the storage block '{}'",
+                                              interface_.storage_blocks.front().name));
+    for (const Sampler& sampler : interface_.samplers)
+        add(sampler, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, element_count(sampler.array));
+    for (const std::vector<VkDescriptorSetLayoutBinding>& set : bindings_) {
+        auto info =
+            made<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+        info.bindingCount = size_of(set);
+        info.pBindings = set.data();
+        GOBO_TRY(const VkDescriptorSetLayout layout,
+                 resources_.make<VkDescriptorSetLayout>("vkCreateDescriptorSetLayout",
+                                                        vk.vkCreateDescriptorSetLayout,
+                                                        vk.vkDestroyDescriptorSetLayout, info));
+        set_layouts_.push_back(layout);
+    }
+    auto info = made<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    info.setLayoutCount = size_of(set_layouts_);
+    info.pSetLayouts = set_layouts_.data();
+    VkPushConstantRange range{};
+    for (const Block& block : interface_.push_constants) {
+        range.size = std::max(range.size, static_cast<std::uint32_t>(block.size));
+        for (const std::string& stage : block.stages)
+            if (const auto kind = stage_named(stage)) push_stages_ |= stage_bit(*kind);
+    }
+    range.stageFlags = push_stages_;
+    info.pushConstantRangeCount = range.size > 0 ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    GOBO_TRY(layout_, resources_.make<VkPipelineLayout>("vkCreatePipelineLayout", vk.vkCreatePipelineLayout,
+                                                        vk.vkDestroyPipelineLayout, info));
+    return {};
+}
+
+Result<void> Bindings::make_pool(std::size_t objects) {
+    if (set_layouts_.empty() || objects == 0) return {};
+    const Functions& vk = resources_.state().vk;
+    std::map<VkDescriptorType, std::uint32_t> counts;
+    for (const auto& set : bindings_)
+        for (const VkDescriptorSetLayoutBinding& binding : set)
+            counts[binding.descriptorType] += binding.descriptorCount * static_cast<std::uint32_t>(objects);
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const auto& [type, count] : counts) sizes.push_back({type, count});
+    auto info = made<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    info.maxSets = size_of(set_layouts_) * static_cast<std::uint32_t>(objects);
+    info.poolSizeCount = size_of(sizes);
+    info.pPoolSizes = sizes.data();
+    GOBO_TRY(pool_, resources_.make<VkDescriptorPool>("vkCreateDescriptorPool", vk.vkCreateDescriptorPool,
+                                                      vk.vkDestroyDescriptorPool, info));
+    return {};
+}
+
+Result<VkSampler> Bindings::make_sampler(const TextureTexels& texels) {
+    const Functions& vk = resources_.state().vk;
+    auto info = made<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.mipmapMode = texels.has_levels ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = info.addressModeV = info.addressModeW =
+        texels.repeats ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = texels.has_levels ? VK_LOD_CLAMP_NONE : 0;
+    info.compareEnable = texels.is_depth ? VK_TRUE : VK_FALSE;
+    info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
+    return resources_.make<VkSampler>("vkCreateSampler", vk.vkCreateSampler, vk.vkDestroySampler, info);
+}
+
+Result<void> Bindings::make_textures(const std::vector<RenderValue>& values, const Textures& given) {
+    GOBO_TRY_DO(check_textures(interface_, values));
+    for (const Sampler& sampler : interface_.samplers) {
+        std::optional<TextureTexels> texels;
+        if (const auto found = given.find(sampler.name); found != given.end())
+            texels = found->second;
+        else
+            texels = usual_texels(sampler.type, texture_source_of(sampler.name, values), TextureLevels::all);
+        if (!texels)
+            return fail(Fault::input, fmt::format("the renderer has no texture for '{}' of type {}",
+                                                  sampler.name, sampler.type));
+        GOBO_TRY(const DeviceImage image, resources_.make_texture(*texels));
+        GOBO_TRY(const VkSampler handle, make_sampler(*texels));
+        textures_[sampler.name] = {handle, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    }
+    return {};
+}
+
+Result<std::vector<VkDescriptorSet>> Bindings::sets_of(const ResolvedUniforms& resolved) {
+    std::vector<VkDescriptorSet> sets(set_layouts_.size());
+    if (sets.empty()) return sets;
+    const Device::State& state = resources_.state();
+    const Functions& vk = state.vk;
+    auto info = made<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    info.descriptorPool = pool_;
+    info.descriptorSetCount = size_of(set_layouts_);
+    info.pSetLayouts = set_layouts_.data();
+    GOBO_VULKAN_CALL(vkAllocateDescriptorSets, state.device, &info, sets.data());
+    std::map<std::pair<int, int>, std::uint32_t> elements;  // of arrays of blocks so far
+    for (const Block& block : interface_.blocks) {
+        const std::vector<std::byte> bytes = bytes_of(block, resolved.assignments);
+        GOBO_TRY(const Buffer buffer,
+                 resources_.make_buffer(VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, bytes.data(), bytes.size()));
+        const VkDescriptorBufferInfo range{buffer.buffer, 0, VK_WHOLE_SIZE};
+        auto write = made<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = sets[static_cast<std::size_t>(block.set)];
+        write.dstBinding = static_cast<std::uint32_t>(block.binding);
+        write.dstArrayElement = elements[{block.set, block.binding}]++;
+        write.descriptorCount = 1;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        write.pBufferInfo = &range;
+        vk.vkUpdateDescriptorSets(state.device, 1, &write, 0, nullptr);
+    }
+    for (const Sampler& sampler : interface_.samplers) {
+        const std::vector<VkDescriptorImageInfo> images(
+            static_cast<std::size_t>(element_count(sampler.array)), textures_.at(sampler.name));
+        auto write = made<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = sets[static_cast<std::size_t>(sampler.set)];
+        write.dstBinding = static_cast<std::uint32_t>(sampler.binding);
+        write.descriptorCount = size_of(images);
+        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.pImageInfo = images.data();
+        vk.vkUpdateDescriptorSets(state.device, 1, &write, 0, nullptr);
+    }
+    return sets;
+}
+
+}  // namespace gobo::vulkan
