@@ -109,6 +109,25 @@ Result<Outcome> show_front(const StudyCommandOptions& options, const World& worl
     return Outcome{study::fronts_table(rows, measures), {}, options.svg};
 }
 
+/// How the ranks of weighted operations and of each chip's cycles agree, over all keys that have both.
+std::string ranks_text(const std::vector<study::StudyRow>& rows,
+                       const std::vector<study::Measure>& measures) {
+    std::vector<std::string> texts;
+    for (const study::Measure& measure : measures) {
+        std::vector<double> operations;
+        std::vector<double> cycles;
+        for (const study::StudyRow& row : rows)
+            if (const auto cost = measure.cost(row); cost && row.scene == kAllScenes) {
+                operations.push_back(row.costs.total);
+                cycles.push_back(*cost);
+            }
+        if (!measure.gpu.empty())
+            texts.push_back(fmt::format("{} {:.2f} over {} keys", measure.gpu,
+                                        study::rank_correlation(operations, cycles), cycles.size()));
+    }
+    return texts.empty() ? "" : "rank correlation of operations and cycles: " + join(texts, ", ") + "\n\n";
+}
+
 /// The page of all fronts, and what it says of values.
 Result<Outcome> show_fronts(const StudyCommandOptions& options, const World& world) {
     GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
@@ -117,10 +136,11 @@ Result<Outcome> show_fronts(const StudyCommandOptions& options, const World& wor
     GOBO_TRY(const auto measures, study::measures_of(rows, split(join(options.gpus, ","), ',')));
     GOBO_TRY_DO(
         world.disk.write(options.fronts, study::fronts_page(family.family, plan.rate, rows, measures)));
-    return Outcome{fmt::format("{}\n{}", study::changed_places_table(family.family, rows, measures),
-                               study::values_table(family.family, rows, measures)),
-                   {},
-                   options.fronts};
+    return Outcome{
+        fmt::format("{}\n{}{}", study::changed_places_table(family.family, rows, measures),
+                    ranks_text(rows, measures), study::values_table(family.family, rows, measures)),
+        {},
+        options.fronts};
 }
 
 std::string control_text(double control) {
