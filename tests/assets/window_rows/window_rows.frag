@@ -2,5 +2,5 @@
 VARYING(0) float height;
 OUTPUT(0) vec4 color;
 void main() {
-    color = vec4(gl_FragCoord.y / 64.0, 0.5 + 4.0 * dFdy(height), 0.5 + 4.0 * dFdx(height), 1.0);
+    color = vec4(gl_FragCoord.y / 64.0, 0.5 + 0.02 * dFdy(height), 0.5 + 0.02 * dFdx(height), 1.0);
 }
