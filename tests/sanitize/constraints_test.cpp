@@ -38,6 +38,8 @@ const Row kRows[] = {
     {"not_zero", "color.rgb = normalize(v);", "not_zero(v)", "normalize() of a zero vector"},
     {"distinct", "color.r = v == normal ? 1.0 / (v.x - normal.x) : 0.0;", "distinct(v, normal)",
      "division by zero"},
+    {"distinct_in_all_pixels", "color.rgb = normalize(directions[1] - v) + dFdx(v);",
+     "distinct(directions[], v)", "normalize() of a zero vector"},
     {"orthonormal", "color.rgb = normalize(tbn * vec3(0.0, 0.0, 1.0));", "orthonormal(tbn)",
      "normalize() of a zero vector"},
     {"inverse_transpose", "color.rgb = normalize(normalMatrix * vec3(1.0, 0.0, 0.0));",
@@ -96,7 +98,7 @@ TEST(Contracts, ThatContradictOneAnotherAreErrors) {
         std::vector<Domain> domains;
         for (const std::string& constraint : constraints) domains.push_back(stated(constraint));
         const sanitize::InputSpace space = sanitize::input_space_of(program, domains, true);
-        const sanitize::Constraint* const found = sanitize::contradiction_in(space);
+        const Constraint* const found = sanitize::contradiction_in(space);
         return found == nullptr ? "" : found->text;
     };
     EXPECT_EQ(contradiction({"near <= far", "far <= near", "near != 0", "far > 0"}), "");
@@ -113,8 +115,8 @@ TEST(Contracts, ThatContradictOneAnotherAreErrors) {
 /// What is neither a comparison nor one of the functions is none: it is refused by its text.
 TEST(Contracts, OfAnotherFormAreNone) {
     for (const char* text : {"near == far", "near < far < 2", "2 * near < far", "1 < 2", "near <", "= far",
-                             "abs(near) < 1", "unit(normal, v)", "nonzero(v)", "near"})
-        EXPECT_FALSE(sanitize::constraint_of(text)) << text;
+                             "abs(near) < 1", "unit(normal, v)", "unit(3)", "nonzero(v)", "near"})
+        EXPECT_FALSE(constraint_of(text)) << text;
 }
 
 /// A matrix of neither zeros nor ones.

@@ -107,7 +107,7 @@ const Row kRows[] = {
      {domain("map.side", 256, 256)}},
     {"harmless_level", "color = textureLod(map, uv, 30.0);", {}},
     {"harmless_uniform_flow", "if (on) color = texture(map, uv) + vec4(dFdx(uv.x));", {}},
-    {"harmless_after_discard", "if (v.x > 0.0) discard; color = texture(map, uv);", {}},
+    {"harmless_before_discard", "color = texture(map, uv); if (v.x > 0.0) discard;", {}},
     {"harmless_gradients",
      "vec2 dx = dFdx(uv), dy = dFdy(uv); if (v.x > 0.0) color = textureGrad(map, uv, dx, dy);",
      {}},

@@ -6,6 +6,7 @@
 
 #include "core/glsl_version.hpp"
 #include "core/text.hpp"
+#include "family/constraint.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/left_out.hpp"
@@ -96,10 +97,18 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     domain.place = reader.place_of(node);
     const std::string what = fmt::format("the domain of '{}'", domain.name);
     std::vector<double> range;
-    if (node.is_boolean()) {  // a constraint between inputs: "near < far" = true
-        if (!node.as_boolean()->get() || domain.name.find_first_of("<>=!(") == std::string::npos)
-            reader.error(node, what + " is not a range",
-                         "write [low, high]; true states a constraint: \"near < far\" = true");
+    if (is_constraint(domain.name)) {  // between inputs: "near < far" = true
+        if (!constraint_of(domain.name))
+            reader.error(node, fmt::format("'{}' is no constraint", domain.name),
+                         std::string(kConstraintHelp));
+        else if (!node.is_boolean() || !node.as_boolean()->get())
+            reader.error(node, fmt::format("the constraint '{}' is not true", domain.name),
+                         fmt::format("write \"{}\" = true", domain.name));
+        return domain;
+    }
+    if (node.is_boolean()) {
+        reader.error(node, what + " is not a range",
+                     "write [low, high]; true states a constraint: \"near < far\" = true");
         return domain;
     }
     if (node.is_table()) {

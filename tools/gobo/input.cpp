@@ -1,6 +1,7 @@
 #include "gobo/input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "compose/known_names.hpp"
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
@@ -390,6 +392,29 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, const 
     return validated;
 }
 
+namespace {
+
+/// Whether shader files are written in GLSL for Vulkan, which OpenGL's compilers refuse.
+bool is_for_vulkan(const Composition& composition) {
+    constexpr std::array<std::string_view, 6> kWords = {"push_constant",  "input_attachment_index",
+                                                        "subpassInput",   "subpassInputMS",
+                                                        "gl_VertexIndex", "gl_InstanceIndex"};
+    for (const Piece& piece : composition.pieces) {
+        bool is_in_layout = false;
+        std::string_view last;
+        for (const std::string_view token : tokens_of(piece.text)) {
+            if (std::ranges::count(kWords, token) > 0) return true;
+            if (is_in_layout && last == "set" && token == "=") return true;
+            if (last == "uniform" && token.starts_with("texture")) return true;
+            if (last == "layout" || token == ")") is_in_layout = last == "layout";
+            last = token;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                              const std::vector<std::string>& stages, const std::string& dialect,
                              const SelectionOptions* selection) {
@@ -408,6 +433,10 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
         add_include_folders(world, subject.family.search);
         GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search, kinds));
         GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
+        if (dialect.empty() && is_for_vulkan(subject.composition)) {
+            subject.family.dialect = Dialect::vulkan;
+            GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
+        }
         return subject;
     }
     const std::size_t most = selection != nullptr ? 1 : 2;

@@ -242,13 +242,18 @@ Result<std::vector<Domain>> constraints_in_comments(const Composition& compositi
             Domain& domain = constraints.emplace_back();
             domain.name = trim(text.substr(mark + kMark.size()));
             domain.place = {piece.path, line, static_cast<int>(mark) + 1};
-            if (!sanitize::constraint_of(domain.name))
+            if (!constraint_of(domain.name))
                 errors.push_back({.place = domain.place,
                                   .message = fmt::format("'{}' is no constraint", domain.name),
-                                  .help = std::string(sanitize::kConstraintHelp)});
+                                  .help = std::string(kConstraintHelp)});
         }
     if (!errors.empty()) return tl::unexpected(std::move(errors));
     return constraints;
+}
+
+Diagnostics as_warnings(Diagnostics errors) {
+    for (Diagnostic& error : errors) error.severity = Severity::warning;
+    return errors;
 }
 
 Result<Validated> compile_over_domains(const World& world, Subject& subject, const std::string& inputs) {
@@ -264,16 +269,14 @@ Result<Validated> compile_over_domains(const World& world, Subject& subject, con
         domains.insert(domains.end(), commented.begin(), commented.end());
     }
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true, .debug_information = true}));
+    std::vector<Domain> of_family;  // where other keys than those at hand may read what is named
     for (const Domain& domain : domains)
-        if (subject.are_files && sanitize::is_constraint(domain.name)) stated.push_back(domain);
-    if (Diagnostics errors = sanitize::domains_of_nothing(stated, validated); !errors.empty())
+        if (is_constraint(domain.name)) (subject.are_files ? stated : of_family).push_back(domain);
+    if (Diagnostics errors = sanitize::domains_of_nothing(stated, {}, validated); !errors.empty())
         return tl::unexpected(std::move(errors));
+    // What else compilers warn of, the evaluation finds or gobo check tells.
+    validated.diagnostics = as_warnings(sanitize::domains_of_nothing(of_family, domains, validated));
     return validated;
-}
-
-Diagnostics as_warnings(Diagnostics errors) {
-    for (Diagnostic& error : errors) error.severity = Severity::warning;
-    return errors;
 }
 
 Diagnostics keep_file(const World& world, const std::string& path, std::string_view content) {

@@ -64,7 +64,8 @@ Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
     prove::ProveOptions wanted = options.prove;
     wanted.jobs = world.jobs();
     const prove::ProveReport found = prove::prove(family, subject.composition, validated, wanted);
-    Diagnostics diagnostics = found.diagnostics;
+    Diagnostics diagnostics = validated.diagnostics;
+    append(diagnostics, found.diagnostics);
     std::size_t number = 0;
     for (const prove::SourceOperation& operation : found.operations)
         for (const prove::ProvenRule& rule : operation.rules)

@@ -109,7 +109,8 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
         return Outcome{options.json ? sanitize::precision_json(stages) : sanitize::precision_text(stages)};
     }
     const auto found = sanitize::sanitize(family, subject.composition, validated, wanted);
-    Diagnostics diagnostics = found.diagnostics;
+    Diagnostics diagnostics = validated.diagnostics;
+    append(diagnostics, found.diagnostics);
     for (std::size_t i = 0; i < found.findings.size(); ++i)
         append(diagnostics, report(world, options, subject, found.findings[i], i + 1));
     return Outcome{fmt::format("{} permutations, {} stages, {} points on {} machines, {} findings\n",

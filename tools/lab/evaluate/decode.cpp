@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "lab/evaluate/decoder.hpp"
+#include "spirv/transform.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -15,7 +16,13 @@ constexpr std::uint32_t kMostScalars = 1U << 18U;
 
 Result<Program> decode(std::span<const std::uint32_t> words) {
     GOBO_TRY(const spirv::Module module, spirv::read_module(words));
-    return Decoder(module).decode();
+    const bool computes_specially = std::ranges::any_of(
+        module.instructions, [](const Instruction& one) { return one.opcode == spv::OpSpecConstantOp; });
+    if (!computes_specially) return Decoder(module).decode();
+    // Specialisation constants stand at their defaults, and what is computed from them too.
+    GOBO_TRY(const spirv::Words fixed, spirv::specialized({words.begin(), words.end()}, {}));
+    GOBO_TRY(const spirv::Module special, spirv::read_module(fixed));
+    return Decoder(special).decode();
 }
 
 Result<Program> Decoder::decode() {
@@ -60,8 +67,12 @@ void Decoder::check_types() {
         const auto is = [&](std::initializer_list<spv::Op> list) {
             return is_one_of(instruction.opcode, list);
         };
-        if (is({spv::OpTypeSampler, spv::OpTypeRuntimeArray, spv::OpTypeOpaque}))
-            report(instruction, opcode_name(instruction.opcode) + " is not supported");
+        if (is({spv::OpTypeSampler}))
+            report(instruction, "samplers apart from their textures are not evaluated: declare a sampler2D");
+        if (is({spv::OpTypeRuntimeArray}))
+            report(instruction,
+                   "arrays without a size, as storage blocks have, are not evaluated: state a size");
+        if (is({spv::OpTypeOpaque})) report(instruction, "opaque types are not evaluated");
         if (is({spv::OpTypeInt, spv::OpTypeFloat}) && instruction.word(2) != 32)
             report(instruction, fmt::format("{}-bit {} are not supported", instruction.word(2),
                                             is({spv::OpTypeInt}) ? "integers" : "floating-point numbers"));

@@ -10,6 +10,9 @@
 namespace gobo::evaluate {
 namespace {
 
+/// imageLoad(), imageStore(), subpassLoad(), imageAtomicAdd() and its like.
+constexpr spv::Op kImageAccesses[] = {spv::OpImageRead, spv::OpImageWrite, spv::OpImageTexelPointer};
+
 constexpr std::size_t kFirstOperand = 3;          // after the leading word, the type and the result
 constexpr std::size_t kFirstExtendedOperand = 5;  // and after the instruction set and the number
 
@@ -67,7 +70,11 @@ void Decoder::decode_instruction(const Instruction& instruction) {
     if (const auto own = kOwn.find(instruction.opcode); own != kOwn.end())
         return (this->*own->second)(instruction);
     if (!decode_image(instruction) && !decode_by_signature(instruction, instruction.opcode, kFirstOperand))
-        report(instruction, "the evaluator does not know " + opcode_name(instruction.opcode));
+        report(instruction,
+               std::ranges::count(kImageAccesses, instruction.opcode) > 0
+                   ? "images that are read and written as such are not evaluated, textures alone: " +
+                         opcode_name(instruction.opcode)
+                   : "the evaluator does not know " + opcode_name(instruction.opcode));
 }
 
 /// False where the table has no row for the code.

@@ -125,7 +125,7 @@ void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t s
         default:
             report(
                 variable,
-                fmt::format("the variable '{}' has a storage class that the evaluator does not know", name));
+                fmt::format("'{}' is not evaluated: a storage block, an atomic counter or its like", name));
     }
 }
 

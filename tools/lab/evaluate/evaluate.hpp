@@ -132,6 +132,7 @@ struct Step {
     std::size_t first_invocation;  ///< of lane 0
     const T* rows;                 ///< lane l of slot s, where it holds floats, is rows[s * kLanes + l]
     std::uint64_t discarded = 0;   ///< lanes that have been discarded
+    bool is_half = false;          ///< it is computed with 16-bit floats
 
     [[nodiscard]] const OperationInfo& info() const { return program.infos[operation]; }
     [[nodiscard]] const Place& place() const { return program.place_of(operation); }
@@ -159,6 +160,12 @@ class Observer {
                          std::uint32_t /*extent*/) {}
     /// The lanes end the block; where it ends in a choice, by the slot of its condition.
     virtual void ends(const Block& /*block*/, std::uint64_t /*lanes*/) {}
+    /// The lanes have passed the head of that loop more often than Options::iteration_limit. True: they are
+    /// given up, as if discarded, and the others go on; otherwise the run ends with an error.
+    [[nodiscard]] virtual bool gives_up(const Block& /*loop*/, std::uint64_t /*lanes*/,
+                                        std::size_t /*first_invocation*/) {
+        return false;
+    }
     /// The lanes carry a value along an edge.
     virtual void copied(const Operation& /*copy*/, std::uint64_t /*lanes*/) {}
 };

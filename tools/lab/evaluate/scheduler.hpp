@@ -268,10 +268,17 @@ class Scheduler {
         registers_.set_active(kAllLanes);
         while (current_ != Program::kEnd) {
             const Block& block = program_.blocks[current_];
-            if (block.is_loop && ++loop_visits_[current_] > options_.iteration_limit)
-                return error_at(
-                    program_.places[block.place],
-                    fmt::format("the loop is not left after {} iterations", options_.iteration_limit));
+            if (block.is_loop && ++loop_visits_[current_] > options_.iteration_limit) {
+                const LaneMask lanes = registers_.active();
+                if (observer_ == nullptr || !observer_->gives_up(block, lanes & registers_.callers_lanes,
+                                                                 registers_.first_invocation))
+                    return error_at(
+                        program_.places[block.place],
+                        fmt::format("the loop is not left after {} iterations", options_.iteration_limit));
+                discarded_ |= lanes;
+                go(Program::kEnd);
+                continue;
+            }
             if (!lane_visits_.empty()) count_visit(current_);
             if (observer_ != nullptr || options_.rounded_in != nullptr)
                 run_observed(block);
@@ -322,8 +329,13 @@ class Scheduler {
         const LaneMask lanes = registers_.active() & registers_.callers_lanes;
         for (std::uint32_t at = block.first; at < block.first + block.count; ++at) {
             const Operation& operation = program_.operations[at];
-            const Step<T> step{program_,  at, lanes, registers_.first_invocation, registers_.floats(0),
-                               discarded_};
+            const Step<T> step{program_,
+                               at,
+                               lanes,
+                               registers_.first_invocation,
+                               registers_.floats(0),
+                               discarded_,
+                               options_.is_half && program_.infos[at].is_relaxed};
             const bool is_shown = observer_ != nullptr && lanes != 0 && !step.row().is_bookkeeping;
             if (is_shown) {
                 observer_->before(step);

@@ -29,6 +29,11 @@ enum Code : std::uint32_t {
     kSumOfProducts,      ///< of dot() and matrices: the factors on the left, then those on the right
 };
 
+/// The code of an instruction of GLSL.std.450.
+constexpr std::uint32_t extended(std::uint32_t number) {
+    return evaluate::kExtended + number;
+}
+
 struct Expression {
     std::uint32_t code = kUnknown;
     std::uint32_t first = 0;  ///< of its operands in Expressions::operands

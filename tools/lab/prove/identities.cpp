@@ -8,10 +8,6 @@
 namespace gobo::prove {
 namespace {
 
-constexpr std::uint32_t extended(std::uint32_t number) {
-    return evaluate::kExtended + number;
-}
-
 /// Of a few operations on numbers of about 1, each off by a few roundings.
 constexpr double kSlack = 1e-5;
 

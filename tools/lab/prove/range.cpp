@@ -221,4 +221,21 @@ Range larger(const Range& a, const Range& b) {
     return negated(smaller(negated(a), negated(b)));
 }
 
+Range finite_part(Range range) {
+    range.nan = false;
+    range.low = std::max(range.low, -kLargestFloat);
+    range.high = std::min(range.high, kLargestFloat);
+    return tidy(range);
+}
+
+bool is_infinite(const Range& range) {
+    return !range.has_no_number() && (range.low < -kLargestFloat || range.high > kLargestFloat);
+}
+
+Range within(double low, double high, bool nan) {
+    Range range = between(low, high);
+    range.nan = nan;
+    return range;
+}
+
 }  // namespace gobo::prove

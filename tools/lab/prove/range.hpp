@@ -95,4 +95,11 @@ inline constexpr Range kAnyUint{0, 4294967295.0, 1, 0, true, false};
 [[nodiscard]] Range smaller(const Range& a, const Range& b);
 [[nodiscard]] Range larger(const Range& a, const Range& b);
 
+/// An operand without what is not finite.
+[[nodiscard]] Range finite_part(Range range);
+/// Whether it may be an infinity.
+[[nodiscard]] bool is_infinite(const Range& range);
+/// All numbers between both ends.
+[[nodiscard]] Range within(double low, double high, bool nan = false);
+
 }  // namespace gobo::prove

@@ -13,10 +13,6 @@ namespace {
 /// Steps that one assumption may take.
 constexpr int kMostWork = 4000;
 
-constexpr std::uint32_t extended(std::uint32_t number) {
-    return evaluate::kExtended + number;
-}
-
 /// All numbers at most or at least so large; NaN stays possible.
 Range at_most(double high) {
     return {-kInfinity, high, 0, kFinestGrid, true, true};

@@ -7,6 +7,7 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/image_call.hpp"
+#include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/rules.hpp"
 
 namespace gobo::prove {
@@ -122,6 +123,12 @@ bool is_in_order(View& view) {
         return view.range(low, c).high <= view.range(high, c).low ||
                view.ranges.is_at_most(view.operand(low, c), view.operand(high, c));
     });
+}
+/// Numbers above 2147483647 are held as the negative ones of the same bits.
+bool are_unsigned_in_order(View& view) {
+    return is_in_order<1, 2>(view) && each(view, 3, [&](std::uint32_t c) {
+               return view.range(1, c).low >= 0 && view.range(2, c).low >= 0;
+           });
 }
 template <std::size_t operands>
 bool has_no_nan(View& view) {
@@ -254,6 +261,21 @@ bool comes_in_quads(View& view) {
     return true;
 }
 
+/// Nothing is discarded before the operation, or in an earlier turn of a loop around it.
+bool comes_before_discards(View& view) {
+    const std::vector<evaluate::Block>& blocks = view.program.blocks;
+    const auto holds_it = [&](const evaluate::Block& block) {
+        return view.site.operation >= block.first && view.site.operation < block.first + block.count;
+    };
+    const auto here = static_cast<std::uint32_t>(std::ranges::find_if(blocks, holds_it) - blocks.begin());
+    std::uint32_t last = here;  // that may come before it
+    for (std::uint32_t block = 0; block < blocks.size(); ++block)
+        for (std::uint32_t i = 0; i < blocks[block].edges; ++i)
+            if (view.program.edges[blocks[block].edge + i].target <= here) last = std::max(last, block);
+    return std::none_of(blocks.begin(), blocks.begin() + last + 1,
+                        [](const evaluate::Block& block) { return block.end == evaluate::Block::End::kill; });
+}
+
 bool projects_forwards(View& view) {
     const evaluate::ImageCall call = call_of(view);
     const std::uint32_t divisor = view.operand(1, call.divisor - call.coordinates);
@@ -269,6 +291,8 @@ bool direction_is_not_zero(View& view) {
 bool fetches_inside(View& view) {
     const evaluate::ImageCall call = call_of(view);
     const std::optional<double> side = stated_extent(view, 4);
+    if (call.sample != 0 && view.range(view.info().operands.size() - 1, 0).low < 0) return false;
+    if (call.is_arrayed != 0 && view.range(1, call.dimensions).low < 0) return false;
     for (std::uint32_t axis = 0; axis < call.dimensions; ++axis) {
         const Range& at = view.range(1, axis);
         if (call.offset != 0 || at.low < 0 || (side && at.high >= *side)) return false;
@@ -286,13 +310,15 @@ bool has_level(View& view) {
 void add_image_rules(const evaluate::Program& program, const evaluate::Operation& operation,
                      std::vector<Rule>& rules) {
     using What = evaluate::ImageRequest::What;
-    constexpr std::string_view kParted = "derivatives where neighbouring pixels go another way";
+    const auto add_derivatives = [&] {
+        rules.push_back({sanitize::kParted, comes_in_quads, ~0U});
+        rules.push_back({sanitize::kPartedByDiscard, comes_before_discards, ~0U});
+    };
     const evaluate::Row& row = evaluate::row_of(operation);
-    if (row.kind == Kind::derivative && row.name.starts_with("Interpolate") == false)
-        rules.push_back({kParted, comes_in_quads, ~0U});
+    if (row.kind == Kind::derivative && row.name.starts_with("Interpolate") == false) add_derivatives();
     if (row.kind != Kind::image) return;
     const evaluate::ImageCall call = evaluate::image_call_of(program, operation);
-    if (call.is_implicit != 0 && call.reference == 0) rules.push_back({kParted, comes_in_quads, ~0U});
+    if (call.is_implicit != 0 && call.reference == 0) add_derivatives();
     if (call.divisor != 0)
         rules.push_back(
             {"a projected texture coordinate whose divisor is not above 0", projects_forwards, 2});
@@ -352,6 +378,8 @@ constexpr Proof kProofs[] = {
     {GOBO_STD450(FMax), "max() fed a NaN", has_no_nan<2>, 3},
     {GOBO_STD450(FClamp), "clamp() fed a NaN", has_no_nan<3>, 7},
     {GOBO_STD450(FClamp), "clamp() with its minimum above its maximum", is_in_order<1, 2>, 6},
+    {GOBO_STD450(SClamp), "clamp() with its minimum above its maximum", is_in_order<1, 2>, 6},
+    {GOBO_STD450(UClamp), "clamp() with its minimum above its maximum", are_unsigned_in_order, 6},
     {GOBO_STD450(Normalize), "normalize() of a zero vector", vector_is_not_zero, 1},
     {GOBO_STD450(Normalize), "normalize() underflows: the square of the length is too small",
      square_does_not_underflow, 1},

@@ -13,8 +13,4 @@ namespace gobo::prove {
 [[nodiscard]] Result<Expressions> unroll(const evaluate::Program& program, const sanitize::InputSpace& space,
                                          bool has_tiny_inputs);
 
-/// What a component of an input may hold. Unless `has_tiny_inputs`, what is nearer to 0 than
-/// sanitize::kSmallest is 0, as in all that the sanitizer draws, where it is no bound of the domain.
-[[nodiscard]] Range range_of(const sanitize::InputField& field, std::size_t component, bool has_tiny_inputs);
-
 }  // namespace gobo::prove

@@ -1,8 +1,6 @@
 #include "lab/sanitize/constraints.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -14,16 +12,6 @@
 
 namespace gobo::sanitize {
 namespace {
-
-struct Form {
-    std::string_view name;
-    Constraint::Kind kind;
-    std::size_t names;
-};
-constexpr std::array kForms = {
-    Form{"unit", Constraint::Kind::unit, 1}, Form{"not_zero", Constraint::Kind::not_zero, 1},
-    Form{"distinct", Constraint::Kind::distinct, 2}, Form{"orthonormal", Constraint::Kind::orthonormal, 1},
-    Form{"inverse_transpose_of", Constraint::Kind::inverse_transpose, 2}};
 
 double as_float(double number) {
     return static_cast<double>(static_cast<float>(number));
@@ -55,10 +43,11 @@ class Keeper {
         for (const InputField& field : space_.fields) {
             if (field.is_texture || verify::without_subscripts(field.name) != constraint.names.front())
                 continue;
-            const InputField* const other =
-                constraint.names.size() > 1 ? partner(field, constraint.names[1]) : nullptr;
-            if (constraint.names.size() > 1 && other == nullptr) continue;
-            keep(constraint.kind, field, other);
+            if (constraint.names.size() == 1) keep(constraint.kind, field, nullptr);
+            for (const InputField& other : space_.fields)
+                if (constraint.names.size() > 1 && !other.is_texture &&
+                    is_partner(field, other, constraint.names[1]))
+                    keep(constraint.kind, field, &other);
         }
     }
 
@@ -75,12 +64,6 @@ class Keeper {
         return is_of_element && is_of_pixel && verify::without_subscripts(field.name) == name;
     }
 
-    [[nodiscard]] const InputField* partner(const InputField& of, const std::string& name) const {
-        const auto found = std::ranges::find_if(
-            space_.fields, [&](const InputField& field) { return is_partner(of, field, name); });
-        return found == space_.fields.end() ? nullptr : &*found;
-    }
-
     void keep(Constraint::Kind kind, const InputField& field, const InputField* other) {
         switch (kind) {
             case Constraint::Kind::less:
@@ -94,7 +77,7 @@ class Keeper {
                     numbers(field).front() = std::max(field.domain.high, 1e-6);
                 return;
             case Constraint::Kind::distinct:
-                if (std::ranges::equal(numbers(field), numbers(*other))) move(numbers(field).front());
+                if (std::ranges::equal(numbers(field), numbers(*other))) move(*other);
                 return;
             case Constraint::Kind::orthonormal:
                 return make_orthonormal(field);
@@ -103,7 +86,11 @@ class Keeper {
         }
     }
 
-    static void move(double& number) { number = above(number, true); }
+    /// Away from what it equals, and not out of its range.
+    void move(const InputField& field) {
+        double& number = numbers(field).front();
+        number = number < field.domain.high ? above(number, true) : below(number, true);
+    }
 
     void keep_comparison(const Constraint& constraint) {
         for (const InputField& field : space_.fields) {
@@ -209,82 +196,6 @@ class Keeper {
 
 }  // namespace
 
-bool is_constraint(std::string_view text) {
-    return text.find_first_of("<>=!(") != std::string_view::npos;
-}
-
-namespace {
-
-std::optional<double> number_in(std::string_view text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
-    return number;
-}
-
-bool is_name(std::string_view text) {
-    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-    return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
-           std::ranges::all_of(text, [&](char sign) {
-               return kLetters.find(sign) != std::string_view::npos ||
-                      std::string_view("0123456789.[]").find(sign) != std::string_view::npos;
-           });
-}
-
-std::optional<Constraint> comparison_of(std::string_view text) {
-    const auto at = text.find_first_of("<>=!");
-    const std::string_view sign = text.substr(at, text.substr(at + 1).starts_with('=') ? 2 : 1);
-    std::string_view left = trim(text.substr(0, at));
-    std::string_view right = trim(text.substr(at + sign.size()));
-    if (sign.starts_with('>')) std::swap(left, right);
-    Constraint constraint;
-    if (sign == "!=")
-        constraint.kind = Constraint::Kind::differ;
-    else if (sign == "<=" || sign == ">=")
-        constraint.kind = Constraint::Kind::less_equal;
-    else if (sign != "<" && sign != ">")
-        return std::nullopt;
-    if (constraint.kind == Constraint::Kind::differ && number_in(left)) std::swap(left, right);
-    for (const std::string_view side : {left, right}) {
-        const auto number = number_in(side);
-        if (!number && !is_name(side)) return std::nullopt;
-        constraint.names.emplace_back(number ? "" : side);
-        if (number) constraint.number = *number;
-    }
-    if (constraint.names[0].empty() && constraint.names[1].empty()) return std::nullopt;
-    return constraint;
-}
-
-}  // namespace
-
-std::optional<Constraint> constraint_of(std::string_view text) {
-    const auto trimmed = [](std::string_view part) { return std::string(trim(part)); };
-    if (text.find_first_of("<>=!") != std::string_view::npos) return comparison_of(text);
-    const auto open = text.find('(');
-    if (open == std::string_view::npos || !text.ends_with(')')) return std::nullopt;
-    const std::string name = trimmed(text.substr(0, open));
-    const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
-    if (form == kForms.end()) return std::nullopt;
-    Constraint constraint;
-    constraint.kind = form->kind;
-    for (const std::string& part : split(text.substr(open + 1, text.size() - open - 2), ','))
-        constraint.names.push_back(trimmed(part));
-    if (constraint.names.size() != form->names) return std::nullopt;
-    return constraint;
-}
-
-std::vector<Constraint> constraints_of(const std::vector<Domain>& domains) {
-    std::vector<Constraint> constraints;
-    for (const Domain& domain : domains)
-        if (is_constraint(domain.name))
-            if (auto constraint = constraint_of(domain.name)) {
-                constraint->text = domain.name;
-                constraint->place = domain.place;
-                constraints.push_back(std::move(*constraint));
-            }
-    return constraints;
-}
-
 void narrow(Domain& domain, const std::string& name, bool is_float,
             const std::vector<Constraint>& constraints) {
     for (const Constraint& constraint : constraints) {
@@ -359,7 +270,8 @@ void constrain(const InputSpace& space, std::span<double> point) {
     // What keeps one comparison may break an earlier one.
     for (std::size_t round = 1; round < space.constraints.size(); ++round)
         for (const Constraint& constraint : space.constraints)
-            if (constraint.is_comparison()) keeper.keep(constraint);
+            if (constraint.is_comparison() || constraint.kind == Constraint::Kind::distinct)
+                keeper.keep(constraint);
 }
 
 }  // namespace gobo::sanitize

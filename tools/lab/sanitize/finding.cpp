@@ -104,6 +104,8 @@ struct UndefinedOutput {
 };
 
 constexpr std::string_view kReadUnwritten = "a value is read before it is written";
+constexpr std::uint64_t kMostIterations = 65536;  ///< of a loop; a GPU's driver gives up long before
+constexpr std::string_view kEndless = "a loop is not left after 65536 iterations";
 constexpr std::string_view kNoReturn = "a function returns no value on some path";
 
 /// Watches every operation of a run. Cheap where no trap happens: whole rows of lanes are screened, and only
@@ -157,6 +159,21 @@ class TrapObserver final : public evaluate::Observer<float> {
         const std::size_t trap = trap_of(step.operation, kMessage, text, step.first_invocation + lane);
         traps_[trap].points += 1;
         clamped_.push_back({kMessage, lanes, trap});
+    }
+
+    bool gives_up(const evaluate::Block& loop, Lanes lanes, std::size_t first_invocation) override {
+        if (lanes == 0) return true;
+        if (!is_in_batch_ || first_invocation != batch_) begin_batch(first_invocation);
+        mark_trapped(lanes);
+        // Numbered behind what reach() tells of.
+        const evaluate::Program& program = run_.program;
+        const std::size_t number =
+            program.operations.size() + program.undefined.size() + program.places.size() + loop.place;
+        const std::size_t trap = trap_without_operation(
+            static_cast<std::uint32_t>(number), kEndless, {},
+            first_invocation + static_cast<std::size_t>(std::countr_zero(lanes)), program.places[loop.place]);
+        traps_[trap].points += static_cast<std::uint64_t>(std::popcount(lanes));
+        return true;
     }
 
     void ends(const evaluate::Block& block, Lanes lanes) override {
@@ -503,7 +520,9 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
                                         std::span<const Interval> bounds, evaluate::Observer<float>* also) {
     const Run run{program, invocations, machine};
     TrapObserver observer(run, also);
-    GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, options_of(machine), &observer));
+    evaluate::Options options = options_of(machine);
+    options.iteration_limit = kMostIterations;
+    GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, options, &observer));
     observer.finish();
     observer.judge_outputs(outputs);
     OutputFindings of_outputs{run};

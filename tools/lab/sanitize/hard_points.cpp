@@ -82,6 +82,7 @@ class PointMaker {
         if (field.is_texture) {
             for (std::size_t i = 0; i < field.components; ++i)
                 value(field)[i] = drawn_texture_number(field, i, hardness_, random_);
+            make_grey(field);
             return;
         }
         const std::span<double> numbers = value(field).first(field.ranged());
@@ -96,6 +97,17 @@ class PointMaker {
             std::fill(numbers.begin(), numbers.end(), holds(field.domain, 0) ? 0.0 : number(field));
         } else {
             for (double& component : numbers) component = number(field);
+        }
+    }
+
+    /// Some texels hold one number in all their channels.
+    void make_grey(const InputField& texture) {
+        const std::span<double> numbers = value(texture);
+        for (std::size_t color = 0; color < 4 * kTexelColors; color += 4) {
+            if (!random_.one_in(4)) continue;
+            for (std::size_t channel = 1; channel < 4; ++channel)
+                if (holds(texture.channels[channel], numbers[color]))
+                    numbers[color + channel] = numbers[color];
         }
     }
 

@@ -30,15 +30,16 @@ Lanes lanes_where(const Step& step, const Test& test) {
     return lanes;
 }
 
-/// The quads of which some pixels run the step and others, not discarded, do not.
-Lanes parted(const Step& step, Lanes callers) {
+/// The pixels that run the step in quads of which others, not discarded or only those, do not.
+Lanes parted(const Step& step, Lanes callers, bool by_discard) {
     Lanes lanes = 0;
     for (std::size_t first = 0; first < kLanes; first += 4) {
         const Lanes quad = Lanes{15} << first;
         if ((callers & quad) != quad) continue;  // no quad at all
         const Lanes running = step.lanes & quad;
         const Lanes others = quad & ~step.lanes & ~step.discarded;
-        if (running != 0 && others != 0) lanes |= running;
+        const bool is_parted = by_discard ? others == 0 && running != quad : others != 0;
+        if (running != 0 && is_parted) lanes |= running;
     }
     return lanes;
 }
@@ -74,6 +75,9 @@ class ImageStep {
 
     [[nodiscard]] Lanes fetches_outside() const {
         return lanes_where(step_, [&](std::size_t lane) {
+            if (call_.is_arrayed != 0 && ints(step_, call_.coordinates, call_.dimensions)[lane] < 0)
+                return true;
+            if (call_.sample != 0 && ints(step_, call_.sample)[lane] < 0) return true;
             const evaluate::TexelPattern* const pattern = pattern_at(lane);
             const int side = pattern == nullptr ? 0 : pattern->side >> std::clamp(level(lane), 0, 30);
             for (std::uint32_t axis = 0; axis < call_.dimensions; ++axis) {
@@ -125,14 +129,17 @@ std::vector<ImageFault> image_faults(const Step& step, const evaluate::Invocatio
     const auto add = [&](std::string_view message, Lanes lanes) {
         if (lanes != 0) faults.push_back({message, lanes});
     };
-    constexpr std::string_view kParted = "derivatives where neighbouring pixels go another way";
+    const auto add_parted = [&] {
+        add(kParted, parted(step, callers, false));
+        add(kPartedByDiscard, parted(step, callers, true));
+    };
     if (step.row().kind == evaluate::Kind::derivative) {
-        add(kParted, parted(step, callers));
+        add_parted();
         return faults;
     }
     const ImageStep image(step, invocations);
     // A shadow map has one level, so that none is chosen by derivatives.
-    if (image.is_implicit() && !image.is_shadow()) add(kParted, parted(step, callers));
+    if (image.is_implicit() && !image.is_shadow()) add_parted();
     add("a projected texture coordinate whose divisor is not above 0", image.projects_from_behind());
     add("a cube map is looked up along a zero vector", image.is_along_nothing());
     if (image.is_fetch()) add("texelFetch() outside of the texture", image.fetches_outside());

@@ -79,8 +79,10 @@ Lanes beyond_word(const Step& step) {
 
 /// Vectors as the formulas of length(), distance() and normalize() see them.
 struct Extent {
-    float largest;  ///< absolute component
-    float square;   ///< of the length, as a float holds it
+    float largest;   ///< absolute component
+    float square;    ///< of the length, as a float holds it
+    float smallest;  ///< float that has all its digits
+    float beyond;    ///< the least number that is infinite as such a float
 };
 
 template <class Each>
@@ -97,7 +99,10 @@ void for_each_extent(const Step& step, const Each& each) {
             square[lane] += value * value;
         }
     }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) each(lane, Extent{largest[lane], square[lane]});
+    const float smallest = step.is_half ? 0x1p-14F : std::numeric_limits<float>::min();
+    const float beyond = step.is_half ? 65520.0F : kInfinity;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        each(lane, Extent{largest[lane], square[lane], smallest, beyond});
 }
 
 template <auto test>
@@ -109,10 +114,8 @@ Lanes vector_test(const Step& step) {
 
 constexpr auto kIsZero = [](Extent v) { return v.square == 0 && v.largest == 0; };  // and no NaN
 // Below the smallest normal number the square has lost digits, and is 0 where denormals are flushed.
-constexpr auto kUnderflows = [](Extent v) {
-    return v.largest > 0 && v.square < std::numeric_limits<float>::min();
-};
-constexpr auto kOverflows = [](Extent v) { return v.largest < kInfinity && v.square == kInfinity; };
+constexpr auto kUnderflows = [](Extent v) { return v.largest > 0 && v.square < v.smallest; };
+constexpr auto kOverflows = [](Extent v) { return v.largest < kInfinity && v.square >= v.beyond; };
 
 constexpr auto kDivisorIsZero = [](float, float b) { return b == 0; };
 constexpr auto kIsNegative = [](float a) { return a < 0; };
@@ -168,6 +171,13 @@ constexpr TrapRule kTrapRules[] = {
      three<[](float x, float low, float high) { return (x != x) | (low != low) | (high != high); }>},
     {GOBO_STD450(FClamp), "clamp() with its minimum above its maximum", true,
      three<[](float, float low, float high) { return high < low; }>},
+    {GOBO_STD450(SClamp), "clamp() with its minimum above its maximum", true,
+     &test_of<[](std::int32_t low, std::int32_t high) { return high < low; }, &int_row, 1, 2>},
+    {GOBO_STD450(UClamp), "clamp() with its minimum above its maximum", true,
+     &test_of<[](std::int32_t low, std::int32_t high) {
+         return static_cast<std::uint32_t>(high) < static_cast<std::uint32_t>(low);
+     },
+              &int_row, 1, 2>},
     {GOBO_STD450(Normalize), "normalize() of a zero vector", true, &vector_test<kIsZero>},
     {GOBO_STD450(Normalize), "normalize() underflows: the square of the length is too small", true,
      &vector_test<kUnderflows>},

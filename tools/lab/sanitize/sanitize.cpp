@@ -255,12 +255,9 @@ namespace {
 
 /// What is wrong with a constraint, if anything.
 Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& names) {
-    const auto constraint = constraint_of(domain.name);
-    if (!constraint)
-        return {evaluate::error_at(domain.place, fmt::format("'{}' is no constraint", domain.name),
-                                   std::string(kConstraintHelp))};
+    const Constraint constraint = constraint_of(domain.name).value_or(Constraint{});
     Diagnostics errors;
-    for (const std::string& name : constraint->names)
+    for (const std::string& name : constraint.names)
         if (!name.empty() && !names.contains(name))
             errors.push_back(evaluate::error_at(domain.place, fmt::format("no stage reads '{}'", name),
                                                 suggestion(name, {names.begin(), names.end()})));
@@ -269,7 +266,8 @@ Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& 
 
 }  // namespace
 
-Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validated& validated) {
+Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const std::vector<Domain>& known,
+                               const Validated& validated) {
     std::set<std::string> names;
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
@@ -286,6 +284,8 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validat
             for (const auto* ports : {&program->inputs, &program->uniforms})
                 for (const evaluate::Port& port : *ports)
                     inputs.insert(verify::without_subscripts(port.name));
+    for (const Domain& domain : known)
+        if (!is_constraint(domain.name)) inputs.insert(domain.name);
     Diagnostics errors;
     for (const Domain& domain : domains) {
         if (is_constraint(domain.name)) {

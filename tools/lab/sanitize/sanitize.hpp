@@ -42,8 +42,10 @@ struct SanitizeReport {
 [[nodiscard]] SanitizeReport sanitize(const Family& family, const Composition& composition,
                                       const Validated& validated, const SanitizeOptions& options);
 
-/// An error at each of the domains that no stage reads anything of.
-[[nodiscard]] Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const Validated& validated);
+/// An error at each of the domains that no stage reads anything of. Constraints may name what `known` holds,
+/// too.
+[[nodiscard]] Diagnostics domains_of_nothing(const std::vector<Domain>& domains,
+                                             const std::vector<Domain>& known, const Validated& validated);
 
 /// The permutations that share the stage, as indices.
 [[nodiscard]] std::vector<std::size_t> permutations_of(const Composition& composition, std::size_t stage);

@@ -1,0 +1,50 @@
+// What inputs have to do with one another, as [domain] and comments state it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "family/family.hpp"
+
+namespace gobo {
+
+/// As it is written in [domain], for elements of arrays with [] for each.
+struct Constraint {
+    enum class Kind {
+        less,               ///< `near < far`, `0.5 < a`: numbers, or vectors component by component
+        less_equal,         ///< `near <= far`
+        differ,             ///< `a != 0`
+        unit,               ///< `unit(normal)`
+        not_zero,           ///< `not_zero(axis)`
+        distinct,           ///< `distinct(position, eye)`: vectors that are not equal
+        orthonormal,        ///< `orthonormal(tbn)`: a square matrix
+        inverse_transpose,  ///< `inverse_transpose_of(normalMatrix, modelView)`: of its upper left 3 x 3
+    };
+    Kind kind = Kind::less;
+    std::vector<std::string> names;  ///< empty: of a comparison the side that is `number`
+    double number = 0;
+    std::string text;  ///< as written
+    Place place;
+
+    [[nodiscard]] bool is_comparison() const { return kind <= Kind::differ; }
+    /// Whether a side is a number: it narrows the range of the other.
+    [[nodiscard]] bool has_number() const {
+        return is_comparison() && (names[0].empty() || names[1].empty());
+    }
+};
+
+/// What can be written, for messages.
+inline constexpr std::string_view kConstraintHelp =
+    "write a comparison of two inputs, or of one and a number, with <, <=, >, >= or != (near < far, "
+    "a >= 0.5), or unit(), not_zero(), distinct(,), orthonormal(), inverse_transpose_of(,)";
+
+/// Whether the text is meant as one: no name of an input holds such signs.
+[[nodiscard]] bool is_constraint(std::string_view text);
+/// Nothing where it is none that is known.
+[[nodiscard]] std::optional<Constraint> constraint_of(std::string_view text);
+/// Those among the names of domains that are known.
+[[nodiscard]] std::vector<Constraint> constraints_of(const std::vector<Domain>& domains);
+
+}  // namespace gobo
