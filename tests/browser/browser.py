@@ -13,8 +13,8 @@ def skip(reason):
 
 
 @contextlib.contextmanager
-def opened(path, width=1280, height=1000):
-    """A driver that has the page open. Raises AssertionError at the end where the page's console holds an error."""
+def opened(path, width=1280, height=1000, draws=False):
+    """A driver that has the page open; one that draws does so by SwiftShader, on the processor. Raises AssertionError at the end where the page's console holds an error."""
     try:
         from selenium import webdriver
         from selenium.webdriver.chrome.service import Service
@@ -38,7 +38,7 @@ def opened(path, width=1280, height=1000):
     options = webdriver.ChromeOptions()
     options.binary_location = browser
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--window-size={width},{height}",
-                     "--allow-file-access-from-files"):
+                     "--allow-file-access-from-files", *(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if draws else [])):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(service=NumericService(driver_program), options=options)

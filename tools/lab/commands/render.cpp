@@ -11,6 +11,7 @@
 #include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/gallery/gallery.hpp"
+#include "lab/gallery/live_page.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "lab/vulkan/picture.hpp"
@@ -28,6 +29,7 @@ struct RenderOptions : SelectionOptions {
     std::string mesh = "teapot";
     std::string environment;
     int camera = -1;  ///< of scenes; below 0: each scene's first
+    bool live = false;
 };
 
 /// Slightly from above and from the side, where a scene has no camera.
@@ -52,7 +54,10 @@ bool makes_page(const RenderOptions& options) {
 
 Result<PictureOptions> picture_options(const RenderOptions& options) {
     PictureOptions pictures;
-    const std::string usual = makes_page(options) ? "400x300" : "640x480";
+    if (options.live && !makes_page(options))
+        return fail(Fault::usage, "--page shows --all, --cover or the default set as PNG files, not smoothed",
+                    "select keys by one of these");
+    const std::string usual = options.live ? "240x180" : makes_page(options) ? "400x300" : "640x480";
     GOBO_TRY(const auto size, read_size(options.size.empty() ? usual : options.size));
     GOBO_TRY(pictures.format, image_format_of(options.format));
     pictures.view.camera = gallery::gallery_camera();
@@ -108,6 +113,18 @@ Result<RenderedSelection> render_page(const RenderOptions& options, const World&
     page.backend = context.backend();
     page.jobs = world.jobs();
     GOBO_TRY(page.weights, load_weights(world));
+    if (!options.live)
+        return gallery::make_gallery(scene, family.family, composition, validated, page, world.disk,
+                                     world.shipped);
+    LoadedFamily for_browsers = family;
+    for_browsers.dialect = Dialect::es300;
+    std::vector<Key> keys;
+    for (const Permutation& permutation : composition.permutations) keys.push_back(permutation.key);
+    GOBO_TRY(const Composition in_browsers, compose_keys(for_browsers, keys));
+    GOBO_TRY(const Validated valid_there, compile(world, for_browsers, in_browsers));
+    const std::vector<Interface> interfaces = interfaces_of(in_browsers, valid_there);
+    gallery::LivePage live(family.family, scene, in_browsers, interfaces);
+    page.live = &live;
     return gallery::make_gallery(scene, family.family, composition, validated, page, world.disk,
                                  world.shipped);
 }
@@ -226,7 +243,7 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
 Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pictures,
                    const std::string& renderer, std::vector<std::string> summary = {}) {
     const auto drawn = std::count_if(rendered.files.begin(), rendered.files.end(),
-                                     [](const std::string& file) { return !file.ends_with("/index.html"); });
+                                     [](const std::string& file) { return !file.ends_with(".html"); });
     summary.push_back(fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
                                   pictures.view.width / pictures.smooth,
                                   pictures.view.height / pictures.smooth, renderer));
@@ -275,13 +292,16 @@ Command render_command() {
             {family_argument(options->family),
              {"-o,--output", "DIR", "Folder for the pictures, which are named after the keys",
               &options->folder, kRequired},
-             {"--size", "WxH", "Pixels; by default 640x480, and 400x300 on a page", &options->size},
+             {"--size", "WxH", "Pixels; by default 640x480, 400x300 on a page, and 240x180 with --page",
+              &options->size},
              {"--smooth", "N", "Make each pixel the average of N x N; without a page", &options->smooth,
               between(1, 8)},
              {"--backend", kBackends, "What draws; vulkan draws keys without a page, and no scenes",
               &options->backend},
              {"--format", "png|exr|pfm", "png is sRGB for the eye; exr and pfm hold linear floats",
               &options->format},
+             {"--page", "", "With a page: another one, live.html, that draws every key in the browser",
+              &options->live},
              {"--mesh", "teapot|sphere|torus|plane|FILE.obj", "What stands on the plane", &options->mesh},
              {"--camera", "N",
               "Number in the file of the camera that sees the scenes; by default each one's first, or a view "

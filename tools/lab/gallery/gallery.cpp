@@ -15,6 +15,7 @@
 #include "core/parallel.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
+#include "lab/gallery/live_page.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/raster/shade.hpp"
 #include "lab/raster/shared_textures.hpp"
@@ -151,6 +152,7 @@ RenderedSelection make_gallery(const Scene& scene, const Family& family, const C
         GOBO_TRY_DO(write(entry.expected, ".expected.png", exposed(report.expected, exposure)));
         GOBO_TRY_DO(write(entry.difference, ".error.png",
                           difference_picture(report.actual, report.expected, kWhiteError)));
+        if (options.live != nullptr) GOBO_TRY_DO(options.live->add(i, drawing, report.expected, exposure));
         return entry;
     };
     // Each thread has a context of its own.
@@ -184,6 +186,14 @@ RenderedSelection make_gallery(const Scene& scene, const Family& family, const C
         return made;
     }
     made.files.push_back(path);
+    if (options.live != nullptr) {
+        const std::string live = options.folder + "/live.html";
+        const auto kept = options.live->text(shipped, kWhiteError).and_then([&](const std::string& text) {
+            return files.write(live, text);
+        });
+        if (kept) made.files.push_back(live);
+        if (!kept) made.diagnostics.insert(made.diagnostics.end(), kept.error().begin(), kept.error().end());
+    }
     for (const Entry& entry : gallery.entries) made.files.push_back(options.folder + "/" + entry.actual);
     return made;
 }
@@ -209,7 +219,8 @@ Result<Drawing> draw(const Context& context, const Scene& scene, const Family& f
                                                     scene.view.camera.view()));
         maps.emplace(std::move(drawn));
         drawing.values.insert(drawing.values.end(), maps->values().begin(), maps->values().end());
-        drawing.images["shadowMaps"] = raster::depths_of(*maps, lights);
+        drawing.shadow_maps = raster::layers_of(*maps, lights);
+        drawing.images["shadowMaps"] = raster::depths_of(drawing.shadow_maps);
         given["shadowMaps"] = maps->texture();
     }
     GOBO_TRY(Picture picture,

@@ -32,6 +32,7 @@ struct Drawing {
     Image color;                      ///< linear radiance
     std::vector<RenderValue> values;  ///< of the uniforms, those of the shadow maps among them
     evaluate::Images images;          ///< what the samplers answer, texel for texel
+    std::vector<Image> shadow_maps;   ///< their depths, layer by layer
     Diagnostics warnings;
 };
 
@@ -87,11 +88,14 @@ struct Gallery {
 [[nodiscard]] Result<std::string> page(const FileSystem& shipped, const Family& family,
                                        const Gallery& gallery);
 
+class LivePage;
+
 struct GalleryOptions {
     std::string folder;
     study::Weights weights;
     Backend backend = Backend::osmesa;
     int jobs = 1;  ///< threads, each with a context of its own: drivers compile long shaders for seconds
+    LivePage* live = nullptr;  ///< gets each permutation that could be evaluated, and is written as live.html
 };
 
 /// Writes index.html, and beside it three PNG files for each key, named after it: drawn, expected, and how

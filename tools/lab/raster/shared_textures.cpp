@@ -57,12 +57,16 @@ evaluate::Image colors_of_picture(const Image& picture) {
     return image_of(evaluate::ColorTexels{picture.width, picture.height, colors_of(picture)});
 }
 
-evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
+std::vector<Image> layers_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
     int count = 0;
     for (const ShadowLight& light : lights) count += light.kind == ShadowLight::Kind::point ? 6 : 1;
     std::vector<Image> layers;
     for (int i = 0; i < count; ++i) layers.push_back(maps.layer(i));
-    return depths_of(layers);
+    return layers;
+}
+
+evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights) {
+    return depths_of(layers_of(maps, lights));
 }
 
 evaluate::Image depths_of(const std::vector<Image>& layers) {

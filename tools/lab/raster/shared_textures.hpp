@@ -35,6 +35,8 @@ class SharedTextures {
     evaluate::Images images_;
 };
 
+/// The depths of the lights' maps, layer by layer, read back.
+[[nodiscard]] std::vector<Image> layers_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
 /// What the sampler of the lights' maps answers: the depths of every layer, read back, as the renderer's own
 /// lookups see them.
 [[nodiscard]] evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
