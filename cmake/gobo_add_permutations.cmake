@@ -46,7 +46,10 @@ function(gobo_add_permutations target)
 
   set(cache "")
   if(GOBO_CACHE_DIR)
-    get_filename_component(cache "${GOBO_CACHE_DIR}" ABSOLUTE BASE_DIR "${CMAKE_BINARY_DIR}")
+    set(cache "${GOBO_CACHE_DIR}")
+    if(NOT cache MATCHES "^redis://")
+      get_filename_component(cache "${cache}" ABSOLUTE BASE_DIR "${CMAKE_BINARY_DIR}")
+    endif()
     set(cache --cache "${cache}")
   endif()
 

@@ -37,3 +37,9 @@ foreach(target glslang::glslang glslang::SPIRV glslang::glslang-default-resource
   endif()
 endforeach()
 target_link_libraries(gobo_glslang INTERFACE Threads::Threads)
+
+# Where it is not there, gobo keeps results in folders alone.
+find_library(GOBO_HIREDIS_LIBRARY hiredis)
+if(NOT GOBO_HIREDIS_LIBRARY)
+  set(GOBO_HIREDIS_LIBRARY "")
+endif()

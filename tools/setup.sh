@@ -11,8 +11,8 @@ packages=(
   libglfw3-dev libgl1 libglx-mesa0 xvfb xdotool
 )
 
-# Tests of pages open them in a browser, and are skipped where there is none.
-optional=(chromium chromium-driver python3-selenium)
+# Tests of pages open them in a browser, those of a cache in Redis start one, and are skipped where there is none.
+optional=(chromium chromium-driver python3-selenium libhiredis-dev redis-server)
 
 # absent PACKAGE...: those that are not installed.
 absent() {
@@ -44,4 +44,4 @@ echo "setup.sh: installing ${missing[*]} ${missing_optional[*]}" >&2
 install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends)
 [ ${#missing[@]} -eq 0 ] || "${install[@]}" "${missing[@]}" >&2
 [ ${#missing_optional[@]} -eq 0 ] || "${install[@]}" "${missing_optional[@]}" >&2 ||
-  echo "setup.sh: cannot install ${missing_optional[*]}: tests that need a browser will be skipped" >&2
+  echo "setup.sh: cannot install ${missing_optional[*]}: tests that need them will be skipped" >&2

@@ -129,11 +129,11 @@ TEST_F(ResultsOnDisk, ThatDeadWritersLeftAreRemovedWhenTheyAreOld) {
 TEST_F(ResultsOnDisk, AreCountedAndCleared) {
     DiskCache cache(folder, kMegabyte);
     for (int i = 0; i < 40; ++i) cache.keep(key(i), "result");
-    EXPECT_EQ(cache.size().results, 40U);
-    EXPECT_EQ(cache.size().bytes, 40U * (40 + 6));
+    EXPECT_EQ(cache.size()->results, 40U);
+    EXPECT_EQ(cache.size()->bytes, 40U * (40 + 6));
     std::ofstream(folder + "/mine.txt") << "stays";
     EXPECT_EQ(cache.clear().value().results, 40U);
-    EXPECT_EQ(cache.size().results, 0U);
+    EXPECT_EQ(cache.size()->results, 0U);
     EXPECT_TRUE(fs::exists(folder + "/mine.txt"));
 }
 
@@ -146,6 +146,19 @@ TEST_F(ResultsOnDisk, ThatCannotBeWrittenAreWarnedOfOnce) {
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_EQ(warnings[0].severity, Severity::warning);
     EXPECT_EQ(cache.find(key(1)), std::nullopt);
+}
+
+TEST_F(ResultsOnDisk, AreKeptWhereOthersCannotBe) {
+    fs::create_directories(folder);
+    std::ofstream(fmt::format("{}/{}", folder, hex(key(1)).front())) << "in the way";
+    int other = 2;
+    while (hex(key(other)).front() == hex(key(1)).front()) ++other;
+    DiskCache cache(folder, kMegabyte);
+    cache.keep(key(1), "one");
+    cache.keep(key(other), "other");
+    EXPECT_EQ(cache.tidy().size(), 1U);
+    EXPECT_EQ(cache.find(key(other)), "other");
+    EXPECT_FALSE(cache.size()) << "what cannot be read is not counted as nothing";
 }
 
 TEST_F(ResultsOnDisk, MayBeKeptByManyAtOnce) {
@@ -172,7 +185,7 @@ TEST_F(ResultsOnDisk, MayBeKeptByManyAtOnce) {
         ::waitpid(writer, &status, 0);
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     }
-    EXPECT_EQ(DiskCache(folder, kMegabyte).size().results, std::uint64_t{kResults});
+    EXPECT_EQ(DiskCache(folder, kMegabyte).size()->results, std::uint64_t{kResults});
 }
 
 TEST(TracedFiles, AreAnsweredAlikeUntilOneChanges) {

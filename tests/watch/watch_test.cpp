@@ -1,4 +1,5 @@
 // gobo watch: what is saved is built, errors are told, and an application that runs takes what changed.
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -7,9 +8,11 @@
 #include <map>
 #include <thread>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gobo/reload.hpp>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -72,11 +75,14 @@ class Watch : public testing::TestWithParam<const char*> {
     }
     [[nodiscard]] std::string socket() const { return folder + "/reload"; }
 
-    void start() {
+    /// What it tells goes into the log, or into what is given.
+    void start(int told = -1) {
         process = ::fork();
         if (process == 0) {
             const std::string out = folder + "/log";
-            if (std::freopen(out.c_str(), "a", stderr) == nullptr) ::_exit(127);
+            if (told >= 0 ? ::dup2(told, STDERR_FILENO) < 0
+                          : std::freopen(out.c_str(), "a", stderr) == nullptr)
+                ::_exit(127);
             const std::string family = folder + "/tiny.toml";
             const std::string output = folder + "/out";
             ::execl(GOBO_PROGRAM, "gobo", "watch", family.c_str(), "--all", "-I", (folder + "/mine").c_str(),
@@ -192,6 +198,35 @@ TEST_P(Watch, EndsWhenItIsAskedTo) {
     start();
     ASSERT_TRUE(await([&] { return take() > 0; }));
     EXPECT_TRUE(application->is_connected());
+}
+
+TEST_P(Watch, WritesAgainWhatIsRemoved) {
+    fs::remove_all(folder + "/out");
+    EXPECT_TRUE(await([&] { return fs::exists(folder + "/out/tiny.hpp"); })) << text_of(folder + "/log");
+}
+
+TEST_P(Watch, GoesOnWhereAPieceBecomesAPipe) {
+    fs::remove(folder + "/fog/linear.glsl");
+    ASSERT_EQ(::mkfifo((folder + "/fog/linear.glsl").c_str(), 0600), 0);
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    fs::remove(folder + "/fog/linear.glsl");
+    EXPECT_TRUE(takes([&] { save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.0625); }\n"); },
+                      "fog=linear", "vec4(0.0625)"));
+}
+
+TEST_P(Watch, EndsWhereNobodyReadsWhatItTells) {
+    stop(SIGTERM);
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+    start(pipe[1]);
+    ::close(pipe[1]);
+    std::array<char, 4096> told{};
+    ASSERT_GT(::read(pipe[0], told.data(), told.size()), 0);
+    ::close(pipe[0]);
+    int status = 0;
+    ASSERT_TRUE(await([&] { return ::waitpid(process, &status, WNOHANG) == process; }));
+    process = -1;
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, Watch, testing::Values("", "--look"),

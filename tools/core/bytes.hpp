@@ -41,6 +41,11 @@ concept List = requires(T& value) {
     value.resize(1);
 };
 
+template <class T>
+concept Map = requires {
+    typename T::mapped_type;
+};
+
 class ByteWriter {
   public:
     void operator()(const auto&... values) { (put(values), ...); }
@@ -64,6 +69,9 @@ class ByteWriter {
                 put_raw(value.data(), value.size() * sizeof(typename T::value_type));
             else
                 for (const auto& element : value) put(element);
+        } else if constexpr (Map<T>) {
+            put(std::uint64_t{value.size()});
+            for (const auto& [key, element] : value) (*this)(key, element);
         } else {
             fields(*this, value);
         }
@@ -103,6 +111,14 @@ class ByteReader {
                 take_raw(value.data(), is_fine_ ? size * sizeof(Element) : 0);
             } else {
                 for (; size > 0 && is_fine_; --size) take(value.emplace_back());
+            }
+        } else if constexpr (Map<T>) {
+            std::uint64_t size = 0;
+            take(size);
+            for (; size > 0 && is_fine_; --size) {
+                typename T::key_type key{};
+                take(key);
+                take(value[key]);
             }
         } else {
             fields(*this, value);

@@ -72,11 +72,9 @@ std::optional<std::string> content_of(const std::string& path, struct stat& stat
 }
 
 /// 0, or errno.
-int write_new(const std::string& path, const Head& head, std::string_view result) {
+int write_new(const std::string& path, std::string_view content) {
     const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0) return errno;
-    std::string content(reinterpret_cast<const char*>(&head), sizeof head);
-    content += result;
     return write_and_close(::fdopen(descriptor, "w"), content);
 }
 
@@ -87,10 +85,9 @@ struct File {
     bool is_finished = false;
 };
 
-/// The results of a part, and what is being written there.
-std::vector<File> files_in(const std::string& part) {
+/// The results of a part, and what is being written there. `error` where it is there and cannot be read.
+std::vector<File> files_in(const std::string& part, std::error_code& error) {
     std::vector<File> files;
-    std::error_code error;
     fs::directory_iterator at(part, error);
     for (; !error && at != fs::directory_iterator(); at.increment(error)) {
         const std::string name = at->path().filename().string();
@@ -101,6 +98,7 @@ std::vector<File> files_in(const std::string& part) {
         files.push_back(
             {at->path().string(), static_cast<std::uint64_t>(status.st_size), status.st_mtim, is_finished});
     }
+    if (error == std::errc::no_such_file_or_directory) error.clear();
     return files;
 }
 
@@ -115,6 +113,21 @@ void MemoryCache::keep(const Digest& key, std::string_view result) {
     results_.insert_or_assign(key, std::string(result));
 }
 
+std::string sealed(const Digest& key, std::string_view result) {
+    const Head head = head_of(key, result);
+    std::string content(reinterpret_cast<const char*>(&head), sizeof head);
+    content += result;
+    return content;
+}
+
+std::optional<std::string> unsealed(const Digest& key, std::string_view content) {
+    Head head;
+    if (content.size() < sizeof head) return std::nullopt;
+    std::memcpy(&head, content.data(), sizeof head);
+    content.remove_prefix(sizeof head);
+    return head == head_of(key, content) ? std::optional<std::string>(content) : std::nullopt;
+}
+
 std::string DiskCache::path_of(const Digest& key) const {
     const std::string name = hex(key);
     return fmt::format("{}/{}/{}{}", folder_, name.front(), name, kEnd);
@@ -125,31 +138,27 @@ std::optional<std::string> DiskCache::find(const Digest& key) {
     struct stat status {};
     std::optional<std::string> content = content_of(path, status);
     if (!content) return std::nullopt;
-    Head head;
-    const bool is_long = content->size() >= sizeof head;
-    if (is_long) std::memcpy(&head, content->data(), sizeof head);
-    const std::string_view result = std::string_view(*content).substr(is_long ? sizeof head : 0);
-    if (!is_long || head != head_of(key, result)) {
+    std::optional<std::string> result = unsealed(key, *content);
+    if (!result) {
         ::unlink(path.c_str());
         return std::nullopt;
     }
     // What was used longest ago goes first.
     if (status.st_mtim.tv_sec + kFreshMark < std::time(nullptr))
         ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-    content->erase(0, sizeof head);
-    return content;
+    return result;
 }
 
 void DiskCache::keep(const Digest& key, std::string_view result) {
-    if (error_ != 0) return;  // a full disk will not be emptier for the next one
+    if (error_ == ENOSPC || error_ == EDQUOT) return;  // it will not be emptier for the next one
     const std::string path = path_of(key);
     const std::string beside = fmt::format("{}{}{}.{}", path, kUnfinished, ::getpid(), written_++);
-    const Head head = head_of(key, result);
-    int error = write_new(beside, head, result);
+    const std::string content = sealed(key, result);
+    int error = write_new(beside, content);
     if (error == ENOENT) {
         std::error_code made;
         fs::create_directories(fs::path(path).parent_path(), made);
-        error = made ? made.value() : write_new(beside, head, result);
+        error = made ? made.value() : write_new(beside, content);
     }
     if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) error = errno;
     if (error != 0) {
@@ -161,7 +170,8 @@ void DiskCache::keep(const Digest& key, std::string_view result) {
 
 Diagnostics DiskCache::tidy() {
     for (const char part : grown_) {
-        std::vector<File> files = files_in(fmt::format("{}/{}", folder_, part));
+        std::error_code ignored;
+        std::vector<File> files = files_in(fmt::format("{}/{}", folder_, part), ignored);
         std::uint64_t bytes = 0;
         for (const File& file : files) {
             if (file.is_finished) bytes += file.bytes;
@@ -187,13 +197,17 @@ Diagnostics DiskCache::tidy() {
     return warning;
 }
 
-DiskCache::Size DiskCache::size() const {
+Result<DiskCache::Size> DiskCache::size() const {
     Size size;
-    for (const char part : kParts)
-        for (const File& file : files_in(fmt::format("{}/{}", folder_, part))) {
+    for (const char part : kParts) {
+        const std::string folder = fmt::format("{}/{}", folder_, part);
+        std::error_code error;
+        for (const File& file : files_in(folder, error)) {
             size.results += file.is_finished ? 1 : 0;
             size.bytes += file.bytes;
         }
+        if (error) return file_error(folder, "read", error.value());
+    }
     return size;
 }
 
@@ -201,12 +215,14 @@ Result<DiskCache::Size> DiskCache::clear() {
     Size removed;
     for (const char part : kParts) {
         const std::string folder = fmt::format("{}/{}", folder_, part);
-        for (const File& file : files_in(folder)) {
+        std::error_code error;
+        for (const File& file : files_in(folder, error)) {
             if (::unlink(file.path.c_str()) != 0 && errno != ENOENT)
                 return file_error(file.path, "removed", errno);
             removed.results += file.is_finished ? 1 : 0;
             removed.bytes += file.bytes;
         }
+        if (error) return file_error(folder, "read", error.value());
         ::rmdir(folder.c_str());  // stays where it holds something else
     }
     ::rmdir(folder_.c_str());

@@ -23,7 +23,14 @@ class ResultCache {
 
     [[nodiscard]] virtual std::optional<std::string> find(const Digest& key) = 0;
     virtual void keep(const Digest& key, std::string_view result) = 0;
+    /// Once all is kept: makes room. A warning where a result could not be kept.
+    [[nodiscard]] virtual Diagnostics tidy() { return {}; }
 };
+
+/// The result behind a head with a version, its size and a checksum of it and its key.
+[[nodiscard]] std::string sealed(const Digest& key, std::string_view result);
+/// The result of what sealed() gave for the key; nothing where anything of it differs.
+[[nodiscard]] std::optional<std::string> unsealed(const Digest& key, std::string_view content);
 
 /// For as long as the process lives.
 class MemoryCache final : public ResultCache {
@@ -47,15 +54,15 @@ class DiskCache final : public ResultCache {
     void keep(const Digest& key, std::string_view result) override;
 
     /// Removes the results that were used longest ago from the sixteen parts of the folder to which something
-    /// was added, until each holds no more than its sixteenth of `most_bytes`. A warning where a result could
-    /// not be kept.
-    [[nodiscard]] Diagnostics tidy();
+    /// was added, until each holds no more than its sixteenth of `most_bytes`.
+    [[nodiscard]] Diagnostics tidy() override;
 
     struct Size {
         std::uint64_t results = 0;
         std::uint64_t bytes = 0;
     };
-    [[nodiscard]] Size size() const;
+    /// Fault::file where a part cannot be read.
+    [[nodiscard]] Result<Size> size() const;
     /// Removes every result, and nothing else; what it held. Fault::file where one cannot be removed.
     [[nodiscard]] Result<Size> clear();
 
@@ -65,7 +72,7 @@ class DiskCache final : public ResultCache {
     std::string folder_;
     std::uint64_t most_bytes_;
     std::set<char> grown_;  ///< parts, by their names' digit
-    int error_ = 0;         ///< errno of a result that could not be kept
+    int error_ = 0;         ///< errno of the last result that could not be kept
     std::uint64_t written_ = 0;
 };
 

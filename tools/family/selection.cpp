@@ -148,6 +148,7 @@ Result<WholeNumber> count_selected(const Family& family, const Selection& asked,
 
 std::vector<NamedKey> keys_of_text(std::string_view text, const std::string& path) {
     std::vector<NamedKey> keys;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // of an editor
     for (int line = 1; !text.empty(); ++line) {
         const auto end = std::min(text.find('\n'), text.size());
         const std::string_view content = trim(text.substr(0, std::min(end, text.find('#'))));

@@ -7,7 +7,9 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <new>
+#include <set>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -33,19 +35,36 @@ void prepare_process() {
             static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-/// The machine's files, where --follow says so without a look at where links lead.
+/// The machine's files, where --follow says so without a look at where links lead. What was read is not
+/// written over.
 class UserFiles final : public FileSystem {
   public:
     explicit UserFiles(const CommonOptions& options) : options_(options) {}
     [[nodiscard]] bool is_file(const std::string& path) const override { return disk_.is_file(path); }
     [[nodiscard]] Result<std::string> read(const std::string& path) const override {
-        return disk_.read(path);
+        Result<std::string> content = disk_.read(path);
+        const std::lock_guard lock(mutex_);
+        if (content) read_.insert(path);
+        return content;
     }
     [[nodiscard]] std::vector<std::string> files_below(const std::string& folder) const override {
         return disk_.files_below(folder);
     }
     Result<bool> write(const std::string& path, std::string_view content) override {
+        GOBO_TRY_DO(spare(path));
         return disk_.write(path, content);
+    }
+    /// An error where the file was read. A link in its place would be replaced, not followed.
+    [[nodiscard]] Result<void> spare(const std::string& path) const {
+        std::error_code error;
+        const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+        if (!std::filesystem::is_regular_file(status)) return {};
+        const std::lock_guard lock(mutex_);
+        for (const std::string& input : read_)
+            if (std::filesystem::equivalent(input, path, error))
+                return fail(Fault::usage, fmt::format("'{}' would be written over, but is read", path),
+                            "name another file or folder for what is written");
+        return {};
     }
     [[nodiscard]] std::string real_path(const std::string& path) const override {
         if (!options_.follow) return disk_.real_path(path);
@@ -57,6 +76,8 @@ class UserFiles final : public FileSystem {
   private:
     const CommonOptions& options_;
     DiskFileSystem disk_;
+    mutable std::mutex mutex_;
+    mutable std::set<std::string> read_;
 };
 
 /// How messages are written. Asked before the options are read, so that what is wrong with them is written
@@ -116,7 +137,7 @@ void become_lab(const std::vector<std::string>& arguments) {
     execvp("gobo-lab", passed.data());
 }
 
-Result<Outcome> answer(const Application& application, const World& world,
+Result<Outcome> answer(const Application& application, const World& world, const UserFiles& disk,
                        const std::vector<std::string>& arguments) {
     const bool completes = arguments.size() > 1 && arguments.front() == "complete";
     const std::string name = arguments.empty() ? "" : arguments[completes ? 1 : 0];
@@ -132,6 +153,7 @@ Result<Outcome> answer(const Application& application, const World& world,
     Diagnostics warnings;
     GOBO_TRY(Outcome outcome, run_with_cache(*line.command, world, application.name, arguments, warnings));
     append(outcome.diagnostics, warnings);
+    for (const OutputFile& file : outcome.files) GOBO_TRY_DO(disk.spare(file.path));
     return with_files_written(std::move(outcome));
 }
 
@@ -150,7 +172,7 @@ int run(Application application, const std::vector<std::string>& arguments, cons
         std::fflush(stderr);
     };
     auto outcome =
-        answer(application, {disk, shipped, options, application.measure, nullptr, tell}, arguments);
+        answer(application, {disk, shipped, options, application.measure, nullptr, tell}, disk, arguments);
     if (!outcome) {
         for (Diagnostic& error : outcome.error()) {
             if (error.fault != Fault::needs_lab) continue;

@@ -7,6 +7,7 @@
 #include "core/file_error.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/kept_answers.hpp"
+#include "gobo/redis_cache.hpp"
 
 namespace gobo {
 namespace {
@@ -15,6 +16,9 @@ Result<Outcome> run(const std::string& action, const World& world) {
     const std::string folder = cache_folder(world.options);
     if (folder.empty())
         return fail(Fault::usage, "no cache is named", "give --cache DIR, or set GOBO_CACHE_DIR");
+    if (names_redis(folder))
+        return fail(Fault::usage, fmt::format("what {} holds is Redis's to say", folder),
+                    "ask it: redis-cli --scan --pattern 'gobo:*', redis-cli info memory");
     // One that is not there holds nothing; one that cannot be looked at may.
     if (::DIR* const opened = ::opendir(folder.c_str()); opened != nullptr)
         ::closedir(opened);
@@ -27,7 +31,7 @@ Result<Outcome> run(const std::string& action, const World& world) {
         return Outcome{
             {}, {}, fmt::format("{}: {} results, {} bytes removed", folder, removed.results, removed.bytes)};
     }
-    const DiskCache::Size size = cache.size();
+    GOBO_TRY(const DiskCache::Size size, cache.size());
     return Outcome{fmt::format("results {}\nbytes {}\nmost_bytes {}\n", size.results, size.bytes, most)};
 }
 

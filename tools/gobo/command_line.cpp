@@ -52,10 +52,12 @@ std::string value_fault(const Option& option, const std::string& text) {
             using Value = std::decay_t<decltype(*target)>;
             if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>)
                 return number_fault<Value>(option.rule, text);
-            else if (text.empty() && option.value == "I/N")  // a script's variable that is not set
-                return "the shard is empty: write one such as 1/4, or leave the option out";
-            else
-                return text.empty() && names_path(option) ? "the name is empty" : "";
+            else if (!text.empty())
+                return "";
+            else if (names_path(option))
+                return "the name is empty";
+            else  // a script's variable that is not set
+                return option.is_argument() ? "" : "the value is empty: give one, or leave the option out";
         },
         option.target);
 }

@@ -216,7 +216,8 @@ OptionGroup common_options(CommonOptions& options) {
           "Run glslang in gobo's own process, not in child processes: what crashes glslang ends gobo",
           &options.in_process},
          {"--cache", "DIR",
-          "A folder where results are kept for later runs; by default what GOBO_CACHE_DIR names, or none",
+          "A folder where results are kept for later runs, or redis://HOST:PORT; by default what "
+          "GOBO_CACHE_DIR names, or none",
           &options.cache},
          {"--cache-size", "MB", "How much the cache may hold; what was used longest ago goes first",
           &options.cache_megabytes, between(1, 1'000'000)},

@@ -7,6 +7,7 @@
 
 #include "core/bytes.hpp"
 #include "core/file_trace.hpp"
+#include "gobo/redis_cache.hpp"
 
 namespace gobo {
 
@@ -83,7 +84,13 @@ Result<Outcome> run_with_cache(const Command& command, const World& world, const
                                const std::vector<std::string>& arguments, Diagnostics& warnings) {
     const std::string folder = cache_folder(world.options);
     if (folder.empty() || command.manages_cache) return command.run(world);
-    DiskCache cache(folder, std::uint64_t(world.options.cache_megabytes) << 20);
+    std::unique_ptr<ResultCache> opened;
+    if (names_redis(folder)) {
+        GOBO_TRY(opened, RedisCache::open(folder));
+    } else {
+        opened = std::make_unique<DiskCache>(folder, std::uint64_t(world.options.cache_megabytes) << 20);
+    }
+    ResultCache& cache = *opened;
     const Digest key = key_of(program, arguments);
     if (command.is_repeatable)
         if (std::optional<Answer> answer = kept_answer(cache, key, world.disk)) {

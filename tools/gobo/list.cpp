@@ -54,7 +54,7 @@ Result<std::vector<Key>> keys_of_manifest(const World& world, const LoadedFamily
         return object.is_object() && object.contains(name) && object[name].is_string();
     };
     const bool is_manifest =
-        is_text(manifest, "family") && manifest.contains("permutations") &&
+        is_text(manifest, "family") && is_text(manifest, "dialect") && manifest.contains("permutations") &&
         std::ranges::all_of(manifest["permutations"], [&](const auto& row) { return is_text(row, "key"); });
     if (!is_manifest) return fail(Place{path}, {}, "is no manifest", "name the .json that gobo build wrote");
     if (manifest["family"] != family.family.name)

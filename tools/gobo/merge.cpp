@@ -1,5 +1,6 @@
 // gobo merge: what the shards of a run wrote, as the run without shards writes it.
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -22,9 +23,19 @@ struct Shard {
 };
 
 /// Shards take turns: the first key is the first one's, the next the second one's. `groups` are each shard's
-/// keys with what they have. Their order as it was; an error where a shard lacks a key.
+/// keys with what they have, `key_of` tells the key. Their order as it was; an error where a shard lacks a
+/// key or has another one's.
 template <class Group>
-Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const std::vector<Shard>& shards) {
+Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const std::vector<Shard>& shards,
+                                   const std::function<std::string(const Group&)>& key_of) {
+    std::map<std::string, std::size_t> owners;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        for (const Group& group : groups[i])
+            if (const auto [owner, is_new] = owners.try_emplace(key_of(group), i);
+                !is_new && owner->second != i)
+                return fail(Place{shards[i].path}, {},
+                            fmt::format("holds '{}', as {} does", owner->first, shards[owner->second].path),
+                            "name every shard once, in order");
     std::size_t count = 0;
     for (const auto& own : groups) count += own.size();
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -56,7 +67,9 @@ Result<Json> merged(const std::vector<const Json*>& values, const std::vector<Sh
     if (all_are(is_list_of_keys)) {
         std::vector<std::vector<Json>> groups;
         for (const Json* value : values) groups.emplace_back(value->begin(), value->end());
-        GOBO_TRY(const std::vector<Json> rows, in_turn(std::move(groups), shards));
+        GOBO_TRY(const std::vector<Json> rows, in_turn<Json>(std::move(groups), shards, [](const Json& row) {
+                     return row["key"].is_string() ? row["key"].get<std::string>() : row["key"].dump();
+                 }));
         return Json(rows);
     }
     const bool has_parts = all_are(
@@ -149,7 +162,9 @@ Result<std::string> merged_csv(const std::vector<Shard>& shards) {
     for (std::size_t part = 0; part < parts.front().size(); ++part) {
         std::vector<std::vector<Rows>> groups;
         for (const auto& own : parts) groups.push_back(groups_of(own[part], key + 1));
-        GOBO_TRY(const std::vector<Rows> merged_rows, in_turn(std::move(groups), shards));
+        GOBO_TRY(
+            const std::vector<Rows> merged_rows,
+            in_turn<Rows>(std::move(groups), shards, [&](const Rows& rows) { return rows.front()[key]; }));
         for (const Rows& rows : merged_rows) whole.rows.insert(whole.rows.end(), rows.begin(), rows.end());
     }
     return csv_text(whole);

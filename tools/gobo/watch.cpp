@@ -73,16 +73,20 @@ class Watcher {
                 options_, {files, world_.shipped, world_.options, world_.measure, &cache_, world_.tell});
             if (!built && is_first && exit_status(built.error()) > 1)
                 return tl::unexpected(std::move(built).error());
-            if (!files.is_repeatable())
-                return fail(Fault::usage, "a file that is read only once cannot be watched",
-                            "name files, not standard input or a pipe");
-            tell(std::move(built), start);
-            if (!wait(files.questions())) return Outcome{};
+            if (!files.is_repeatable()) {
+                built = fail(Fault::usage, "a file that is read only once cannot be watched",
+                             "name files, not standard input or a pipe");
+                if (is_first) return tl::unexpected(std::move(built).error());
+            }
+            std::vector<FileQuestion> questions = files.questions();
+            for (const FileQuestion& question : tell(std::move(built), start)) questions.push_back(question);
+            if (!wait(questions)) return Outcome{};
         }
     }
 
   private:
-    void tell(Result<Built> built, Clock::time_point start) {
+    /// Writes what was built, and says so. That what was written is there is asked, too.
+    std::vector<FileQuestion> tell(Result<Built> built, Clock::time_point start) {
         Result<Outcome> outcome =
             built ? with_files_written(built->outcome) : tl::unexpected(std::move(built).error());
         if (!outcome) {
@@ -91,30 +95,35 @@ class Watcher {
             if (server_) server_->offer_errors(errors);
             world_.tell(
                 {{}, std::move(outcome).error(), fmt::format("{}: waiting for a change", options_.family)});
-            return;
+            return {};
         }
         if (server_) {
             const std::size_t changed = server_->offer(built->family, built->composition);
-            outcome->summary +=
-                fmt::format(", {} {} sent", changed, changed == 1 ? "program" : "programs");
+            outcome->summary += fmt::format(", {} {} sent", changed, changed == 1 ? "program" : "programs");
         }
         const auto taken = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
         outcome->summary += fmt::format(", {} ms", taken.count());
         world_.tell(*outcome);
+        const TracedFiles written(world_.disk);
+        for (const OutputFile& file : outcome->files) static_cast<void>(written.is_file(file.path));
+        return written.questions();
     }
 
     /// Until an answer is another one. False where the process is to end.
     bool wait(const std::vector<FileQuestion>& questions) {
+        watch_.take_news();  // of what was written here, and of what is asked now
         watch_.follow(questions);
         const bool looks = options_.looks || watch_.descriptor() < 0;
         while (are_answered_alike(questions, world_.disk)) {
             for (bool has_news = false; !has_news;) {
                 std::vector<pollfd> waited = {{ending_.descriptor(), POLLIN, 0},
-                                              {watch_.descriptor(), POLLIN, 0}};
+                                              {watch_.descriptor(), POLLIN, 0},
+                                              {STDERR_FILENO, 0, 0}};
                 if (server_)
                     for (const pollfd& socket : server_->descriptors()) waited.push_back(socket);
                 if (::poll(waited.data(), waited.size(), looks ? kBetweenLooks : -1) < 0) continue;
-                if (waited[0].revents != 0) return false;
+                // Or nobody reads any more what is told.
+                if (waited[0].revents != 0 || (waited[2].revents & POLLERR) != 0) return false;
                 if (server_) server_->serve(waited);
                 has_news = looks || waited[1].revents != 0;
             }

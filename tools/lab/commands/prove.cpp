@@ -63,6 +63,7 @@ Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
     const Family& family = subject.family.family;
     prove::ProveOptions wanted = options.prove;
     wanted.jobs = world.jobs();
+    wanted.cache = world.cache;
     const prove::ProveReport found = prove::prove(family, subject.composition, validated, wanted);
     Diagnostics diagnostics = validated.diagnostics;
     append(diagnostics, found.diagnostics);

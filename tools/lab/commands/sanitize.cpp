@@ -102,6 +102,7 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     const Family& family = subject.family.family;
     sanitize::SanitizeOptions wanted = options.sanitize;
     wanted.jobs = world.jobs();
+    wanted.cache = world.cache;
     wanted.machines = machines_of(options.machines);
     if (options.rounding) {
         GOBO_TRY(const auto stages,

@@ -7,16 +7,28 @@
 #include <fmt/format.h>
 
 #include "core/parallel.hpp"
+#include "core/remembered.hpp"
 #include "family/key.hpp"
 #include "lab/prove/check.hpp"
 #include "lab/prove/stage_proof.hpp"
 #include "lab/sanitize/guide.hpp"
 #include "lab/sanitize/hard_points.hpp"
+#include "lab/sanitize/kept.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/sanitize/shrink.hpp"
 #include "lab/verify/random_points.hpp"
 
 namespace gobo::prove {
+
+static void fields(auto& archive, OneOf<Range> auto& value) {
+    auto& [low, high, least, grid, zero, nan] = value;
+    archive(low, high, least, grid, zero, nan);
+}
+static void fields(auto& archive, OneOf<PartLeft> auto& value) {
+    auto& [name, range] = value;
+    archive(name, range);
+}
+
 namespace {
 
 /// A stage's program, what is proven of it, and why nothing is.
@@ -30,24 +42,41 @@ struct Proven {
     Diagnostics diagnostics;
 };
 
+/// What of it takes long: all but the program and what follows from that.
+struct KeptProof {
+    struct KeptRule {
+        std::uint32_t operation = 0;
+        std::string message;
+        bool is_proven = false;
+        bool is_constant = false;
+        bool ignores_tiny = false;
+    };
+    std::vector<KeptRule> rules;
+    std::vector<std::vector<PartLeft>> left;
+    std::vector<std::vector<Range>> outputs;
+    std::vector<std::vector<Range>> results;
+    Diagnostics diagnostics;
+};
+void fields(auto& archive, OneOf<KeptProof::KeptRule> auto& value) {
+    auto& [operation, message, is_proven, is_constant, ignores_tiny] = value;
+    archive(operation, message, is_proven, is_constant, ignores_tiny);
+}
+void fields(auto& archive, OneOf<KeptProof> auto& value) {
+    auto& [rules, left, outputs, results, diagnostics] = value;
+    archive(rules, left, outputs, results, diagnostics);
+}
+
 using PlaceAndName = std::tuple<std::string, int, std::string>;
 
-Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains, std::size_t splits) {
-    Proven proven;
-    auto program = evaluate::decode(spirv);
-    if (!program) {
-        proven.diagnostics = program.error();
-        return proven;
-    }
-    proven.program = std::move(*program);
-    proven.space = sanitize::input_space_of(proven.program, domains, true);
+/// Proves what can be proven of the stage's operations.
+void prove_rules(Proven& proven, std::size_t splits) {
     StageProof proof(proven.program, proven.space);
     if (const auto ran = proof.run(0, true); !ran) proven.diagnostics = ran.error();
     proven.rules = proof.rules();
     proven.outputs = proof.outputs();
     proven.results = proof.results();
     proven.left.resize(proven.rules.size());
-    if (!proven.diagnostics.empty()) return proven;
+    if (!proven.diagnostics.empty()) return;
     // What is open: without tiny inputs, which no input has that the sanitizer draws; then with the domain
     // split.
     std::vector<bool> is_settled(proven.rules.size());
@@ -70,6 +99,47 @@ Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains,
         settle(splits, true);
         settle(splits, false);
     }
+}
+
+KeptProof kept(const Proven& proven) {
+    KeptProof kept{{}, proven.left, proven.outputs, proven.results, proven.diagnostics};
+    for (const RuleAtOperation& one : proven.rules)
+        kept.rules.push_back(
+            {one.operation, std::string(one.rule.message), one.is_proven, one.is_constant, one.ignores_tiny});
+    return kept;
+}
+
+void restore(Proven& proven, const KeptProof& kept) {
+    const std::vector<std::vector<Rule>> rules = rules_of(proven.program);
+    proven.rules.clear();
+    for (const auto& [operation, message, is_proven, is_constant, ignores_tiny] : kept.rules) {
+        const auto rule = std::ranges::find(rules[operation], message, &Rule::message);
+        proven.rules.push_back({operation, *rule, is_proven, is_constant, ignores_tiny});
+    }
+    proven.left = kept.left;
+    proven.outputs = kept.outputs;
+    proven.results = kept.results;
+    proven.diagnostics = kept.diagnostics;
+}
+
+Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains, std::size_t splits,
+                   Remembered& remembered) {
+    Proven proven;
+    auto program = evaluate::decode(spirv);
+    if (!program) {
+        proven.diagnostics = program.error();
+        return proven;
+    }
+    proven.program = std::move(*program);
+    proven.space = sanitize::input_space_of(proven.program, domains, true);
+    bool is_new = false;
+    const Digest all = digest_of(to_bytes(program_identity(), std::string("prove"), spirv, domains, splits));
+    const KeptProof known = remembered.get<KeptProof>(all, [&] {
+        prove_rules(proven, splits);
+        is_new = true;
+        return kept(proven);
+    });
+    if (!is_new) restore(proven, known);
     return proven;
 }
 
@@ -219,8 +289,9 @@ bool SourceOperation::has_own_rule() const {
 ProveReport prove(const Family& family, const Composition& composition, const Validated& validated,
                   const ProveOptions& options) {
     std::vector<Proven> stages(composition.stages.size());
+    Remembered remembered(options.cache);
     parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
-        stages[i] = prove_stage(validated.stages[i].spirv, family.domains, options.splits);
+        stages[i] = prove_stage(validated.stages[i].spirv, family.domains, options.splits, remembered);
     });
     ProveReport report;
     report.stages = stages.size();

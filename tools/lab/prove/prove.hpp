@@ -8,6 +8,7 @@
 
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
+#include "core/result_cache.hpp"
 #include "family/family.hpp"
 #include "lab/prove/range.hpp"
 #include "lab/sanitize/finding.hpp"
@@ -21,7 +22,8 @@ struct ProveOptions {
     std::size_t points =
         32768;  ///< inputs that a stage gets in search of an example, where anything is undecided
     std::uint64_t seed = 1;
-    std::size_t check = 0;  ///< inputs over all stages that the proofs are held to
+    std::size_t check = 0;         ///< inputs over all stages that the proofs are held to
+    ResultCache* cache = nullptr;  ///< where a stage's proof is kept from one run to the next; null: nowhere
 };
 
 enum class Status { impossible, undecided, possible };

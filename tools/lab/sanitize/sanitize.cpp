@@ -10,11 +10,13 @@
 #include <fmt/format.h>
 
 #include "core/parallel.hpp"
+#include "core/remembered.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/evaluate/functions.hpp"
 #include "lab/sanitize/constant_faults.hpp"
 #include "lab/sanitize/guide.hpp"
+#include "lab/sanitize/kept.hpp"
 #include "lab/sanitize/shrink.hpp"
 #include "lab/verify/random_points.hpp"
 #include "validate/preprocess.hpp"
@@ -36,6 +38,17 @@ void add_consequences(Finding& finding, const Finding& other) {
         };
         if (std::ranges::none_of(finding.consequences, is_same)) finding.consequences.push_back(one);
     }
+}
+
+/// What a search came to.
+struct Searched {
+    std::vector<Finding> findings;
+    std::uint64_t points = 0;
+    Diagnostics diagnostics;
+};
+void fields(auto& archive, OneOf<Searched> auto& value) {
+    auto& [findings, points, diagnostics] = value;
+    archive(findings, points, diagnostics);
 }
 
 /// Points are made and run in portions, so that they stay in the cache and their rows are not mapped anew
@@ -87,6 +100,18 @@ class StageSearch {
     /// A finding of this stage at an input made simple.
     [[nodiscard]] Finding simplified(const Finding& finding) {
         return sanitize::simplified(program_, space_, *bounds_, finding);
+    }
+    [[nodiscard]] Searched searched() const {
+        Searched searched{{}, points_, diagnostics_};
+        for (const auto& [signature, finding] : findings_) searched.findings.push_back(finding);
+        return searched;
+    }
+    void take(Searched searched) {
+        findings_.clear();
+        for (Finding& finding : searched.findings)
+            findings_.try_emplace(signature_of(finding), std::move(finding));
+        points_ = searched.points;
+        diagnostics_ = std::move(searched.diagnostics);
     }
     [[nodiscard]] const std::map<Signature, Finding>& findings() const { return findings_; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
@@ -214,15 +239,24 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
     const bool shares_total = options.total > 0 && !stages.empty();
     const std::size_t points =
         shares_total ? (options.total + stages.size() - 1) / stages.size() : options.points;
+    Remembered remembered(options.minutes > 0 ? nullptr : options.cache);
     parallel_for(options.jobs, stages.size(), [&](std::size_t i) {
         const std::vector<std::size_t> permutations = permutations_of(composition, i);
         const Key key = permutations.empty() ? Key{} : composition.permutations[permutations.front()].key;
         const SpirvModule& spirv = validated.stages[i].spirv;
         stages[i].emplace(family, key, composition.stages[i].kind, evaluate::decode(spirv),
                           depth_promise_of(spirv), options);
-        stages[i]->add(findings_of_constants(composition, composition.stages[i]));
-        stages[i]->run_hard(points);
-        stages[i]->run_guided(options.guided);
+        const auto search = [&] {
+            stages[i]->add(findings_of_constants(composition, composition.stages[i]));
+            stages[i]->run_hard(points);
+            stages[i]->run_guided(options.guided);
+            return stages[i]->searched();
+        };
+        const Digest all =
+            digest_of(to_bytes(program_identity(), std::string("sanitize"), composition.stages[i].kind, spirv,
+                               source_of(composition, composition.stages[i]), key_text(family, key),
+                               family.domains, points, options.seed, options.machines, options.guided));
+        stages[i]->take(remembered.get<Searched>(all, search));
     });
     while (Clock::now() < end)
         parallel_for(options.jobs, stages.size(), [&](std::size_t i) {

@@ -6,6 +6,7 @@
 
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
+#include "core/result_cache.hpp"
 #include "family/family.hpp"
 #include "lab/sanitize/finding.hpp"
 #include "validate/validate.hpp"
@@ -21,6 +22,8 @@ struct SanitizeOptions {
     std::vector<Machine> machines = {Machine::ieee, Machine::flushed};
     std::size_t guided = 0;  ///< points of each stage that are made of what earlier ones reached
     double minutes = 0;      ///< goes on with such points until so long has passed
+    /// Where what is found at a stage is kept from one run to the next; null, or with `minutes`: nowhere.
+    ResultCache* cache = nullptr;
 };
 
 /// A finding, once per place, with all that share it.
