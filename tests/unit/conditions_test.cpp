@@ -118,12 +118,13 @@ TEST(Conditions, RefuseMacrosWithoutEnd) {
         const std::string name = "A" + std::to_string(i);
         const std::string last = "A" + std::to_string(i - 1);
         doubling += "#define " + name + " " + last + " + " + last + "\n";
-        calls += "#define " + name + "(x) " + last + "(" + last + "(x))\n";
+        if (i <= 4)  // 65,536 tokens; what grows more is refused where it is defined
+            calls += "#define " + name + "(x) " + last + "(" + last + "(x))\n";
     }
     for (int i = 1; i <= 5000; ++i)
         chain += "#define A" + std::to_string(i) + " A" + std::to_string(i - 1) + "\n";
     EXPECT_THAT(answer(doubling, "#if A16"), testing::EndsWith(refused));
-    EXPECT_THAT(answer(calls, "#if A16(1)"), testing::HasSubstr("more than 20000 tokens"));
+    EXPECT_THAT(answer(calls, "#if A4(1)"), testing::HasSubstr("more than 20000 tokens"));
     EXPECT_THAT(answer(chain, "#if A5000"), testing::HasSubstr("more than 20000 tokens"));
     EXPECT_EQ(answer(chain, "#if A40"), "yes");
 }

@@ -206,6 +206,9 @@ class Scanner {
         if (const Directive* const macro = endless_macro(result_.directives))
             return fail_at(*macro, "this macro expands to more than a million tokens",
                            "define it more simply");
+        if (has_endless_calls(result_.directives, tokens))
+            return fail({path_}, {}, "the macros of this file expand to more than a million tokens",
+                        "nest fewer of their calls");
         const std::string_view name = endless_struct(tokens);
         if (name.empty()) return {};
         const int line = line_at(clean_.code, name.data());

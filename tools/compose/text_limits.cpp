@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <list>
 #include <map>
 #include <utility>
 
@@ -17,6 +18,8 @@ namespace {
 // real shader comes near.
 constexpr std::size_t kDeepestNesting = 200;
 constexpr int kMostOperators = 2000;
+/// An instruction of SPIR-V has 65,535 words.
+constexpr int kMostElements = 65'000;
 constexpr double kMostTokens = 1e6;
 constexpr double kMostMembers = 1e4;
 
@@ -27,35 +30,72 @@ bool ends_operand(std::string_view token) {
            (is_identifier_start(token.front()) && std::ranges::find(keywords, token) == keywords.end());
 }
 
-/// Sums up what macros stand for, each once.
+/// What tokens become.
+struct Growth {
+    double tokens = 1;         ///< without arguments
+    double each_argument = 1;  ///< of a macro: how many tokens one of an argument becomes, at most
+};
+
+/// Sums up what macros stand for, each once. All definitions of a name are taken together.
 class MacroSizes {
   public:
     explicit MacroSizes(const std::vector<Directive>& directives) {
         for (const Directive& directive : directives) {
             if (directive.word != "define") continue;
-            const std::vector<std::string_view> tokens = tokens_of(directive.rest);
-            if (tokens.empty()) continue;
-            auto& bodies = bodies_[tokens.front()];
-            bodies.insert(bodies.end(), tokens.begin() + 1, tokens.end());
+            std::span<const std::string_view> rest = kept_.emplace_back(tokens_of(directive.rest));
+            if (rest.empty()) continue;
+            Macro& macro = macros_[rest.front()];
+            const char* const behind = rest.front().data() + rest.front().size();
+            const bool is_function = behind < directive.rest.data() + directive.rest.size() && *behind == '(';
+            rest = rest.subspan(1);
+            for (; is_function && !rest.empty() && rest.front() != ")"; rest = rest.subspan(1))
+                if (rest.front() != "(" && rest.front() != ",") macro.parameters.emplace(rest.front(), 0);
+            macro.body.insert(macro.body.end(), rest.begin(), rest.end());
         }
     }
 
-    /// How many tokens it becomes; of a name that is no macro, 1. All its definitions are taken together.
-    double of(std::string_view name) {
-        const auto body = bodies_.find(name);
-        if (body == bodies_.end()) return 1;
-        const auto [size, is_new] = sizes_.try_emplace(name, 1);
-        if (!is_new || depth_ == kDeepestNesting) return size->second;  // known, or within itself
+    /// Of a name that is no macro, one token.
+    Growth of(std::string_view name) {
+        const auto macro = macros_.find(name);
+        if (macro == macros_.end()) return {};
+        const auto [known, is_new] = known_.try_emplace(name);
+        if (!is_new || depth_ == kDeepestNesting) return known->second;  // known, or within itself
         ++depth_;
-        double sum = 0;
-        for (const std::string_view token : body->second) sum += of(token);
+        std::map<std::string_view, double> uses = macro->second.parameters;
+        Growth growth{of(macro->second.body, uses), 1};
+        for (const auto& [parameter, count] : uses)
+            growth.each_argument = std::max(growth.each_argument, count);
         --depth_;
-        return sizes_[name] = sum;
+        return known_[name] = growth;
+    }
+
+    /// How many tokens these become. Adds to `uses` how often each of its names is there then.
+    double of(std::span<const std::string_view> tokens, std::map<std::string_view, double>& uses) {
+        double sum = 0;
+        std::vector<double> copies = {1};  // of what stands in each bracket
+        double of_arguments = 1;           // of the macro that was named last
+        for (const std::string_view token : tokens) {
+            if (token == "(") copies.push_back(copies.back() * of_arguments);
+            if (token == ")" && copies.size() > 1) copies.pop_back();
+            const Growth growth = of(token);
+            of_arguments = growth.each_argument;
+            if (const auto use = uses.find(token); use != uses.end())
+                use->second += copies.back();
+            else
+                sum += copies.back() * growth.tokens;
+        }
+        return sum;
     }
 
   private:
-    std::map<std::string_view, std::vector<std::string_view>> bodies_;
-    std::map<std::string_view, double> sizes_;
+    struct Macro {
+        std::vector<std::string_view> body;
+        std::map<std::string_view, double> parameters;
+    };
+
+    std::list<std::vector<std::string_view>> kept_;
+    std::map<std::string_view, Macro> macros_;
+    std::map<std::string_view, Growth> known_;
     std::size_t depth_ = 0;
 };
 
@@ -74,6 +114,8 @@ std::optional<std::string> Nesting::add(std::string_view token) {
         if (first == '}') levels_.back().operators = 0;
     } else if (first == ';' || (first == ',' && levels_.back().is_list)) {
         levels_.back().operators = 0;
+        if (first == ',' && ++levels_.back().elements == kMostElements)
+            return fmt::format("a list has more than {} elements", kMostElements);
     } else if (token == "." || (!is_identifier_part(first) && first != '.')) {
         ++levels_.back().operators;
     }
@@ -84,13 +126,32 @@ std::optional<std::string> Nesting::add(std::string_view token) {
     return std::nullopt;
 }
 
+static bool is_endless(const Growth& growth) {
+    return growth.tokens + growth.each_argument > kMostTokens;
+}
+
 const Directive* endless_macro(const std::vector<Directive>& directives) {
     MacroSizes sizes(directives);
     const auto found = std::ranges::find_if(directives, [&](const Directive& directive) {
         const std::vector<std::string_view> tokens = tokens_of(directive.rest);
-        return directive.word == "define" && !tokens.empty() && sizes.of(tokens.front()) > kMostTokens;
+        return directive.word == "define" && !tokens.empty() && is_endless(sizes.of(tokens.front()));
     });
     return found == directives.end() ? nullptr : &*found;
+}
+
+bool has_endless_calls(const std::vector<Directive>& directives, std::span<const std::string_view> tokens) {
+    std::vector<std::string_view> code;  // without the directives
+    bool is_of_directive = false;
+    const char* before = nullptr;  // the end of the token before
+    for (const std::string_view token : tokens) {
+        if (before != nullptr && std::find(before, token.data(), '\n') != token.data())
+            is_of_directive = false;
+        is_of_directive = is_of_directive || token == "#";
+        if (!is_of_directive) code.push_back(token);
+        before = token.data() + token.size();
+    }
+    std::map<std::string_view, double> uses;
+    return MacroSizes(directives).of(code, uses) > kMostTokens + static_cast<double>(code.size());
 }
 
 std::string_view endless_struct(std::span<const std::string_view> tokens) {

@@ -23,6 +23,7 @@ class Nesting {
     struct Level {
         bool is_list = false;  ///< its commas part expressions: a call, an initialiser
         int operators = 0;     ///< of the expression so far
+        int elements = 0;      ///< of the list so far
     };
 
     std::vector<Level> levels_ = std::vector<Level>(1);
@@ -31,6 +32,10 @@ class Nesting {
 
 /// The first macro whose expansion has too many tokens; null where there is none.
 [[nodiscard]] const Directive* endless_macro(const std::vector<Directive>& directives);
+
+/// Whether macros that have one another as arguments, in the tokens of a text, expand to too many.
+[[nodiscard]] bool has_endless_calls(const std::vector<Directive>& directives,
+                                     std::span<const std::string_view> tokens);
 
 /// The name, in `tokens`, of the first struct with too many members, those of its members counted; empty
 /// where there is none.
