@@ -39,7 +39,7 @@ for count in "${counts[@]}"; do
   "$gobo" list lit --cover 4 | awk -v count="$count" '{ key[NR] = $0 } END { for (i = 0; i < count; ++i) print key[1 + int(i * NR / count)] }' >"$keys"
   rm -rf "$scratch/stages" "$scratch/spirv"
   mkdir "$scratch/stages" "$scratch/spirv"
-  "$bin/tests/benchmarks/write_stages" "$keys" "$scratch/stages"
+  "$bin/tests/benchmarks/write_stages" lit "$keys" "$scratch/stages"
   stages=("$scratch"/stages/*)
   for ((round = 0; round < rounds; ++round)); do
     for i in "${!names[@]}"; do

@@ -33,8 +33,8 @@ for count in "${counts[@]}"; do
   rm -rf "$scratch"/{plain,included,library,out,cached,kept}
   mkdir "$scratch/plain" "$scratch/included"
   "$gobo" library -o "$scratch/library" >/dev/null
-  "$bin/tests/benchmarks/write_stages" "$scratch/keys" "$scratch/plain"
-  "$bin/tests/benchmarks/write_stages" "$scratch/keys" "$scratch/included" includes
+  "$bin/tests/benchmarks/write_stages" lit "$scratch/keys" "$scratch/plain"
+  "$bin/tests/benchmarks/write_stages" lit "$scratch/keys" "$scratch/included" includes
   {
     printf 'rule glslc\n  command = glslc --target-env=opengl -MD -MF $out.d -o $out $in\n  depfile = $out.d\n  deps = gcc\n'
     (cd "$scratch/included" && for stage in *.vert *.frag; do echo "build $stage.spv: glslc $stage"; done)

@@ -1,9 +1,11 @@
-// bare_glslang THREADS FILES...: parses, links, reflects each stage and makes its SPIR-V, through glslang and
-// nothing else: the least that any validator built on it can take. The yardstick for gobo check.
+// bare_glslang THREADS FILES... (- for a list of them on standard input): parses, links, reflects each stage
+// and makes its SPIR-V, through glslang and nothing else: the least that any validator built on it can take.
+// The yardstick for gobo check.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -45,7 +47,11 @@ bool validate(const std::string& path) {
 
 int main(int argc, char** argv) {
     if (argc < 3) return 2;
-    const std::vector<std::string> paths(argv + 2, argv + argc);
+    std::vector<std::string> paths(argv + 2, argv + argc);
+    if (paths.front() == "-") {
+        paths.clear();
+        for (std::string path; std::getline(std::cin, path);) paths.push_back(path);
+    }
     glslang::InitializeProcess();
     std::atomic<std::size_t> next = 0;
     std::atomic<bool> is_fine = true;

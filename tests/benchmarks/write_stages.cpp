@@ -1,5 +1,6 @@
-// write_stages KEYS_FILE FOLDER [includes]: every distinct stage of those keys of lit as a file, as other
-// compilers take it; with a third argument its pieces are files too, which it includes as glslc knows it.
+// write_stages FAMILY KEYS_FILE FOLDER [includes]: every distinct stage of those keys of a family, lit or a
+// .toml file, as a file, as other compilers take it; with a fourth argument its pieces are files too, which
+// it includes as glslc knows it.
 #include <cstdio>
 #include <string>
 
@@ -8,17 +9,20 @@
 #include "compose/compose.hpp"
 #include "core/file_system.hpp"
 #include "core/shipped_files.hpp"
+#include "core/text.hpp"
 #include "family/read_family.hpp"
 #include "family/selection.hpp"
 
 namespace gobo {
 namespace {
 
-Result<Composition> compose_keys(const FileSystem& disk, const FileSystem& shipped,
+Result<Composition> compose_keys(const FileSystem& disk, const FileSystem& shipped, const std::string& name,
                                  const std::string& keys_file) {
-    const Result<std::string> family_text = shipped.read("templates/lit.toml");
+    const bool is_shipped = !name.ends_with(".toml");
+    const std::string path = is_shipped ? "templates/" + name + ".toml" : name;
+    const Result<std::string> family_text = is_shipped ? shipped.read(path) : disk.read(path);
     if (!family_text) return tl::unexpected(family_text.error());
-    const Result<Family> family = read_family(*family_text, "templates/lit.toml");
+    const Result<Family> family = read_family(*family_text, path);
     if (!family) return tl::unexpected(family.error());
     const Result<std::string> text = disk.read(keys_file);
     if (!text) return tl::unexpected(text.error());
@@ -27,6 +31,7 @@ Result<Composition> compose_keys(const FileSystem& disk, const FileSystem& shipp
     const Result<std::vector<Key>> keys = select(*family, selection, "450");
     if (!keys) return tl::unexpected(keys.error());
     SearchPath search;
+    if (!is_shipped) search.add(disk, folder_of(path), "", true);
     search.add(shipped, "shader_lib", "shader_lib/", false);
     search.add(shipped, "templates", "templates/", false);
     return compose(*family, *keys, search, Dialect::glsl450);
@@ -41,10 +46,11 @@ std::string including(const Composition& composition, const Stage& stage) {
     return text;
 }
 
-Result<bool> write_stages(const std::string& keys_file, const std::string& folder, bool includes) {
+Result<bool> write_stages(const std::string& family, const std::string& keys_file, const std::string& folder,
+                          bool includes) {
     DiskFileSystem disk;
     const MemoryFileSystem shipped(shipped_files());
-    const Result<Composition> composition = compose_keys(disk, shipped, keys_file);
+    const Result<Composition> composition = compose_keys(disk, shipped, family, keys_file);
     if (!composition) return tl::unexpected(composition.error());
     for (std::size_t i = 0; includes && i < composition->pieces.size(); ++i) {
         const std::string path = fmt::format("{}/pieces/{}.glsl", folder, i);
@@ -65,8 +71,8 @@ Result<bool> write_stages(const std::string& keys_file, const std::string& folde
 }  // namespace gobo
 
 int main(int argc, char** argv) {
-    if (argc != 3 && argc != 4) return 2;
-    const auto written = gobo::write_stages(argv[1], argv[2], argc == 4);
+    if (argc != 4 && argc != 5) return 2;
+    const auto written = gobo::write_stages(argv[1], argv[2], argv[3], argc == 5);
     if (written) return 0;
     for (const gobo::Diagnostic& diagnostic : written.error())
         std::fputs(gobo::to_text(diagnostic, false).c_str(), stderr);
