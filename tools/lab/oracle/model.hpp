@@ -111,6 +111,9 @@ struct Model {
         return lighting == Lighting::metallic_roughness || lighting == Lighting::base_color;
     }
 
+    /// A formula kept to show what its guard is for, whose loss of digits docs/pbr.md states.
+    [[nodiscard]] bool is_known_to_cancel() const { return distribution == Distribution::plain; }
+
     /// Whether a point hangs on its neighbours in the picture.
     [[nodiscard]] bool takes_derivatives() const {
         return normal_map == NormalMap::derivatives || specular_antialiasing == SpecularAntialiasing::widened;

@@ -129,13 +129,19 @@ void StageCheck::weigh_bounds(const std::vector<Expected>& all, const evaluate::
             large.largest = expected.largest[c];
         }
     }
-    if (large.component.ratio > 1 && !at_edge_[point]) large_.push_back(std::move(large));
+    if (large.component.ratio > 1 && !at_edge_[point] && !model_.is_known_to_cancel())
+        large_.push_back(std::move(large));
 }
 
 Result<void> StageCheck::explain_errors(std::span<const Sample> samples) {
     if (large_.empty()) return {};
+    // Where derivatives are taken a point comes with its quad.
+    const std::size_t each = model_.takes_derivatives() ? 4 : 1;
     std::vector<Sample> chosen;
-    for (const Large& large : large_) chosen.push_back(samples[large.point]);
+    for (const Large& large : large_) {
+        const auto first = samples.begin() + static_cast<std::ptrdiff_t>(large.point - large.point % each);
+        chosen.insert(chosen.end(), first, first + static_cast<std::ptrdiff_t>(each));
+    }
     GOBO_TRY(const auto invocations, bind_inputs(program_, chosen));
     const auto in_double = [&](const evaluate::Invocations& moved) -> Result<NamedValues> {
         GOBO_TRY(auto outputs, evaluate::run<double>(program_, moved));
@@ -152,13 +158,14 @@ Result<void> StageCheck::explain_errors(std::span<const Sample> samples) {
         GOBO_TRY(NamedValues widest, spread(ports, invocations, exact, kStep, seed, in_double));
         spreads.push_back(std::move(widest));
     }
-    for (std::size_t i = 0; i < large_.size(); ++i) {
-        Failure component = std::move(large_[i].component);
+    for (std::size_t k = 0; k < large_.size(); ++k) {
+        const std::size_t i = k * each + large_[k].point % each;
+        Failure component = std::move(large_[k].component);
         double by_inputs = 0;
         for (const NamedValues& widest : spreads)
             by_inputs =
                 std::max(by_inputs, widest.at(component.output)[component.component * invocations.count + i]);
-        component.tolerance = by_inputs + kStep * large_[i].largest;
+        component.tolerance = by_inputs + kStep * large_[k].largest;
         component.ratio = ratio_of(std::abs(component.actual - component.expected), component.tolerance);
         if (component.ratio <= 1) continue;
         ++report_.figures.unexplained;
