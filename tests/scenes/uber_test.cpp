@@ -51,6 +51,7 @@ class Painter {
     /// Everything drawn by the permutation of that number among the keys.
     Image paint(std::size_t number, const std::vector<RenderValue>& values) {
         shaders_.permutation.assign(stage_.objects.size(), permutations_[number]);
+        shaders_.draws.resize(stage_.objects.size());
         const auto drawn = draw_in_software(shaders_, programs_, stage_.objects, values, stage_.view);
         EXPECT_TRUE(drawn) << text_of(drawn.error());
         return drawn->color;

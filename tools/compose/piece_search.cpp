@@ -9,6 +9,9 @@
 namespace gobo {
 namespace {
 
+/// No system opens a file of a longer path.
+constexpr std::size_t kLongestPath = 4096;
+
 /// "sub/../a.glsl" -> "a.glsl", of a path that stays inside.
 std::string without_dots(const std::string& path) {
     std::vector<std::string> parts;
@@ -52,6 +55,11 @@ Result<std::optional<int>> PieceLibrary::find(const Include& include, const Key&
 
 Result<std::optional<int>> PieceLibrary::find_file(const Include& include, StageKind stage,
                                                    const Source* from) {
+    const bool is_template = include.place.line == 0;  // no line of a file includes it
+    const auto missing = [&] {
+        return fmt::format("no {} '{}'", is_template ? "template" : "piece", include.target);
+    };
+    if (include.target.size() > kLongestPath) return first_of({}, include.target, include, from, missing());
     std::vector<std::string> candidates;
     for (const std::string& folder : {from == nullptr ? "" : from->folder, std::string()}) {
         const std::string& target = include.target;
@@ -78,9 +86,7 @@ Result<std::optional<int>> PieceLibrary::find_file(const Include& include, Stage
         return fail_at(include, fmt::format("family '{}' has no feature '{}'", family_.name, name),
                        suggestion(name, names));
     }
-    const bool is_template = include.place.line == 0;  // no line of a file includes it
-    return first_of(candidates, include.target, include, from,
-                    fmt::format("no {} '{}'", is_template ? "template" : "piece", include.target));
+    return first_of(candidates, include.target, include, from, missing());
 }
 
 Result<std::optional<int>> PieceLibrary::find_value(const Include& include, const Feature& feature, int value,
