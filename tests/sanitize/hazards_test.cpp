@@ -35,15 +35,6 @@ std::ostream& operator<<(std::ostream& stream, const Row& row) {
     return stream << row.name;
 }
 
-/// A range, or a constraint.
-Domain domain(const std::string& name, double low, double high) {
-    Domain of;
-    of.name = name;
-    of.low = low;
-    of.high = high;
-    return of;
-}
-
 // x, y, v, w, uv and v4 are inputs, i and j flat ones; M, table and on are uniforms; c is the colour.
 const Row kRows[] = {
     {"texel_normal_map",

@@ -141,6 +141,14 @@ Lines not_replayed(const std::string& name, const std::string& text, const sanit
     return missing;
 }
 
+Domain domain(const std::string& name, double low, double high) {
+    Domain of;
+    of.name = name;
+    of.low = low;
+    of.high = high;
+    return of;
+}
+
 evaluate::Program program_of(const std::string& name, const std::string& text) {
     const Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
     Result<evaluate::Program> program = evaluate::decode(loaded.validated.stages.front().spirv);

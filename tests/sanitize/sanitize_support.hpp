@@ -38,6 +38,9 @@ using Lines = std::set<std::string>;
 /// values at the same place. The shader is that of sanitized_text().
 [[nodiscard]] Lines not_replayed(const std::string& name, const std::string& text,
                                  const sanitize::SanitizeReport& report);
+/// The range of that name.
+[[nodiscard]] Domain domain(const std::string& name, double low, double high);
+
 /// The stage of that text, decoded.
 [[nodiscard]] evaluate::Program program_of(const std::string& name, const std::string& text);
 

@@ -20,14 +20,6 @@ std::ostream& operator<<(std::ostream& stream, const Row& row) {
     return stream << row.name;
 }
 
-Domain domain(const std::string& name, double low, double high) {
-    Domain of;
-    of.name = name;
-    of.low = low;
-    of.high = high;
-    return of;
-}
-
 constexpr const char* kParted = "9: derivatives where neighbouring pixels go another way";
 constexpr const char* kOutside = "9: texelFetch() outside of the texture";
 

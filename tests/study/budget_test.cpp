@@ -1,4 +1,6 @@
 // What a budget buys, of studies written down here.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
@@ -144,6 +146,13 @@ TEST(Qualities, AreAllThatTheRulesAllow) {
     for (const Choice& choice : single_choices(family, key_of("light=1 power=rough")))
         singles.push_back(quality_text(family, choice.key));
     EXPECT_EQ(singles, (std::vector<std::string>{"power=rough", "power=wild", "shading=vertex"}));
+}
+
+TEST(Qualities, HoldTheMostAccurateEvenWhereItIsExcluded) {
+    Family family = small_family();
+    family.features[*family.index_of("power")].excluded = {"exact"};
+    const std::vector<Key> keys = all_qualities(family, key_of("light=1"), 100);
+    EXPECT_EQ(std::ranges::count(keys, most_accurate(family, key_of("light=1"))), 1);
 }
 
 }  // namespace

@@ -65,7 +65,9 @@ std::vector<Key> all_qualities(const Family& family, const Key& effects, std::si
         std::set<Key> more;
         for (const Key& key : keys)
             for (int value = 0; value < std::ssize(values); ++value)
-                if (std::find(excluded.begin(), excluded.end(), values[value]) == excluded.end())
+                // The most accurate one is what the others are compared with, excluded or not.
+                if (value == most_accurate_value(family.features[feature]) ||
+                    std::find(excluded.begin(), excluded.end(), values[value]) == excluded.end())
                     more.insert(with(family, key, feature, value));
         keys = std::move(more);
         if (keys.size() > most) return {};
