@@ -269,5 +269,20 @@ TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {
             "materials[0].pbrMetallicRoughness.baseColorTexture.texCoord is -1, but must be at least 0"));
 }
 
+TEST(PhysicalScene, RefusesAnIndexOfRefractionThatNoMaterialHas) {
+    const auto scene = [](const char* ior) {
+        const std::string extension = R"({"KHR_materials_ior": {"ior": )" + std::string(ior) + "}}";
+        return read_physical_scene(
+            scene_with(R"({"extensions": )" + extension + "}", png({9, 9, 9, 9}, 1, 1)));
+    };
+    EXPECT_TRUE(scene("0")) << "glTF's sign for a reflectance of 1";
+    EXPECT_TRUE(scene("1"));
+    const auto refused = scene("0.5");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(to_text(refused.error().front()),
+              "quad.gltf: error: materials[0].extensions.KHR_materials_ior.ior is 0.5, but must be 0 or at "
+              "least 1\n");
+}
+
 }  // namespace
 }  // namespace gobo::scene

@@ -52,7 +52,9 @@ PhysicalMaterial read_physical(const Value& value, Textures& textures) {
     const Value extensions = value["extensions"].object();
 
     double ior = 1.5;
-    extensions["KHR_materials_ior"]["ior"].read(ior, kNotNegative);
+    const Value given = extensions["KHR_materials_ior"]["ior"];
+    given.read(ior, kNotNegative);
+    if (ior > 0 && ior < 1) given.fail("is {:g}, but must be 0 or at least 1", ior);
     double weight = 1;
     glm::dvec3 color(1);
     const Value specular = extensions["KHR_materials_specular"];

@@ -133,7 +133,9 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
             validate(subject.family.family, only(subject.composition, *programs[i]), validate_options)
                 .diagnostics);
         verdicts[i].is_too_new =
-            verdicts[i].refused_by_driver.find("is not supported. Supported versions") != std::string::npos;
+            verdicts[i].refused_by_driver.find("is not supported. Supported versions") != std::string::npos ||
+            verdicts[i].refused_by_driver.find("the compatibility profile is not supported") !=
+                std::string::npos;
     }
     std::string text;
     Diagnostics diagnostics;
@@ -149,7 +151,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
         if (verdict.is_too_new) {
             diagnostics.push_back(
                 {.severity = Severity::warning,
-                 .message = "not compared: the driver lacks this version of GLSL",
+                 .message = "not compared: the driver lacks this version or profile of GLSL",
                  .help = "ask another driver by --backend, or write it for another --dialect",
                  .subject = key});
         } else if (is_taken == verdict.refused_by_driver.empty()) {
