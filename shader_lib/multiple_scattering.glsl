@@ -8,11 +8,11 @@
 #include <environment_brdf>
 #include "pbr/surface.glsl"
 
-/// The part of an even environment that leaves after more than one reflection.
-vec3 returnedToEnvironment(vec2 brdf) {
+/// The part of an even environment that leaves after more than one reflection, where `once` leaves after one.
+vec3 returnedToEnvironment(vec2 brdf, vec3 once) {
     float lost = max(1.0 - brdf.x - brdf.y, 0.0);  // guard: a fit that exceeds 1
     vec3 mean = surface.f0 + (surface.f90 - surface.f0) / 21.0;
-    return (brdf.x * surface.f0 + brdf.y * surface.f90) * mean * lost / max(1.0 - mean * lost, 1e-3);  // guard: nothing leaves
+    return once * mean * lost / max(1.0 - mean * lost, 1e-3);  // guard: nothing leaves
 }
 
 /// What highlights are multiplied by.
@@ -24,7 +24,7 @@ vec3 highlightScale() {
 
 #piece none
 /// The part of an even environment that leaves after more than one reflection: none.
-vec3 returnedToEnvironment(vec2 brdf) { return vec3(0.0); }
+vec3 returnedToEnvironment(vec2 brdf, vec3 once) { return vec3(0.0); }
 
 /// What highlights are multiplied by: 1.
 vec3 highlightScale() { return vec3(1.0); }

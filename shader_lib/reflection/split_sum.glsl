@@ -18,6 +18,7 @@ vec3 environmentRadiance() { return surface.diffuse * ambientLight(); }
 #include <environment_brdf>
 #include <multiple_scattering>
 #include <reflection/mirrored>
+#include "pbr/interface.glsl"
 #include "pbr/surface.glsl"
 
 /// The ambient light that the surface reflects, and what it mirrors.
@@ -25,8 +26,8 @@ vec3 environmentRadiance() {
     vec3 ambient = ambientLight();
     if (mirroredDirection(surface.normal) == vec3(0.0)) return surface.diffuse * ambient;  // guard: zero vector
     vec2 brdf = environmentBrdf(surface.nv, surface.roughness);
-    vec3 once = brdf.x * surface.f0 + brdf.y * surface.f90;
-    vec3 again = reflection.weight * returnedToEnvironment(brdf);
+    vec3 once = mirroredPart(brdf.x * surface.f0 + brdf.y * surface.f90, surface.nv, brdf.x + brdf.y);
+    vec3 again = reflection.weight * returnedToEnvironment(brdf, once);
     vec3 scattered = max(1.0 - reflection.weight * once - again, 0.0) * surface.diffuse;
     return once * mirroredRadiance(surface.normal, surface.roughness) + (again + scattered) * ambient;
 }

@@ -88,7 +88,7 @@ TEST(PhysicalScene, ReadsFactorsAndExtensions) {
     EXPECT_EQ(material.roughness, 0.25);
     EXPECT_DOUBLE_EQ(material.dielectric.g, 0.5 / 9);  // ((2 - 1) / (2 + 1))^2
     EXPECT_EQ(material.dielectric_edge, 0.5);
-    EXPECT_EQ(material.clearcoat, 0.75);
+    EXPECT_THAT(material.of_extensions.at("Material.clearcoat"), ElementsAre(0.75));
     EXPECT_THAT(material.not_drawn, ElementsAre("KHR_materials_transmission"));
 }
 

@@ -44,7 +44,8 @@ const Row kRows[] = {
      "vec2 environmentBrdf(float nv, float roughness) { return vec2(1.3, 0.0); }\n"},
     {"fragmentColor of a white furnace", "multiple_scattering=returned reflection=image",
      "multiple_scattering/returned.glsl",
-     "vec3 returnedToEnvironment(vec2 brdf) { return vec3(0.0); }\nvec3 highlightScale() { return vec3(1.0); "
+     "vec3 returnedToEnvironment(vec2 brdf, vec3 once) { return vec3(0.0); }\nvec3 highlightScale() { return "
+     "vec3(1.0); "
      "}\n"},
     {"fragmentColor with light and viewer exchanged", "directional=1 visibility=half_angle",
      "visibility/half_angle.glsl",

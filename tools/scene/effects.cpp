@@ -12,6 +12,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "scene/geometry.hpp"
+#include "scene/material_extensions.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -354,7 +355,6 @@ void judge_physical_surface(const Subject& subject, const EyePlace& eye, double 
         is_placed = is_placed || (effects.back().is_in && physical.maps[map]->is_placed());
     }
     const Interval alpha = alpha_range(subject.scene, subject.primitive, material);
-    const bool has_highlight = subject.is_lit || reflection > 0;
     const bool reflects =
         physical.metallic > 0 || physical.dielectric_edge > 0 || !is_black(physical.dielectric);
     effects.insert(
@@ -376,16 +376,17 @@ void judge_physical_surface(const Subject& subject, const EyePlace& eye, double 
          decide("reflection", "reflection", "image",
                 {{reflection == 0, "not asked for"}, {!reflects, "its material mirrors nothing"}, unlit},
                 subject.scene.has_default_light ? "the scene states no light: the studio stands in"
-                                                : fmt::format("a share of {:.3g}", reflection)),
-         decide("clearcoat", "clearcoat", "layer",
-                {{physical.clearcoat == 0, "it has none"}, {!has_highlight, "no light is in"}, unlit},
-                fmt::format("a factor of {:.3g}", physical.clearcoat)),
-         decide("sheen", "sheen", "charlie",
-                {{is_black(physical.sheen_color), "it has none"}, {!subject.is_lit, "no light is in"}, unlit},
-                fmt::format("roughness {:.3g}", physical.sheen_roughness)),
-         decide("anisotropy", "anisotropy", "brushed",
-                {{physical.anisotropy == 0, "it has none"}, {!subject.is_lit, "no light is in"}, unlit},
-                fmt::format("a strength of {:.3g}", physical.anisotropy))});
+                                                : fmt::format("a share of {:.3g}", reflection))});
+    for (const MaterialExtension& extension : material_extensions()) {
+        const ExtensionProperty& amount = extension.properties.front();
+        const double most = std::ranges::max(physical.of_extensions.at(amount.uniform));
+        effects.push_back(
+            decide(extension.feature, extension.feature, extension.value,
+                   {{most == 0, "it has none"},
+                    {!(subject.is_lit || (extension.is_mirroring && reflection > 0)), "no light is in"},
+                    unlit},
+                   fmt::format("{} of {:.3g}", amount.name, most)));
+    }
     for (const std::string& name : physical.not_drawn)
         effects.push_back({name, name, "", true, "its material states it"});
     for (const auto& [feature, value] : overrides.quality)

@@ -225,7 +225,9 @@ Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& 
     if (primitive.normals.empty() && !primitive.indices.empty()) spread_with_flat_normals(primitive);
     const auto& normals =
         scene.materials[primitive.material].physical.maps[static_cast<std::size_t>(MapKind::normal)];
-    const bool is_brushed = scene.materials[primitive.material].physical.anisotropy > 0;
+    const bool is_brushed =
+        scene.is_physical &&
+        scene.materials[primitive.material].physical.of_extensions.at("Material.anisotropy").front() > 0;
     if ((normals || is_brushed) && primitive.tangents.empty())
         add_tangents(primitive, normals ? normals->set : 0);
     return primitive;

@@ -1,19 +1,13 @@
 // Metallic-roughness materials in their own terms: glTF 2.0, 3.9, and its extensions.
 #include <algorithm>
-#include <cmath>
 
 #include <glm/common.hpp>
 
+#include "scene/material_extensions.hpp"
 #include "scene/textures.hpp"
 
 namespace gobo::scene {
 namespace {
-
-/// Extensions of which every part is in a PhysicalMaterial, or that say nothing of their own to see.
-const std::vector<std::string> kReadExtensions = {
-    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",        "KHR_materials_sheen",     "KHR_materials_specular",
-    "KHR_materials_unlit"};
 
 /// What Fresnel's equations give head-on, from air; the extension's 0 stands for all of it.
 double reflectance_of(double ior) {
@@ -23,10 +17,27 @@ double reflectance_of(double ior) {
 }
 
 /// Pictures of extensions, by their names, which no family looks up.
-void note_pictures(const Value& extension, std::initializer_list<const char*> names,
+void note_pictures(const Value& extension, const std::vector<const char*>& names,
                    PhysicalMaterial& material) {
     for (const char* name : names)
         if (extension[name]) material.not_drawn.emplace_back(name);
+}
+
+/// What the extension states, or its initial numbers where the material is without it.
+void read_extension(const MaterialExtension& extension, const Value& value, PhysicalMaterial& material) {
+    for (const ExtensionProperty& property : extension.properties) {
+        std::vector<double> numbers = property.initial;
+        if (numbers.size() == 3) {
+            glm::dvec3 color(numbers[0], numbers[1], numbers[2]);
+            value[property.name].read_color(color);
+            numbers = {color.r, color.g, color.b};
+        } else {
+            value[property.name].read(numbers.front(), property.range);
+        }
+        if (property.to_uniform != nullptr) numbers = property.to_uniform(numbers.front());
+        material.of_extensions[property.uniform] = std::move(numbers);
+    }
+    note_pictures(value, extension.pictures, material);
 }
 
 }  // namespace
@@ -64,28 +75,13 @@ PhysicalMaterial read_physical(const Value& value, Textures& textures) {
     material.dielectric = glm::min(reflectance_of(ior) * color, glm::dvec3(1)) * weight;
     material.dielectric_edge = weight;
 
-    const Value clearcoat = extensions["KHR_materials_clearcoat"];
-    clearcoat["clearcoatFactor"].read(material.clearcoat, kUpToOne);
-    clearcoat["clearcoatRoughnessFactor"].read(material.clearcoat_roughness, kUpToOne);
-    note_pictures(clearcoat, {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"},
-                  material);
+    for (const MaterialExtension& extension : material_extensions())
+        read_extension(extension, extensions[extension.name], material);
 
-    const Value sheen = extensions["KHR_materials_sheen"];
-    sheen["sheenColorFactor"].read_color(material.sheen_color);
-    sheen["sheenRoughnessFactor"].read(material.sheen_roughness, kUpToOne);
-    note_pictures(sheen, {"sheenColorTexture", "sheenRoughnessTexture"}, material);
-
-    const Value anisotropy = extensions["KHR_materials_anisotropy"];
-    double rotation = 0;
-    anisotropy["anisotropyStrength"].read(material.anisotropy, kUpToOne);
-    anisotropy["anisotropyRotation"].read(rotation);
-    note_pictures(anisotropy, {"anisotropyTexture"}, material);
-    material.anisotropy_direction = {std::cos(rotation), std::sin(rotation)};
-
+    const std::vector<std::string> read = read_material_extensions();
     if (extensions)
         for (const auto& [name, extension] : extensions.json->items())
-            if (std::ranges::find(kReadExtensions, name) == kReadExtensions.end())
-                material.not_drawn.push_back(name);
+            if (std::ranges::find(read, name) == read.end()) material.not_drawn.push_back(name);
     return material;
 }
 

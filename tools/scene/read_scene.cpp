@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "scene/material_extensions.hpp"
 #include "scene/read_parts.hpp"
 
 namespace gobo::scene {
@@ -18,10 +19,6 @@ const std::vector<std::string> kKnownExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_transform"};
-
-/// What it may require besides where materials are read in their own terms.
-const std::vector<std::string> kKnownToPhysical = {"KHR_materials_anisotropy", "KHR_materials_clearcoat",
-                                                   "KHR_materials_ior", "KHR_materials_sheen"};
 
 /// A scene without any light would be black: an environment stands in for it.
 void add_default_light(Scene& scene) {
@@ -55,8 +52,10 @@ void read_asset(const Value& root) {
 
 void check_extensions(const Value& root, bool is_physical) {
     std::vector<std::string> known = kKnownExtensions;
-    if (is_physical) known.insert(known.end(), kKnownToPhysical.begin(), kKnownToPhysical.end());
+    if (is_physical)
+        for (std::string& name : read_material_extensions()) known.push_back(std::move(name));
     std::ranges::sort(known);
+    known.erase(std::ranges::unique(known).begin(), known.end());
     for (const Value& value : root["extensionsRequired"].elements()) {
         std::string name;
         value.read(name);

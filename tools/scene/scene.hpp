@@ -107,15 +107,11 @@ struct PhysicalMaterial {
     double roughness = 1;
     glm::dvec3 dielectric{0.04};
     double dielectric_edge = 1;
-    glm::dvec3 sheen_color{0};
-    double sheen_roughness = 0;
-    glm::dvec2 anisotropy_direction{1, 0};
-    double anisotropy = 0;
-    double clearcoat = 0;
-    double clearcoat_roughness = 0;
     double normal_scale = 1;
     double occlusion_strength = 1;
     std::array<std::optional<TextureUse>, kMapFeatures.size()> maps;
+    /// What its extensions state, by uniform (material_extensions.hpp).
+    std::map<std::string, std::vector<double>> of_extensions;
     std::vector<std::string> not_drawn;  ///< extensions and their pictures that no family has
 };
 

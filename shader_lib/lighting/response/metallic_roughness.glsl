@@ -15,6 +15,7 @@
 #include <multiple_scattering>
 #include <sheen>
 #include "light_ambient/none.glsl"
+#include "pbr/interface.glsl"
 #include "pbr/surface.glsl"
 
 /// What is reflected of the lights so far, and what every highlight is multiplied by.
@@ -34,9 +35,8 @@ vec3 reflectance(vec3 toLight, float nl) {
     vec3 sum = toLight + surface.toViewer;
     float square = dot(sum, sum);
     float vh = 0.5 * sqrt(square);  // the cosine of half the angle between the two
-    vec3 mirrored = fresnelReflectance(vh);
-    vec3 scattered = max(1.0 - mirrored, 0.0);  // guard: colours of vertices rounded above 1
-    vec3 diffuse = scattered * diffuseLobe(toLight, nl, vh);
+    vec3 mirrored = mirroredPart(fresnelReflectance(vh), vh, 1.0);
+    vec3 diffuse = enteringPart(mirrored) * diffuseLobe(toLight, nl, vh);
     if (square < 1e-12) return underCoat(underSheen(diffuse, nl));  // guard: light behind the viewer's ray
     vec3 reflected = diffuse + scaleOfHighlights * mirrored * highlightLobe(toLight, sum, square, nl);
     return underCoat(underSheen(reflected, nl) + sheenHighlight(toLight, sum, square, nl));

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "lab/oracle/reflectance_extensions.hpp"
+
 namespace gobo::oracle {
 namespace {
 
@@ -166,15 +168,36 @@ glm::dvec3 environment_again(const Model& model, const Surface& surface, const g
     return once * mean * lost / glm::max(1.0 - mean * lost, glm::dvec3(1e-3));
 }
 
+/// What of `bare` is mirrored at the cosine beneath the extensions that the model has; `whole` is what a
+/// surface that mirrors everything would mirror.
+glm::dvec3 mirrored_part(const Model& model, const Scene& scene, const Reflectance& surface, glm::dvec3 bare,
+                         double cosine, double whole, Roundings& r) {
+    for (const std::size_t place : model.extensions) {
+        const ReplacedReflectance replaced = reflectance_extensions()[place].at(
+            numbers_of(scene.extension_numbers, place), surface, cosine, r);
+        bare += replaced.share * (whole * replaced.value - bare);
+    }
+    return bare;
+}
+
+/// What enters: of a coloured reflection as little as of its strongest channel, so that what is scattered
+/// does not take the opposite colour (KHR_materials_iridescence, rgb_mix).
+glm::dvec3 entering_part(const Model& model, const glm::dvec3& mirrored) {
+    const double most = std::max({mirrored.r, mirrored.g, mirrored.b});
+    return glm::max(1.0 - (model.extensions.empty() ? mirrored : glm::dvec3(most)), glm::dvec3(0));
+}
+
 void add_environment(const Model& model, const Scene& scene, const PhysicalPoint& point,
-                     const Surface& surface, PhysicalRadiance& radiance) {
+                     const Surface& surface, PhysicalRadiance& radiance, Roundings& r) {
     glm::dvec3 scattered = surface.diffuse;
     const bool has_map = model.reflection == Reflection::image && point.normal != glm::dvec3(0) &&
                          point.to_viewer != glm::dvec3(0);
     if (has_map) {
         const double weight = scene.reflection.weight;
-        const glm::dvec3 once = surface.brdf.x * surface.reflectance.f0() +
+        const glm::dvec3 bare = surface.brdf.x * surface.reflectance.f0() +
                                 glm::dvec3(surface.brdf.y * surface.reflectance.f90());
+        const glm::dvec3 once = mirrored_part(model, scene, surface.reflectance, bare, surface.nv,
+                                              surface.brdf.x + surface.brdf.y, r);
         const glm::dvec3 again = weight * environment_again(model, surface, once);
         radiance.value += point.occlusion * weight * once * point.reflected.value;
         radiance.largest += weight * once * glm::abs(point.reflected.value);
@@ -340,7 +363,7 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
     const double coat_alpha = r(widened_alpha(model, r(alpha_of_roughness(material.clearcoat_roughness)),
                                               r(point.bend, 8 * point.bend)));
     PhysicalRadiance radiance{point.emission, point.emission};
-    add_environment(model, scene, point, surface, radiance);
+    add_environment(model, scene, point, surface, radiance, r);
     radiance.value *= 1 - coat;
     if (is_coated && model.reflection == Reflection::image) {
         const glm::dvec2 brdf = environment_brdf(model.environment_brdf, scene.environment_brdf, coat_nv,
@@ -362,13 +385,15 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
         const double nl = r(glm::dot(point.normal, light.to_light), 2);
         const glm::dvec3 sum = r(light.to_light + point.to_viewer, 1);
         const double vh = glm::length(sum) / 2;
-        const glm::dvec3 mirrored = fresnel_reflectance(model.fresnel, surface.reflectance, vh);
+        const glm::dvec3 mirrored =
+            mirrored_part(model, scene, surface.reflectance,
+                          fresnel_reflectance(model.fresnel, surface.reflectance, vh), vh, 1, r);
         const double lv = r(glm::dot(light.to_light, point.to_viewer), 2);
         // A cosine of 0.01 stands for all smaller ones in what errors are measured by.
         const auto reflected = [&](double cosine) {
-            glm::dvec3 factor = glm::max(1.0 - mirrored, glm::dvec3(0)) *
-                                diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness, cosine,
-                                             surface.nv, lv, vh);
+            glm::dvec3 factor =
+                entering_part(model, mirrored) * diffuse_lobe(model.diffuse_lobe, surface.diffuse,
+                                                              surface.roughness, cosine, surface.nv, lv, vh);
             const double left = 1 - coat;
             const double under_sheen =
                 has_sheen ? 1 - surface.sheen.strength *

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "lab/oracle/reflectance_extensions.hpp"
+
 namespace gobo::oracle {
 namespace {
 
@@ -89,6 +91,16 @@ const std::map<std::string, Setter>& setters() {
     return table;
 }
 
+/// Adds the extension that the value stands for; false where none does.
+bool add_extension(Model& model, const std::string& feature, const std::string& value) {
+    const auto& all = reflectance_extensions();
+    const auto found = std::ranges::find_if(all, [&](const ReflectanceExtension& extension) {
+        return extension.feature == feature && extension.value == value;
+    });
+    if (found != all.end()) model.extensions.push_back(static_cast<std::size_t>(found - all.begin()));
+    return found != all.end();
+}
+
 }  // namespace
 
 tl::expected<Model, std::string> model_of(const Family& family, const Key& key) {
@@ -99,7 +111,9 @@ tl::expected<Model, std::string> model_of(const Family& family, const Key& key) 
         const Feature& feature = family.features[i];
         const std::string& value = feature.values[static_cast<std::size_t>(key[i])];
         const auto setter = setters().find(feature.name);
-        const bool is_known = setter == setters().end() ? key[i] == 0 : setter->second(model, value);
+        const bool is_known = setter == setters().end()
+                                  ? key[i] == 0 || add_extension(model, feature.name, value)
+                                  : setter->second(model, value);
         if (!is_known) {
             return tl::unexpected(fmt::format("the oracle has no equation for {}={}", feature.name, value));
         }

@@ -1,7 +1,9 @@
 // Which of the lighting models a key of the families `lit` and `pbr` stands for.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -105,6 +107,7 @@ struct Model {
     SpecularAntialiasing specular_antialiasing = SpecularAntialiasing::none;
     LightRange light_range = LightRange::unlimited;
     Anisotropy anisotropy = Anisotropy::none;
+    std::vector<std::size_t> extensions{};  ///< by their places among reflectance_extensions()
 
     /// Whether it is of the family `pbr`.
     [[nodiscard]] bool is_physical() const {

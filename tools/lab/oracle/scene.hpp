@@ -205,6 +205,7 @@ struct Scene {
     glm::dvec2 environment_brdf{1, 0};  ///< what a table of it holds
     std::array<EvenPicture, kMapKinds> pictures{};
     std::array<TexturePlacement, kMapKinds> placements{};
+    std::vector<double> extension_numbers;  ///< of reflectance_extensions(), all in a row
 };
 
 }  // namespace gobo::oracle

@@ -7,11 +7,12 @@
 #include <fmt/format.h>
 
 #include "lab/scene_picture/posed_mesh.hpp"
+#include "scene/material_extensions.hpp"
 
 namespace gobo::scene {
 namespace {
 
-/// The blocks that a scene fills.
+/// The blocks that a scene fills, besides those of the extensions of its materials.
 constexpr std::array kSceneBlocks = {
     "Material",
     "Ambient",
@@ -28,6 +29,15 @@ constexpr std::array kSceneBlocks = {
     "Reflection",
     "TexturePlacements",
 };
+
+/// Whether the value is of a block that a scene fills.
+bool is_of_scene(const RenderValue& value) {
+    const std::string head = value.name.substr(0, value.name.find('.'));
+    if (std::ranges::find(kSceneBlocks, head) != kSceneBlocks.end()) return true;
+    return std::ranges::any_of(material_extensions(), [&](const MaterialExtension& extension) {
+        return std::string_view(extension.properties.front().uniform).starts_with(head + ".");
+    });
+}
 
 /// The values of an object, as they are added.
 class Values {
@@ -126,13 +136,7 @@ void add_physical_material(const Material& material, Values& values) {
     values.set("Material.roughness", physical.roughness);
     values.set("Material.dielectric", physical.dielectric);
     values.set("Material.dielectricEdge", physical.dielectric_edge);
-    values.set("Material.sheenColor", physical.sheen_color);
-    values.set("Material.sheenRoughness", physical.sheen_roughness);
-    values.set("Material.anisotropy", physical.anisotropy);
-    values.set("Material.anisotropyDirection",
-               std::vector{physical.anisotropy_direction.x, physical.anisotropy_direction.y});
-    values.set("Material.clearcoat", physical.clearcoat);
-    values.set("Material.clearcoatRoughness", physical.clearcoat_roughness);
+    for (const auto& [uniform, numbers] : physical.of_extensions) values.set(uniform, numbers);
     values.set("Material.normalScale", physical.normal_scale);
     values.set("Material.occlusionStrength", physical.occlusion_strength);
     values.set("Cutout.threshold", std::min(material.alpha_cutoff, 1.0));
@@ -218,10 +222,7 @@ Object object_of(const Scene& scene, const Draw& draw) {
 
 std::vector<RenderValue> values_beside_scene(const std::vector<RenderValue>& family_values) {
     std::vector<RenderValue> values = family_values;
-    std::erase_if(values, [](const RenderValue& value) {
-        const std::string head = value.name.substr(0, value.name.find('.'));
-        return std::find(kSceneBlocks.begin(), kSceneBlocks.end(), head) != kSceneBlocks.end();
-    });
+    std::erase_if(values, is_of_scene);
     return values;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "lab/evaluate/images.hpp"
+#include "lab/oracle/reflectance_extensions.hpp"
 #include "lab/verify/random_points.hpp"
 #include "lab/verify/sample_members.hpp"
 
@@ -124,11 +125,25 @@ std::optional<Field> cosines(std::size_t index) {
                  }};
 }
 
+/// A number of an extension's block, by its place among all of them.
+auto extension_number(std::size_t place) {
+    return [=](std::size_t) -> std::optional<Field> {
+        return Field{
+            [=](const Sample& sample) { return std::vector{element(sample.scene.extension_numbers, place)}; },
+            [=](Sample& sample, const std::vector<double>& values) {
+                element(sample.scene.extension_numbers, place) = values.at(0);
+            }};
+    };
+}
+
 const Fields& fields_of_lit() {
     static const Fields kFields = [] {
         Fields fields;
         add_fields(
             fields, "", kMostElements<Sample>, [](auto& sample, std::size_t) -> auto& { return sample; });
+        const std::vector<oracle::ExtensionNumber> of_extensions = oracle::extension_numbers();
+        for (std::size_t i = 0; i < of_extensions.size(); ++i)
+            fields[of_extensions[i].uniform] = extension_number(i);
         fields["lightCosines[]"] = &cosines;
         fields["PointLights.lights[].position"] = places(&oracle::Scene::point);
         fields["SpotLights.lights[].position"] = places(&oracle::Scene::spot);

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "lab/oracle/oracle.hpp"
+#include "lab/oracle/reflectance_extensions.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -196,6 +197,11 @@ void fill_metallic_roughness(Random& random, Sample& sample) {
     const double brush = random.between(0, 6.28);
     material.anisotropy_direction = {std::cos(brush), std::sin(brush)};
     fill_pictures(random, sample);
+    if (sample.model.extensions.empty()) return;
+    for (const oracle::ExtensionNumber& number : oracle::extension_numbers()) {
+        const double share = factor();
+        sample.scene.extension_numbers.push_back(number.low + share * (number.high - number.low));
+    }
 }
 
 void vary_surface(std::size_t vertex, Sample& sample) {

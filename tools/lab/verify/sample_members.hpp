@@ -106,7 +106,8 @@ inline constexpr auto kMembers<oracle::Scene> = std::tuple(
     std::pair("ToonThresholds.tones", &oracle::Scene::toon_tones),
     std::pair("Cutout.threshold", &oracle::Scene::cutout_threshold), std::pair("Fog", &oracle::Scene::fog),
     std::pair("DepthOffset.offset", &oracle::Scene::depth_offset),
-    std::pair("TexturePlacements.maps", &oracle::Scene::placements));
+    std::pair("TexturePlacements.maps", &oracle::Scene::placements),
+    std::pair("extensionNumbers", &oracle::Scene::extension_numbers));
 template <>
 inline constexpr auto kMembers<oracle::SurfacePoint> = std::tuple(
     std::pair("eyePosition", &oracle::SurfacePoint::position),

@@ -1,0 +1,48 @@
+#include "scene/material_extensions.hpp"
+
+#include <cmath>
+
+namespace gobo::scene {
+namespace {
+
+/// The direction of a brush, by tangent and bitangent.
+std::vector<double> direction_of_angle(double angle) {
+    return {std::cos(angle), std::sin(angle)};
+}
+
+}  // namespace
+
+const std::vector<MaterialExtension>& material_extensions() {
+    static const std::vector<MaterialExtension> kExtensions = {
+        {"KHR_materials_clearcoat",
+         "clearcoat",
+         "layer",
+         {{"clearcoatFactor", "Material.clearcoat", {0}},
+          {"clearcoatRoughnessFactor", "Material.clearcoatRoughness", {0}}},
+         {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"},
+         true},
+        {"KHR_materials_sheen",
+         "sheen",
+         "charlie",
+         {{"sheenColorFactor", "Material.sheenColor", {0, 0, 0}},
+          {"sheenRoughnessFactor", "Material.sheenRoughness", {0}}},
+         {"sheenColorTexture", "sheenRoughnessTexture"},
+         false},
+        {"KHR_materials_anisotropy",
+         "anisotropy",
+         "brushed",
+         {{"anisotropyStrength", "Material.anisotropy", {0}},
+          {"anisotropyRotation", "Material.anisotropyDirection", {0}, {}, direction_of_angle}},
+         {"anisotropyTexture"},
+         false}};
+    return kExtensions;
+}
+
+std::vector<std::string> read_material_extensions() {
+    std::vector<std::string> names = {"KHR_materials_emissive_strength", "KHR_materials_ior",
+                                      "KHR_materials_specular", "KHR_materials_unlit"};
+    for (const MaterialExtension& extension : material_extensions()) names.emplace_back(extension.name);
+    return names;
+}
+
+}  // namespace gobo::scene
