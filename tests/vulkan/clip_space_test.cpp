@@ -1,13 +1,15 @@
 // What differs between Vulkan's clip space and OpenGL's, as docs/vulkan.md says it: each on a picture that
-// looks different when it is turned over.
+// looks different when it is turned over, drawn by both.
 #include <cstdlib>
-#include <optional>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
 #include "family/read_family.hpp"
+#include "lab/render/program.hpp"
+#include "lab/render/render.hpp"
 #include "lab/vulkan/picture.hpp"
 #include "lab/vulkan/state.hpp"
 #include "validate/validate.hpp"
@@ -33,31 +35,63 @@ Mesh triangle(const std::vector<glm::vec3>& corners) {
 /// In clip space the corner where x and y are -1, counter-clockwise where y points down.
 const std::vector<glm::vec3> kCorner = {{-1, -1, 0.5F}, {-1, 0, 0.5F}, {0, -1, 0.5F}};
 
-/// One picture by a pair of stages. The camera looks along -z from z = 5 at a square from -1 to 1.
-Picture drawn(const std::string& vertex, const std::string& fragment, const std::vector<glm::vec3>& corners) {
-    MemoryFileSystem files;
-    EXPECT_TRUE(files.write("tiny.vert", vertex));
-    EXPECT_TRUE(files.write("tiny.frag", fragment));
-    SearchPath search;
-    search.add(files, "", "", false);
-    const Family family =
-        read_family("name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n", "tiny.toml", {})
-            .value();
-    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
-    const Validated validated = validate(family, composition, {.keep_spirv = true});
-    for (const Diagnostic& diagnostic : validated.diagnostics) ADD_FAILURE() << to_text(diagnostic);
-    std::vector<std::span<const std::uint32_t>> modules;
-    for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
+/// A pair of stages of a family that has nothing else.
+struct Tiny {
+    Tiny(const std::string& vertex, const std::string& fragment, Dialect dialect) {
+        MemoryFileSystem files;
+        EXPECT_TRUE(files.write("tiny.vert", vertex));
+        EXPECT_TRUE(files.write("tiny.frag", fragment));
+        SearchPath search;
+        search.add(files, "", "", false);
+        const Family family =
+            read_family("name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n", "tiny.toml",
+                        {})
+                .value();
+        composition = compose(family, {Key{}}, search, dialect).value();
+        validated = validate(family, composition, {.keep_spirv = true});
+        for (const Diagnostic& diagnostic : validated.diagnostics) ADD_FAILURE() << to_text(diagnostic);
+        interface = interface_of(validated, permutation());
+    }
+    [[nodiscard]] const Permutation& permutation() const { return composition.permutations.front(); }
+
+    Composition composition;
+    Validated validated;
+    Interface interface;
+};
+
+/// The camera looks along -z from z = 5 at a square from -1 to 1.
+View small_view() {
     View view;
     view.width = view.height = kSide;
     view.camera.field_of_view = 2 * std::atan(0.2);
-    static const vulkan::Device device = device_with_layer();
-    const Permutation& permutation = composition.permutations.front();
-    auto picture = vulkan::render_permutation(
-        device, vulkan::modules_of(modules, permutation), interface_of(validated, permutation),
-        {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, view);
+    return view;
+}
+
+Picture checked(Result<Picture> picture) {
     EXPECT_TRUE(picture) << (picture ? "" : to_text(picture.error().front()));
     return picture ? *std::move(picture) : Picture{Image(kSide, kSide, 4), Image(kSide, kSide, 1), {}};
+}
+
+/// One picture by a pair of stages.
+Picture drawn(const std::string& vertex, const std::string& fragment, const std::vector<glm::vec3>& corners,
+              vulkan::DrawStart start = {}) {
+    const Tiny tiny(vertex, fragment, Dialect::vulkan);
+    std::vector<std::span<const std::uint32_t>> modules;
+    for (const ValidatedStage& stage : tiny.validated.stages) modules.emplace_back(stage.spirv);
+    static const vulkan::Device device = device_with_layer();
+    return checked(vulkan::render_permutation(
+        device, vulkan::modules_of(modules, tiny.permutation()), tiny.interface,
+        {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, small_view(), {}, start));
+}
+
+/// The same by OpenGL.
+Picture drawn_by_opengl(const std::string& vertex, const std::string& fragment,
+                        const std::vector<glm::vec3>& corners) {
+    const Tiny tiny(vertex, fragment, Dialect::glsl450);
+    const Context context = open_context(Backend::osmesa).value();
+    return checked(render_permutation(context, stages_of(tiny.composition, tiny.permutation()),
+                                      tiny.interface, {{triangle(corners), glm::dmat4(1), {}, false, true}},
+                                      {}, small_view()));
 }
 
 const std::string kInClipSpace =
@@ -73,28 +107,44 @@ TEST(VulkanClipSpace, YPointsDown) {
     EXPECT_EQ(picture.color.at(1, 1, 0), 1) << "upper left";
     EXPECT_EQ(picture.color.at(1, kSide - 2, 0), 0) << "lower left";
     EXPECT_EQ(picture.color.at(kSide - 2, 1, 0), 0) << "upper right";
+    const Picture upward = drawn_by_opengl(kInClipSpace, kWhite, kCorner);
+    EXPECT_EQ(upward.color.at(1, kSide - 2, 0), 1) << "lower left";
+    EXPECT_EQ(upward.color.at(1, 1, 0), 0) << "upper left";
 }
 
 TEST(VulkanClipSpace, DepthIsFrom0To1) {
-    std::vector<glm::vec3> corners = kCorner;
-    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).depth.at(1, 1, 0), 0.5F);
-    for (glm::vec3& corner : corners) corner.z = 0.25F;
-    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).depth.at(1, 1, 0), 0.25F) << "OpenGL stores 0.625";
-    for (glm::vec3& corner : corners) corner.z = -0.25F;
-    EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).color.at(1, 1, 0), 0) << "OpenGL draws it";
+    struct Row {
+        float z;
+        float vulkan;
+        float opengl;
+    };
+    for (const Row& row : {Row{0.5F, 0.5F, 0.75F}, {0.25F, 0.25F, 0.625F}, {-0.25F, 1, 0.375F}}) {
+        SCOPED_TRACE(row.z);
+        std::vector<glm::vec3> corners = kCorner;
+        for (glm::vec3& corner : corners) corner.z = row.z;
+        EXPECT_EQ(drawn(kInClipSpace, kWhite, corners).depth.at(1, 1, 0), row.vulkan);
+        EXPECT_EQ(drawn_by_opengl(kInClipSpace, kWhite, corners).depth.at(1, kSide - 2, 0), row.opengl);
+    }
 }
 
 TEST(VulkanClipSpace, FrontFacesRunCounterClockwiseInThePicture) {
     const std::string sides = colored("gl_FrontFacing ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 1.0, 0.0, 1.0)");
+    const std::vector<glm::vec3> turned = {kCorner[0], kCorner[2], kCorner[1]};
     EXPECT_EQ(drawn(kInClipSpace, sides, kCorner).color.at(1, 1, 0), 1);
-    EXPECT_EQ(drawn(kInClipSpace, sides, {kCorner[0], kCorner[2], kCorner[1]}).color.at(1, 1, 1), 1);
+    EXPECT_EQ(drawn(kInClipSpace, sides, turned).color.at(1, 1, 1), 1);
+    EXPECT_EQ(drawn_by_opengl(kInClipSpace, sides, kCorner).color.at(1, kSide - 2, 1), 1);
+    EXPECT_EQ(drawn_by_opengl(kInClipSpace, sides, turned).color.at(1, kSide - 2, 0), 1);
 }
 
 TEST(VulkanClipSpace, FragCoordCountsFromTheUpperLeft) {
     const Picture picture = drawn(kInClipSpace, colored("gl_FragCoord"), kCorner);
     EXPECT_EQ(picture.color.at(3, 1, 0), 3.5F);
-    EXPECT_EQ(picture.color.at(3, 1, 1), 1.5F) << "OpenGL says 30.5";
+    EXPECT_EQ(picture.color.at(3, 1, 1), 1.5F);
     EXPECT_EQ(picture.color.at(3, 1, 2), 0.5F);
+    const Picture upward = drawn_by_opengl(kInClipSpace, colored("gl_FragCoord"), kCorner);
+    EXPECT_EQ(upward.color.at(3, kSide - 2, 0), 3.5F);
+    EXPECT_EQ(upward.color.at(3, kSide - 2, 1), 1.5F) << "from the lower edge";
+    EXPECT_EQ(upward.color.at(3, kSide - 2, 2), 0.75F);
 }
 
 /// What a projection for OpenGL, put behind the matrix of the renderer, makes of a triangle in the lower
@@ -107,50 +157,76 @@ const std::string kProjected =
 const std::vector<glm::vec3> kLowerLeft = {{-1, -1, 0}, {0, -1, 0}, {-1, 0, 0}};
 
 TEST(VulkanClipSpace, DerivativesUpwardsAreNegative) {
-    const Picture picture = drawn(
-        kProjected, "VARYING(0) float height;\n" + colored("vec4(dFdx(height), dFdy(height), height, 1.0)"),
-        kLowerLeft);
-    EXPECT_NEAR(picture.color.at(2, kSide - 3, 2), -1 + 2.5F * 2 / kSide, 1e-3F) << "upright";
-    EXPECT_NEAR(picture.color.at(2, kSide - 3, 0), 0, 1e-6F);
-    EXPECT_NEAR(picture.color.at(2, kSide - 3, 1), -2.0F / kSide, 1e-4F) << "OpenGL says +1/16";
+    const std::string fragment =
+        "VARYING(0) float height;\n" + colored("vec4(dFdx(height), dFdy(height), height, 1.0)");
+    const Picture picture = drawn(kProjected, fragment, kLowerLeft);
+    const Picture upward = drawn_by_opengl(kProjected, fragment, kLowerLeft);
+    for (const Picture* one : {&picture, &upward}) {
+        EXPECT_NEAR(one->color.at(2, kSide - 3, 2), -1 + 2.5F * 2 / kSide, 1e-3F) << "upright";
+        EXPECT_NEAR(one->color.at(2, kSide - 3, 0), 0, 1e-6F);
+    }
+    EXPECT_NEAR(picture.color.at(2, kSide - 3, 1), -2.0F / kSide, 1e-4F);
+    EXPECT_NEAR(upward.color.at(2, kSide - 3, 1), 2.0F / kSide, 1e-4F);
 }
 
 TEST(VulkanClipSpace, UprightPicturesKeepTheWindingOfOpenGl) {
     const std::string fragment =
         "VARYING(0) float height;\n" + colored("vec4(gl_FrontFacing ? 1.0 : 0.0, height, 0.0, 1.0)");
     EXPECT_EQ(drawn(kProjected, fragment, kLowerLeft).color.at(2, kSide - 3, 0), 1);
+    EXPECT_EQ(drawn_by_opengl(kProjected, fragment, kLowerLeft).color.at(2, kSide - 3, 0), 1);
 }
 
-TEST(VulkanClipSpace, CountsVerticesAndInstancesFrom0) {
-    const Picture picture = drawn(
+/// A triangle that covers the left upper half in Vulkan, the lower in OpenGL, from the numbers of its
+/// vertices, of which the first is `first`.
+std::string numbered(int first) {
+    return fmt::format(
         "layout(location = 0) flat out vec2 numbers;\n"
-        "void main() {\n    numbers = vec2(gl_VertexID, gl_InstanceID);\n"
-        "    gl_Position = vec4(gl_VertexID == 2 ? 0.0 : -1.0, gl_VertexID == 1 ? 0.0 : "
-        "-1.0, 0.5, 1.0);\n}\n",
-        "layout(location = 0) flat in vec2 numbers;\n" + colored("vec4(numbers, 0.0, 1.0)"), kCorner);
-    EXPECT_EQ(picture.color.at(1, 1, 0), 2) << "the last vertex gives flat values, as OpenGL has it";
-    EXPECT_EQ(picture.color.at(1, 1, 1), 0);
+        "void main() {{\n    numbers = vec2(gl_VertexID, gl_InstanceID);\n"
+        "    gl_Position = vec4(gl_VertexID == {} ? 0.0 : -1.0, gl_VertexID == {} ? 0.0 : -1.0, 0.5, "
+        "1.0);\n}}\n",
+        first + 2, first + 1);
+}
+const std::string kNumbers =
+    "layout(location = 0) flat in vec2 numbers;\n" + colored("vec4(numbers, 0.0, 1.0)");
+
+TEST(VulkanClipSpace, FlatValuesComeFromTheFirstVertex) {
+    const vulkan::DrawStart as_it_is = {.flat_from_last = false};
+    EXPECT_EQ(drawn(numbered(0), kNumbers, kCorner, as_it_is).color.at(1, 1, 0), 0);
+    EXPECT_EQ(drawn(numbered(0), kNumbers, kCorner).color.at(1, 1, 0), 2) << "the renderer turns triangles";
+    EXPECT_EQ(drawn_by_opengl(numbered(0), kNumbers, kCorner).color.at(1, kSide - 2, 0), 2);
+}
+
+TEST(VulkanClipSpace, NumbersOfVerticesAndInstancesCountTheFirstOneIn) {
+    const Picture picture = drawn(numbered(4), kNumbers, kCorner, {.vertex = 4, .instance = 3});
+    EXPECT_EQ(picture.color.at(1, 1, 0), 4 + 2);
+    EXPECT_EQ(picture.color.at(1, 1, 1), 3);
+
+    const Tiny tiny(numbered(4), kNumbers, Dialect::glsl450);
+    const Context context = open_context(Backend::osmesa).value();
+    const Framebuffer framebuffer = make_framebuffer(context, kSide, kSide).value();
+    const Program program = link_program(context, stages_of(tiny.composition, tiny.permutation())).value();
+    const Picture by_opengl = checked(take_picture(framebuffer, {0, 0, 0, 1}, {}, [&] {
+        const GladGLContext& gl = context.gl();
+        GLuint array = 0;
+        gl.GenVertexArrays(1, &array);
+        gl.BindVertexArray(array);
+        gl.UseProgram(program.id());
+        gl.DrawArraysInstancedBaseInstance(GL_TRIANGLES, 4, 3, 1, 3);
+        gl.DeleteVertexArrays(1, &array);
+    }));
+    EXPECT_EQ(by_opengl.color.at(1, kSide - 2, 0), 4 + 2);
+    EXPECT_EQ(by_opengl.color.at(1, kSide - 2, 1), 0) << "gl_BaseInstance is another matter";
 }
 
 /// The maps of lights are drawn with y upward: row 0, at t = 0, is where clip space has y = -1, as in OpenGL.
 TEST(VulkanClipSpace, ShadowMapsHaveTheirRowsAsOpenGl) {
-    MemoryFileSystem files;
-    EXPECT_TRUE(files.write("tiny.vert", kProjected));
-    EXPECT_TRUE(files.write("tiny.frag", "VARYING(0) float height;\nvoid main() {}\n"));
-    SearchPath search;
-    search.add(files, "", "", false);
-    const Family family =
-        read_family("name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n", "tiny.toml", {})
-            .value();
-    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
-    const Validated validated = validate(family, composition, {.keep_spirv = true});
+    const Tiny tiny(kProjected, "VARYING(0) float height;\nvoid main() {}\n", Dialect::vulkan);
     vulkan::ShadowPass pass;
     pass.side = kSide;
     pass.slope = pass.units = 0;
-    pass.interface = interface_of(validated, composition.permutations.front());
+    pass.interface = tiny.interface;
     for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
-        pass.stages.push_back(
-            {kind, validated.stage(composition.permutations.front().stages[kind]).spirv, {}});
+        pass.stages.push_back({kind, tiny.validated.stage(tiny.permutation().stages[kind]).spirv, {}});
     ShadowPlan plan;
     plan.cameras.push_back({});  // clip space is the world, as OpenGL has it: depth from -1 to 1
     const auto maps = vulkan::draw_shadow_maps(device_with_layer(), pass, plan,

@@ -33,10 +33,11 @@ struct Item {
 class Drawing {
   public:
     Drawing(Resources& resources, const std::vector<StageModule>& stages, const Interface& interface,
-            const Target& target, DepthBias bias)
+            const Target& target, DepthBias bias, const DrawStart& start = {})
         : resources_(resources),
           interface_(interface),
           target_(target),
+          start_(start),
           bindings_(resources, interface),
           pipelines_(resources, stages, target, bias) {}
 
@@ -80,7 +81,7 @@ class Drawing {
             if (!item.pushed.empty())
                 vk.vkCmdPushConstants(commands, bindings_.layout(), bindings_.push_stages(), 0,
                                       size_of(item.pushed), item.pushed.data());
-            vk.vkCmdDrawIndexed(commands, item.index_count, 1, 0, 0, 0);
+            vk.vkCmdDrawIndexed(commands, item.index_count, 1, 0, start_.vertex, start_.instance);
         }
         vk.vkCmdEndRenderPass(commands);
     }
@@ -104,7 +105,7 @@ class Drawing {
         GOBO_TRY_DO(add_attributes(item, object.mesh, all));
         std::vector<std::uint32_t> indices = object.mesh.indices;
         // Vulkan takes flat values from the first vertex of a triangle, OpenGL from the last.
-        if (pipelines_.draws_triangles())
+        if (start_.flat_from_last && pipelines_.draws_triangles())
             for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
                 std::rotate(&indices[i], &indices[i + 2], &indices[i] + 3);
         GOBO_TRY(const Buffer buffer, resources_.make_buffer(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, indices.data(),
@@ -158,6 +159,7 @@ class Drawing {
     Resources& resources_;
     const Interface& interface_;
     const Target& target_;
+    DrawStart start_;
     Bindings bindings_;
     Pipelines pipelines_;
     std::vector<Item> items_;
@@ -237,10 +239,10 @@ glm::dmat4 clip_space_of_pictures() {
 Result<Picture> render_permutation(const Device& device, const std::vector<StageModule>& stages,
                                    const Interface& interface, const std::vector<Object>& objects,
                                    const std::vector<RenderValue>& values, const View& view,
-                                   const Textures& textures) {
+                                   const Textures& textures, const DrawStart& start) {
     Resources resources(device);
     GOBO_TRY(const Target target, make_target(resources, view.width, view.height, true));
-    Drawing drawing(resources, stages, interface, target, {});
+    Drawing drawing(resources, stages, interface, target, {}, start);
     ViewedObject viewed = viewed_from(view);
     viewed.projection = clip_space_of_pictures() * viewed.projection;
     GOBO_TRY_DO(drawing.prepare(objects, values, viewed, textures));

@@ -57,14 +57,21 @@ using Textures = std::map<std::string, TextureTexels>;
 /// The same with y upward: what texture coordinates of 0 to 1 then find in the map is what OpenGL's find.
 [[nodiscard]] glm::dmat4 clip_space_of_maps();
 
-/// Draws the objects once and reads the result, as render_permutation() of OpenGL's renderer does. The flat
-/// values of a triangle come from its last vertex, as OpenGL's do. Errors: of the driver and of validation
-/// layers; of the values (see resolve_uniforms()); of the size.
+/// Where a draw's numbers of vertices and instances begin, and which vertex gives a triangle's flat values:
+/// the last as in OpenGL, else the first, as Vulkan has it.
+struct DrawStart {
+    std::int32_t vertex = 0;
+    std::uint32_t instance = 0;
+    bool flat_from_last = true;
+};
+
+/// Draws the objects once and reads the result, as render_permutation() of OpenGL's renderer does. Errors: of
+/// the driver and of validation layers; of the values (see resolve_uniforms()); of the size.
 [[nodiscard]] Result<Picture> render_permutation(const Device& device, const std::vector<StageModule>& stages,
                                                  const Interface& interface,
                                                  const std::vector<Object>& objects,
                                                  const std::vector<RenderValue>& values, const View& view,
-                                                 const Textures& textures = {});
+                                                 const Textures& textures = {}, const DrawStart& start = {});
 
 /// What draws shadow maps: `pass` with its stages as modules.
 struct ShadowPass {
