@@ -416,9 +416,13 @@ bool is_for_vulkan(const Composition& composition) {
 
 }  // namespace
 
+void make_counts_literal(Family& family) {
+    for (Feature& feature : family.features) feature.is_specialized = false;
+}
+
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                              const std::vector<std::string>& stages, const std::string& dialect,
-                             const SelectionOptions* selection) {
+                             const SelectionOptions* selection, Counts counts) {
     Subject subject;
     if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file)) {
         std::vector<StageKind> kinds;
@@ -447,6 +451,7 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
                         ? "name one family, or shader files; keys are named with --key"
                         : "name a family and a key, or shader files; quote a key that has blanks");
     GOBO_TRY(subject.family, load_family(world, names[0], dialect));
+    if (counts == Counts::literal) make_counts_literal(subject.family.family);
     const SelectionOptions one_key{.keys = {names.size() > 1 ? names[1] : "default"}};
     GOBO_TRY(subject.composition,
              compose_selection(world, subject.family, selection != nullptr ? *selection : one_key));

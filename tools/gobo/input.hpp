@@ -146,11 +146,19 @@ struct Subject {
     Composition composition;
     bool are_files = false;  ///< there is no key to speak of
 };
+/// What counts with `specialize = true` become where the dialect is SPIR-V.
+enum class Counts {
+    specialized,  ///< constants of the pipeline, which nobody has set yet
+    literal,      ///< the numbers of the key, as evaluation needs them
+};
+/// Counts::literal for one family.
+void make_counts_literal(Family& family);
 /// `names` are files, told by their ends; or FAMILY [KEY], or FAMILY alone where there is a selection.
 /// `stages` are the values of -S.
 [[nodiscard]] Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                                            const std::vector<std::string>& stages, const std::string& dialect,
-                                           const SelectionOptions* selection = nullptr);
+                                           const SelectionOptions* selection = nullptr,
+                                           Counts counts = Counts::specialized);
 [[nodiscard]] Result<Validated> compile(const World& world, const Subject& subject,
                                         const ValidateOptions& options = {});
 [[nodiscard]] Option subject_argument(std::vector<std::string>& names);

@@ -39,7 +39,8 @@ std::vector<std::string> machine_names() {
 }
 
 Result<Outcome> run(const EvalOptions& options, const World& world) {
-    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.stages, options.dialect));
+    GOBO_TRY(const Subject subject,
+             load_subject(world, options.names, options.stages, options.dialect, nullptr, Counts::literal));
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
     GOBO_TRY(const auto inputs, evaluate::read_eval_inputs(text, options.inputs));
     const StageKind stage = inputs.stage == "vertex" ? StageKind::vertex : StageKind::fragment;

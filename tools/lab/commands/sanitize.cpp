@@ -9,69 +9,26 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "lab/commands/lab_input.hpp"
+#include "lab/commands/finding_report.hpp"
 #include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/precision.hpp"
 
 namespace gobo {
 namespace {
 
-struct SanitizeCommandOptions : SelectionOptions {
+struct SanitizeCommandOptions : FindingOptions {
     sanitize::SanitizeOptions sanitize;
-    std::vector<std::string> names;  ///< FAMILY, or files
-    std::vector<std::string> stages;
-    std::string folder;  ///< for inputs of what is found; empty: they are not kept
-    std::string inputs;  ///< a file of domains
     bool rounding = false;
     bool json = false;
     std::vector<std::string> machines = {"ieee", "flushed"};
 };
 
-/// The finding as an error, its example as an input file where -o says.
-Diagnostics report(const World& world, const SanitizeCommandOptions& options, const Subject& subject,
-                   const sanitize::SharedFinding& shared, std::size_t number) {
-    const sanitize::Finding& finding = shared.finding;
-    Diagnostics diagnostics;
-    diagnostics.reserve(finding.consequences.size() + 1);
-    Diagnostic& error = diagnostics.emplace_back();
-    error.place = finding.place;
-    error.quoted_line = quoted_line(subject.composition, finding.place);
-    const std::string keys = subject.are_files ? "" : fmt::format(", {} keys", shared.permutations.size());
+/// How many inputs of how many keys show it.
+std::string counted(const sanitize::SharedFinding& shared, bool has_keys) {
     const std::string shown_by =
-        finding.is_of_constants ? "of constants" : fmt::format("{} points", finding.points);
-    error.message = fmt::format("{} ({}{})", to_text(finding), shown_by, keys);
-    std::vector<std::string> names = options.names;
-    std::ranges::transform(names, names.begin(), shell_word);
-    std::string what = join(names, " ");
-    if (!subject.are_files && !shared.permutations.empty()) {
-        error.subject = key_text(subject.family.family,
-                                 subject.composition.permutations[shared.permutations.front()].key);
-        what += fmt::format(" '{}'", error.subject);
-    }
-    for (const sanitize::Consequence& one : finding.consequences) {
-        Diagnostic& note = diagnostics.emplace_back();
-        note.severity = Severity::note;
-        note.place = one.place;
-        note.message = fmt::format("so: {}: {}", one.message, one.operation);
-    }
-    if (finding.is_of_constants) {
-        error.help =
-            "compilers fold it, each to a value of its own: guard the operation, or change a constant";
-        return diagnostics;
-    }
-    if (options.folder.empty()) {
-        error.help =
-            "guard the operation; keep an input that shows it with -o DIR, and follow it with gobo eval "
-            "--trace";
-        return diagnostics;
-    }
-    const std::string name = finding.place.file.substr(finding.place.file.rfind('/') + 1);
-    const std::string path =
-        fmt::format("{}/{}.{}.{}.toml", options.folder, number, name, finding.place.line);
-    const std::string follow = fmt::format("gobo eval {} --inputs {} --trace", what, shell_word(path));
-    error.help = "guard the operation; follow the input with: " + follow;
-    append(diagnostics, keep_file(world, path, sanitize::eval_input(finding, follow)));
-    return diagnostics;
+        shared.finding.is_of_constants ? "of constants" : fmt::format("{} points", shared.finding.points);
+    const std::string keys = has_keys ? fmt::format(", {} keys", shared.permutations.size()) : "";
+    return fmt::format("{} ({}{})", to_text(shared.finding), shown_by, keys);
 }
 
 /// Years of work, yet what is counted from it fits into 64 bits.
@@ -96,9 +53,8 @@ std::vector<sanitize::Machine> machines_of(const std::vector<std::string>& names
 }
 
 Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
-    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, "", &options));
-    GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo sanitize evaluates"));
-    GOBO_TRY(const Validated validated, compile_over_domains(world, subject, options.inputs));
+    GOBO_TRY(const Examined examined, load_examined(world, options, "gobo sanitize evaluates"));
+    const auto& [subject, validated] = examined;
     const Family& family = subject.family.family;
     sanitize::SanitizeOptions wanted = options.sanitize;
     wanted.jobs = world.jobs();
@@ -112,8 +68,11 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     const auto found = sanitize::sanitize(family, subject.composition, validated, wanted);
     Diagnostics diagnostics = validated.diagnostics;
     append(diagnostics, found.diagnostics);
-    for (std::size_t i = 0; i < found.findings.size(); ++i)
-        append(diagnostics, report(world, options, subject, found.findings[i], i + 1));
+    for (std::size_t i = 0; i < found.findings.size(); ++i) {
+        const sanitize::SharedFinding& shared = found.findings[i];
+        append(diagnostics, report_finding(world, options, subject, shared.finding, shared.permutations,
+                                           counted(shared, !subject.are_files), i + 1));
+    }
     return Outcome{fmt::format("{} permutations, {} stages, {} points on {} machines, {} findings\n",
                                subject.composition.permutations.size(), found.stages, found.points,
                                wanted.machines.size(), found.findings.size()),
@@ -127,8 +86,7 @@ Command sanitize_command() {
     sanitize::SanitizeOptions& wanted = options->sanitize;
     return {
         titles::kSanitize,
-        {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
-          &options->names, kRequired},
+        {names_argument(*options),
          stages_option(options->stages),
          keep_option(options->folder, "inputs that show what is found, for gobo eval,"),
          {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points,
@@ -147,9 +105,8 @@ Command sanitize_command() {
           "errors_up, errors_down (of division, sqrt, normalize, pow, exp, log, sin and their like); "
           "mediump (16-bit floats where the shader allows them); all",
           &options->machines, kOneOf},
-         {"--inputs", "FILE",
-          "A file whose [domain] says what inputs and uniforms hold, beside the family's or instead",
-          &options->inputs},
+         domains_option(*options),
+         dialect_option(options->dialect),
          {"--rounding", "",
           "Instead, the largest difference between fp32 and fp64 of every output, and what makes it",
           &options->rounding},

@@ -333,8 +333,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
                                                        : Result<std::string>(options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
     // Evaluated are the literal counts: drivers make the same code of both (gobo cost --specialized).
-    if (!options.render)
-        for (Feature& feature : family.family.features) feature.is_specialized = false;
+    if (!options.render) make_counts_literal(family.family);
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     verify::VerifyOptions verify_options;
     if (!options.render) {  // behind the keys stand those that relations compare them with

@@ -257,16 +257,17 @@ PointSet hard_points(const InputSpace& space, std::size_t count, std::uint64_t s
     PointSet points(space.numbers, count);
     for (std::size_t i = 0; i < count; ++i) maker.make(points[i]);
     for (const InputField& field : space.fields)
-        if (field.name == "gl_FragCoord") place_pixels(field, points);
+        if (field.is_pixel_place()) place_pixels(field, points);
     return points;
 }
 
 void change(const InputSpace& space, std::span<double> point, std::size_t number, Random& random) {
     const InputField& field = space.fields[space.field_of[number]];
+    if (field.is_pixel_place() && number - field.first != 2) return;  // of which only the depth is free
     const std::span<double> numbers = point.subspan(field.first, field.components);
     if (field.is_texture && random.one_in(2)) {
         point[number] = drawn_texture_number(field, number - field.first, 0.5, random);
-    } else if (field.components > 1 && random.one_in(8)) {
+    } else if (field.components > 1 && !field.is_pixel_place() && random.one_in(8)) {
         const double factor = random.one_in(4) ? -1 : std::exp2(random.between(-8, 8));
         for (double& component : numbers) component *= factor;
     } else {

@@ -65,6 +65,8 @@ struct InputField {
     /// The domain of that last component.
     [[nodiscard]] Domain last_domain() const;
     [[nodiscard]] bool is_number() const { return is_float() && components == 1; }
+    /// Whether it says where a pixel lies, in its middle, which no search may change.
+    [[nodiscard]] bool is_pixel_place() const { return name == "gl_FragCoord"; }
 };
 
 /// The fields of a stage.

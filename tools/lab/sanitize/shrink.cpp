@@ -51,11 +51,7 @@ class Shrinking {
         bool is_simpler = true;
         for (int round = 0; round < kMostRounds && is_simpler; ++round) {
             is_simpler = false;
-            for (const InputField& field : space_.fields) {
-                if (field.pixel >= 0 && field.name == "gl_FragCoord")
-                    continue;  // the quad lies where it lies
-                is_simpler |= simplify(field);
-            }
+            for (const InputField& field : space_.fields) is_simpler |= simplify(field);
             is_simpler |= simplify_equal_numbers();
         }
         shown_.stage = wanted_.stage;
@@ -88,7 +84,7 @@ class Shrinking {
     bool attempt(const Change& change, const InputField* only = nullptr) {
         const std::vector<double> before = point_.values;
         for (const InputField& field : space_.fields) {
-            if (only != nullptr && only != &field) continue;
+            if ((only != nullptr && only != &field) || field.is_pixel_place()) continue;
             change(numbers_of(field));
             bring_into_domain(field, numbers_of(field));
         }
