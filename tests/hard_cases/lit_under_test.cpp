@@ -99,6 +99,9 @@ const Inputs& ordinary_inputs() {
         {"Material.anisotropyDirection", {1, 0}},
         {"Material.clearcoat", {1}},
         {"Material.clearcoatRoughness", {0.25}},
+        {"Iridescence.factor", {1}},
+        {"Iridescence.ior", {1.3}},
+        {"Iridescence.thickness", {400}},
         {"Material.normalScale", {1}},
         {"Material.occlusionStrength", {1}},
     };

@@ -79,6 +79,7 @@ TEST(PhysicalScene, ReadsFactorsAndExtensions) {
         {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.25},
         "extensions": {"KHR_materials_ior": {"ior": 2}, "KHR_materials_specular": {"specularFactor": 0.5},
                        "KHR_materials_clearcoat": {"clearcoatFactor": 0.75},
+                       "KHR_materials_iridescence": {"iridescenceFactor": 0.5, "iridescenceIor": 1.8},
                        "KHR_materials_transmission": {"transmissionFactor": 1}}})",
                                                                png({255, 255, 255, 255}, 1, 1)));
     ASSERT_TRUE(scene) << to_text(scene.error().front());
@@ -89,15 +90,18 @@ TEST(PhysicalScene, ReadsFactorsAndExtensions) {
     EXPECT_DOUBLE_EQ(material.dielectric.g, 0.5 / 9);  // ((2 - 1) / (2 + 1))^2
     EXPECT_EQ(material.dielectric_edge, 0.5);
     EXPECT_THAT(material.of_extensions.at("Material.clearcoat"), ElementsAre(0.75));
+    EXPECT_THAT(material.of_extensions.at("Iridescence.factor"), ElementsAre(0.5));
+    EXPECT_THAT(material.of_extensions.at("Iridescence.ior"), ElementsAre(1.8));
+    EXPECT_THAT(material.of_extensions.at("Iridescence.thickness"), ElementsAre(400));
     EXPECT_THAT(material.not_drawn, ElementsAre("KHR_materials_transmission"));
 }
 
 TEST(PhysicalScene, MayRequireWhatItReads) {
     nlohmann::json scene = scene_with("{}", png({255, 255, 255, 255}, 1, 1));
-    scene["extensionsRequired"] = {
-        "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-        "KHR_materials_ior",        "KHR_materials_sheen",     "KHR_materials_specular",
-        "KHR_materials_unlit"};
+    scene["extensionsRequired"] = {"KHR_materials_anisotropy",        "KHR_materials_clearcoat",
+                                   "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                   "KHR_materials_iridescence",       "KHR_materials_sheen",
+                                   "KHR_materials_specular",          "KHR_materials_unlit"};
     EXPECT_TRUE(read_physical_scene(scene));
     scene["extensionsRequired"] = {"KHR_materials_transmission"};
     EXPECT_FALSE(read_physical_scene(scene));

@@ -34,7 +34,15 @@ const std::vector<MaterialExtension>& material_extensions() {
          {{"anisotropyStrength", "Material.anisotropy", {0}},
           {"anisotropyRotation", "Material.anisotropyDirection", {0}, {}, direction_of_angle}},
          {"anisotropyTexture"},
-         false}};
+         false},
+        {"KHR_materials_iridescence",
+         "iridescence",
+         "thin_film",
+         {{"iridescenceFactor", "Iridescence.factor", {0}},
+          {"iridescenceIor", "Iridescence.ior", {1.3}, {1}},
+          {"iridescenceThicknessMaximum", "Iridescence.thickness", {400}, kNotNegative}},
+         {"iridescenceTexture", "iridescenceThicknessTexture"},
+         true}};
     return kExtensions;
 }
 
