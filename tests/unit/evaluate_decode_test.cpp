@@ -17,19 +17,20 @@ struct Case {
 
 const Case kCases[] = {
     {"unknown_instruction",
-     "#version 450\nlayout(binding = 0, r32ui) uniform uimage2D i;\nlayout(location = 0) out vec4 r;\nvoid "
-     "main() {\n  "
-     "r = vec4(imageAtomicAdd(i, ivec2(0), 1u));\n}\n",
-     "test.glsl:5: error: images that are read and written as such are not evaluated, textures alone: "
-     "OpImageTexelPointer\n"},
+     "#version 450\n#extension GL_ARB_sparse_texture2 : require\nlayout(binding = 0) uniform sampler2D i;\n"
+     "layout(location = 0) out vec4 r;\nvoid main() {\n  sparseTextureARB(i, vec2(0), r);\n}\n",
+     "test.glsl:6: error: the evaluator does not know OpImageSparseSampleImplicitLod\n"},
     {"unknown_type",
      "#version 450\nlayout(location = 0) out vec4 r;\nvoid main() {\n  double d = 2.0lf;\n  r = "
      "vec4(d);\n}\n",
-     "gobo: error: 64-bit floating-point numbers are not supported\n"},
-    {"run_time_array",
+     "test.glsl:5: error: 64-bit floating-point numbers are not supported\n"},
+    {"unknown_type_that_is_not_used",
+     "#version 450\nuniform dvec2 d;\nlayout(location = 0) out vec4 r;\nvoid main() {\n  r = vec4(1);\n}\n",
+     "gobo: error: 'd': 64-bit floating-point numbers are not supported\n"},
+    {"element_beyond_a_run_time_array",
      "#version 450\nlayout(std430, binding = 0) buffer B { float b[]; };\nlayout(location = 0) out vec4 "
-     "r;\nvoid main() {\n  r = vec4(b[1]);\n}\n",
-     "gobo: error: arrays without a size, as storage blocks have, are not evaluated: state a size\n"},
+     "r;\nvoid main() {\n  r = vec4(b[5000]);\n}\n",
+     "test.glsl:5: error: 'B.b' has no size, and is evaluated with 16 elements\n"},
 };
 
 class Refused : public ::testing::TestWithParam<Case> {};

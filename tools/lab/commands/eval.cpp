@@ -21,7 +21,8 @@ struct EvalOptions {
 };
 
 /// The stage, ready to be evaluated.
-Result<evaluate::Program> program_of(const World& world, const Subject& subject, StageKind stage) {
+Result<evaluate::Program> program_of(const World& world, const Subject& subject, StageKind stage,
+                                     std::uint32_t longest_array) {
     GOBO_TRY(const Validated validated,
              compile(world, subject, {.keep_spirv = true, .debug_information = true}));
     const Permutation& permutation = subject.composition.permutations.front();
@@ -29,7 +30,8 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
     if (index < 0)
         return fail(Fault::input, fmt::format("there is no {} stage to evaluate", name_of(stage)),
                     "name its file, or state another 'stage' in the input file");
-    return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv);
+    return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv,
+                            std::max(evaluate::kUnstatedLength, longest_array));
 }
 
 std::vector<std::string> machine_names() {
@@ -44,7 +46,8 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
     GOBO_TRY(const auto inputs, evaluate::read_eval_inputs(text, options.inputs));
     const StageKind stage = inputs.stage == "vertex" ? StageKind::vertex : StageKind::fragment;
-    GOBO_TRY(const evaluate::Program program, program_of(world, subject, stage));
+    GOBO_TRY(const evaluate::Program program,
+             program_of(world, subject, stage, evaluate::longest_array(inputs)));
     GOBO_TRY(const evaluate::Invocations invocations, evaluate::invocations_of(inputs, program));
     evaluate::EvalOptions how{options.trace, {}, inputs.pixel};
     if (const std::string& name = inputs.machine.text; !name.empty()) {

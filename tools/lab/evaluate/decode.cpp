@@ -11,17 +11,50 @@ namespace {
 
 constexpr std::size_t kDeepestCall = 64;
 constexpr std::uint32_t kMostScalars = 1U << 18U;
+constexpr std::int64_t kLongestUnstated = 1024;
+
+/// Gives a size to types that state none: arrays that length, or that of the largest constant index, and what
+/// holds them its scalars.
+void state_sizes(spirv::Module& module, std::uint32_t length) {
+    for (const Instruction& instruction : module.instructions)
+        for (std::size_t word = 4;
+             word < instruction.words.size() && instruction.opcode == spv::OpAccessChain; ++word)
+            if (const auto index = module.integers.find(instruction.id(word));
+                index != module.integers.end() && index->second < kLongestUnstated)
+                length = std::max(length,
+                                  static_cast<std::uint32_t>(std::max<std::int64_t>(index->second, 0)) + 1);
+    for (const Instruction& instruction : module.instructions) {
+        const auto found = module.types.find(instruction.result);
+        if (found == module.types.end()) continue;
+        Type& type = found->second;
+        if (type.opcode == spv::OpTypeRuntimeArray) type.count = length;
+        // Apart from its texture, which alone is asked.
+        if (type.opcode == spv::OpTypeSampler) type.scalars = 1;
+        std::uint64_t scalars = 0;
+        if (type.is_array())
+            scalars = std::uint64_t{type.count} * module.type(type.element).scalars;
+        else if (type.opcode == spv::OpTypeStruct)
+            for (const Id member : type.members) scalars += module.type(member).scalars;
+        else
+            continue;
+        type.scalars = static_cast<std::uint32_t>(std::min<std::uint64_t>(scalars, Type::kMostScalars));
+    }
+}
 
 }  // namespace
 
-Result<Program> decode(std::span<const std::uint32_t> words) {
-    GOBO_TRY(const spirv::Module module, spirv::read_module(words));
+Result<Program> decode(std::span<const std::uint32_t> words, std::uint32_t unstated_length) {
+    GOBO_TRY(spirv::Module module, spirv::read_module(words));
     const bool computes_specially = std::ranges::any_of(
         module.instructions, [](const Instruction& one) { return one.opcode == spv::OpSpecConstantOp; });
-    if (!computes_specially) return Decoder(module).decode();
+    if (!computes_specially) {
+        state_sizes(module, unstated_length);
+        return Decoder(module).decode();
+    }
     // Specialisation constants stand at their defaults, and what is computed from them too.
     GOBO_TRY(const spirv::Words fixed, spirv::specialized({words.begin(), words.end()}, {}));
-    GOBO_TRY(const spirv::Module special, spirv::read_module(fixed));
+    GOBO_TRY(spirv::Module special, spirv::read_module(fixed));
+    state_sizes(special, unstated_length);
     return Decoder(special).decode();
 }
 
@@ -61,28 +94,48 @@ void Decoder::report_types(const Instruction& instruction) {
     report(instruction, opcode_name(instruction.opcode) + " has operands of the wrong types");
 }
 
+/// Whether values of the one type hold values of the other, or point to them.
+bool Decoder::contains(Id whole, Id part) const {
+    if (whole == part) return true;
+    const Type& of = type(whole);
+    return (of.element != Id::none && contains(of.element, part)) ||
+           std::ranges::any_of(of.members, [&](Id member) { return contains(member, part); });
+}
+
+/// At the first line that has such a value; else by the name of a variable that holds one.
+void Decoder::report_type(const Instruction& type, std::string message) {
+    const auto holds_one = [&](const Instruction& one) {
+        return one.type != Id::none && contains(one.type, type.result);
+    };
+    const auto& all = module_.instructions;
+    const auto at = std::ranges::find_if(all, [&](const Instruction& one) {
+        return one.line != 0 && one.opcode != spv::OpVariable && holds_one(one);  // else the function's line
+    });
+    if (at != all.end()) return report(*at, std::move(message));
+    for (const Instruction& one : all)
+        if (one.opcode == spv::OpVariable && holds_one(one) && !module_.name(one.result).empty())
+            return report(one, fmt::format("'{}': {}", module_.name(one.result), message));
+    report(type, std::move(message));
+}
+
 /// Types that evaluation does not know are errors, used or not.
 void Decoder::check_types() {
     for (const Instruction& instruction : module_.instructions) {
         const auto is = [&](std::initializer_list<spv::Op> list) {
             return is_one_of(instruction.opcode, list);
         };
-        if (is({spv::OpTypeSampler}))
-            report(instruction, "samplers apart from their textures are not evaluated: declare a sampler2D");
-        if (is({spv::OpTypeRuntimeArray}))
-            report(instruction,
-                   "arrays without a size, as storage blocks have, are not evaluated: state a size");
-        if (is({spv::OpTypeOpaque})) report(instruction, "opaque types are not evaluated");
+        if (is({spv::OpTypeOpaque})) report_type(instruction, "opaque types are not evaluated");
         if (is({spv::OpTypeInt, spv::OpTypeFloat}) && instruction.word(2) != 32)
-            report(instruction, fmt::format("{}-bit {} are not supported", instruction.word(2),
-                                            is({spv::OpTypeInt}) ? "integers" : "floating-point numbers"));
-        if (!is({spv::OpTypeArray, spv::OpTypeStruct})) continue;
+            report_type(instruction,
+                        fmt::format("{}-bit {} are not supported", instruction.word(2),
+                                    is({spv::OpTypeInt}) ? "integers" : "floating-point numbers"));
+        if (!is({spv::OpTypeArray, spv::OpTypeRuntimeArray, spv::OpTypeStruct})) continue;
         const Type& found = type(instruction.result);
         const auto is_empty = [&](Id part) { return type(part).scalars == 0; };
         if (found.scalars > kMostScalars)
-            report(instruction, fmt::format("a type of {} scalars is too large", found.scalars));
+            report_type(instruction, fmt::format("a type of {} scalars is too large", found.scalars));
         if (found.is_array() ? is_empty(found.element) : std::ranges::any_of(found.members, is_empty))
-            report(instruction, "a type is made of parts that have no values");
+            report_type(instruction, "a type is made of parts that have no values");
     }
 }
 

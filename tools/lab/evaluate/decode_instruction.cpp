@@ -10,9 +10,6 @@
 namespace gobo::evaluate {
 namespace {
 
-/// imageLoad(), imageStore(), subpassLoad(), imageAtomicAdd() and its like.
-constexpr spv::Op kImageAccesses[] = {spv::OpImageRead, spv::OpImageWrite, spv::OpImageTexelPointer};
-
 constexpr std::size_t kFirstOperand = 3;          // after the leading word, the type and the result
 constexpr std::size_t kFirstExtendedOperand = 5;  // and after the instruction set and the number
 
@@ -51,6 +48,7 @@ void Decoder::decode_instruction(const Instruction& instruction) {
         {spv::OpInBoundsAccessChain, &Decoder::decode_access_chain},
         {spv::OpCopyObject, &Decoder::decode_copy},
         {spv::OpImage, &Decoder::decode_copy},
+        {spv::OpSampledImage, &Decoder::decode_copy},
         {spv::OpCompositeExtract, &Decoder::decode_extract},
         {spv::OpCompositeConstruct, &Decoder::decode_construct},
         {spv::OpCompositeInsert, &Decoder::decode_insert},
@@ -63,18 +61,18 @@ void Decoder::decode_instruction(const Instruction& instruction) {
         {spv::OpOuterProduct, &Decoder::decode_product},
         {spv::OpTranspose, &Decoder::decode_product},
         {spv::OpFunctionCall, &Decoder::decode_call},
+        {spv::OpArrayLength, &Decoder::decode_length},
+        {spv::OpImageWrite, &Decoder::decode_image_write},
+        {spv::OpImageTexelPointer, &Decoder::decode_texel_pointer},
         {spv::OpExtInst, &Decoder::decode_extended}};
     if (is_one_of(instruction.opcode, {spv::OpNop, spv::OpLine, spv::OpNoLine, spv::OpSelectionMerge,
-                                       spv::OpLoopMerge, spv::OpPhi}))
-        return;
+                                       spv::OpLoopMerge, spv::OpPhi, spv::OpMemoryBarrier}))
+        return;  // each invocation is alone, and sees what it wrote
+    if (is_atomic(instruction.opcode)) return decode_atomic(instruction);
     if (const auto own = kOwn.find(instruction.opcode); own != kOwn.end())
         return (this->*own->second)(instruction);
     if (!decode_image(instruction) && !decode_by_signature(instruction, instruction.opcode, kFirstOperand))
-        report(instruction,
-               std::ranges::count(kImageAccesses, instruction.opcode) > 0
-                   ? "images that are read and written as such are not evaluated, textures alone: " +
-                         opcode_name(instruction.opcode)
-                   : "the evaluator does not know " + opcode_name(instruction.opcode));
+        report(instruction, "the evaluator does not know " + opcode_name(instruction.opcode));
 }
 
 /// False where the table has no row for the code.
@@ -235,6 +233,7 @@ void Decoder::decode_local_variable(const Instruction& instruction) {
     const auto variable = new_variable(instruction, module_.name(instruction.result), false);
     if (!variable) return;
     frame().values[instruction.result] = *variable;
+    program_.variables.emplace_back(variable->slot, type(*variable).scalars);
     if (instruction.words.size() > 4) store(instruction, *variable, value(instruction, 4));
 }
 
@@ -316,10 +315,15 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
     Value at = pointer(instruction, 3);
     std::string path = program_.names[at.name];
     Words words{at.offset == 0 ? 0 : at.offset + 1};
+    Words unstated;  // of the words, extents that the shader does not state
     Values indices;
     for (std::size_t word = 4; word < instruction.words.size() && !error_; ++word) {
         const auto constant = constant_bits_.find(instruction.id(word));
+        const bool is_unstated = type(at).opcode == spv::OpTypeRuntimeArray;
         if (constant != constant_bits_.end() && constant->second.size() == 1) {
+            if (is_unstated && constant->second.front() >= type(at).count)
+                return report(instruction, fmt::format("'{}' has no size, and is evaluated with {} elements",
+                                                       path, type(at).count));
             path = part_name(path, at.type, constant->second.front());
             if (!step_into(instruction, at.type, at.slot, constant->second.front())) return;
             continue;
@@ -333,6 +337,7 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
         path += fmt::format("[{}]", name.empty() ? "..." : name);
         std::uint32_t first = 0;
         if (!step_into(instruction, at.type, first, 0)) return;
+        if (is_unstated) unstated.push_back(length_of(words) + 1);
         words.insert(words.end(), {dynamic.slot, whole.count, type(at).scalars});
         indices.push_back(dynamic);
     }
@@ -346,6 +351,8 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
         const std::uint32_t computed = temporary(1);
         emit(spv::OpAccessChain, instruction, 1, computed, indices, words);
         program_.infos.back().result = slice(at);
+        for (const std::uint32_t word : unstated)
+            program_.unstated_extents.insert(program_.operations.back().extra + word);
         copy(instruction, 1, at.offset, {Id::none, computed});
     }
     frame().values[instruction.result] = at;

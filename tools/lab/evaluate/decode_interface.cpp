@@ -64,8 +64,7 @@ void Decoder::add_constants(Id id, std::uint32_t slot, std::span<const std::uint
     }
 }
 
-/// Slots for a variable, which begins as 0 unless it is only read; nothing (and reported) where its type is
-/// unknown.
+/// Slots for a variable; nothing (and reported) where its type is unknown.
 std::optional<Value> Decoder::new_variable(const Instruction& instruction, const std::string& name,
                                            bool is_read_only) {
     const Id id = type(instruction.type).element;
@@ -78,7 +77,6 @@ std::optional<Value> Decoder::new_variable(const Instruction& instruction, const
     const auto index = static_cast<int>(is_read_only_.size());
     is_read_only_.push_back(is_read_only);
     const Value variable{id, permanent(slots), -1, index, intern(name), true};
-    if (!is_read_only) program_.variables.emplace_back(variable.slot, slots);
     return variable;
 }
 
@@ -89,9 +87,10 @@ void Decoder::decode_variable(const Instruction& instruction) {
     const auto storage = instruction.as<spv::StorageClass>(3);
     const bool is_written = storage == spv::StorageClassOutput || storage == spv::StorageClassPrivate ||
                             storage == spv::StorageClassFunction;
-    const auto variable = new_variable(instruction, name, !is_written);
+    const auto variable = new_variable(instruction, name, !is_written && !may_write(instruction));
     if (!variable) return;
     globals_[instruction.result] = *variable;
+    if (is_written) program_.variables.emplace_back(variable->slot, type(*variable).scalars);
     // A uniform that is declared with a value has it unless the application sets another.
     const auto bits = constant_bits_.find(instruction.id(4));
     if (!is_written && bits != constant_bits_.end() && bits->second.size() == type(*variable).scalars)
@@ -99,17 +98,33 @@ void Decoder::decode_variable(const Instruction& instruction) {
     name_interface(instruction, variable->type, variable->slot);
 }
 
+/// Whether the variable is a storage block or an array of them.
+bool Decoder::is_storage_block(const Instruction& variable) const {
+    Id block = type(variable.type).element;
+    while (type(block).is_array()) block = type(block).element;
+    return variable.word(3) == spv::StorageClassStorageBuffer ||
+           (variable.word(3) == spv::StorageClassUniform &&
+            module_.decoration(block, spv::DecorationBufferBlock));
+}
+
+/// Whether it is a variable of the application's that the stage may write.
+bool Decoder::may_write(const Instruction& variable) const {
+    return variable.word(3) == spv::StorageClassAtomicCounter || is_storage_block(variable);
+}
+
 void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t slot) {
     const Id named = variable.result;
     std::string name = module_.name(named);
     int number = static_cast<int>(module_.decoration(named, spv::DecorationLocation).value_or(~0U));
     Location at{slot};
+    at.is_written = may_write(variable);
     switch (variable.word(3)) {
         case spv::StorageClassInput:
             return add_ports(program_.inputs, name, id, number, at);
         case spv::StorageClassOutput:
             return add_ports(program_.outputs, name, id, number, at);
         case spv::StorageClassUniform:
+        case spv::StorageClassStorageBuffer:
         case spv::StorageClassPushConstant:
             // OpenGL names members of a block by the block, not by its instance.
             if (type(id).opcode == spv::OpTypeStruct && !module_.decoration(id, spv::DecorationBuiltIn))
@@ -118,14 +133,13 @@ void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t s
             program_.uniform_blocks.push_back({name, 0});
             [[fallthrough]];
         case spv::StorageClassUniformConstant:
+        case spv::StorageClassAtomicCounter:
             return add_ports(program_.uniforms, name, id, number, at);
         case spv::StorageClassPrivate:
         case spv::StorageClassFunction:
             return;
         default:
-            report(
-                variable,
-                fmt::format("'{}' is not evaluated: a storage block, an atomic counter or its like", name));
+            report(variable, fmt::format("'{}' is a kind of variable that is not evaluated", name));
     }
 }
 
@@ -160,13 +174,15 @@ void Decoder::add_ports(std::vector<Port>& ports, const std::string& name, Id id
 void Decoder::add_leaf(std::vector<Port>& ports, const std::string& name, Id id, int& number,
                        const Location& at) {
     const Type& of = type(id);
+    if (of.opcode == spv::OpTypeSampler) return;
     if (of.is_image()) {
         program_.constants.push_back({at.slot, of.value.scalar, length_of(program_.images)});
         const Type& image = of.opcode == spv::OpTypeSampledImage ? type(of.element) : of;
         program_.images.push_back({name, of.image, at.slot, type(image.element).value.scalar});
         return;
     }
-    Port port{name, of.value.name(), number, at.slot, of.scalars, of.value.scalar, at.block, {}};
+    Port port{name, of.value.name(), number, at.slot, of.scalars, of.value.scalar, at.block,
+              {},   at.is_written};
     const auto rows = static_cast<std::uint32_t>(of.value.rows);
     for (std::uint32_t component = 0; component < of.scalars && at.block >= 0; ++component) {
         const std::uint32_t column = component / rows;

@@ -22,8 +22,8 @@ bool Decoder::is_one(const Value& value, bool (*fits)(Scalar)) const {
 /// The type of element or member `index`, or none where there is no such part.
 Id Decoder::part_type(Id id, std::uint32_t index) const {
     const Type& whole = type(id);
-    const bool has_parts =
-        is_one_of(whole.opcode, {spv::OpTypeVector, spv::OpTypeMatrix, spv::OpTypeArray, spv::OpTypeStruct});
+    const bool has_parts = is_one_of(whole.opcode, {spv::OpTypeVector, spv::OpTypeMatrix, spv::OpTypeArray,
+                                                    spv::OpTypeRuntimeArray, spv::OpTypeStruct});
     if (index >= whole.count || !has_parts) return Id::none;
     return whole.opcode == spv::OpTypeStruct ? whole.members[index] : whole.element;
 }
@@ -126,6 +126,7 @@ bool Decoder::is_written(int variable, std::uint32_t from, std::uint32_t to) con
     for (std::uint32_t at = from; at <= to && at < module_.instructions.size(); ++at) {
         const Instruction& instruction = module_.instructions[at];
         if (is_one_of(instruction.opcode, {spv::OpFunctionCall, spv::OpCopyMemory})) return true;
+        if (is_atomic(instruction.opcode)) return true;
         if (instruction.opcode == spv::OpExtInst &&
             (instruction.word(4) == GLSLstd450Modf || instruction.word(4) == GLSLstd450Frexp))
             return true;

@@ -64,11 +64,20 @@ class Decoder {
         std::uint32_t offset = 0;  ///< bytes from the start of the block
         std::uint32_t matrix_stride = 0;
         bool is_row_major = false;
+        bool is_written = false;  ///< it may be
+    };
+    /// A texel that an atomic function changes.
+    struct Texel {
+        Value image;
+        Value coordinates;
+        Value sample;
     };
 
     // decode.cpp: the module, its functions, blocks and calls.
     void report(const Instruction& instruction, std::string message);
     void report_types(const Instruction& instruction);
+    void report_type(const Instruction& type, std::string message);
+    [[nodiscard]] bool contains(Id whole, Id part) const;
     void check_types();
     void finish_program();
     void inline_function(const Function& function, Frame new_frame);
@@ -95,6 +104,8 @@ class Decoder {
     std::optional<Value> new_variable(const Instruction& instruction, const std::string& name,
                                       bool is_read_only);
     void decode_variable(const Instruction& instruction);
+    [[nodiscard]] bool is_storage_block(const Instruction& variable) const;
+    [[nodiscard]] bool may_write(const Instruction& variable) const;
     void name_interface(const Instruction& variable, Id type, std::uint32_t slot);
     void add_ports(std::vector<Port>& ports, const std::string& name, Id type, int& number,
                    const Location& at);
@@ -168,6 +179,16 @@ class Decoder {
     void read_image_operands(const Instruction& instruction, std::size_t at, ImageCall& call,
                              Values& operands);
 
+    // decode_storage.cpp: atomic functions, images that are written, lengths of arrays.
+    void decode_image_write(const Instruction& instruction);
+    void decode_texel_pointer(const Instruction& instruction);
+    void decode_atomic(const Instruction& instruction);
+    void decode_length(const Instruction& instruction);
+    Value read_texel(const Instruction& instruction, const Texel& texel);
+    void write_texel(const Instruction& instruction, const Texel& texel, const Value& value);
+    [[nodiscard]] ImageCall call_of_texel(const Instruction& instruction, const Texel& texel);
+    Value constant(Id type, std::uint32_t bits);
+
     const spirv::Module& module_;
     Functions functions_;
     Id std450_ = Id::none;  ///< the GLSL.std.450 instruction set
@@ -184,6 +205,7 @@ class Decoder {
     std::vector<bool> is_quick_;                 ///< of each operation
     Words label_blocks_;                         ///< block of each label
     std::map<std::string, std::uint32_t> name_indices_;
+    std::unordered_map<Id, Texel> texels_;  ///< pointers to them
 };
 
 /// Programs beyond this many slots, operations or blocks are refused.

@@ -1,6 +1,7 @@
 #include "lab/evaluate/eval_file.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 
 namespace gobo::evaluate {
 namespace {
+
+constexpr std::uint32_t kLargestIndex = 65535;
 
 /// Reads the file; every fault is added to `diagnostics`.
 class FileReader {
@@ -329,6 +332,17 @@ std::string table_text(std::string_view name, const Numbers& values, Digits digi
 
 Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path) {
     return FileReader(text, path).read();
+}
+
+std::uint32_t longest_array(const EvalInputs& inputs) {
+    std::uint32_t longest = 0;
+    for (const auto& [name, value] : inputs.uniforms)
+        for (std::size_t at = name.find('['); at != std::string::npos; at = name.find('[', at + 1)) {
+            std::uint32_t index = 0;
+            std::from_chars(name.data() + at + 1, name.data() + name.size(), index);
+            longest = std::max(longest, std::min(index, kLargestIndex) + 1);
+        }
+    return longest;
 }
 
 Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& program) {

@@ -45,6 +45,9 @@ struct EvalInputs {
 /// arithmetic. Errors stand at their line of `path`.
 [[nodiscard]] Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path);
 
+/// The elements that an array needs so that the file's largest index is one of them.
+[[nodiscard]] std::uint32_t longest_array(const EvalInputs& inputs);
+
 /// The invocation that the file describes, or the four of its quad. Every name that the stage does not have
 /// and every wrong number of components is an error at its line.
 [[nodiscard]] Result<Invocations> invocations_of(const EvalInputs& inputs, const Program& program);

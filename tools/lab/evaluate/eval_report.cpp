@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 
 namespace gobo::evaluate {
@@ -50,7 +51,7 @@ std::string columns(const char* label, const std::vector<double>& numbers, const
 std::string outputs_text(const EvalReport& report) {
     std::string text;
     for (const EvalOutput& output : report.outputs) {
-        text += fmt::format("{} ({})\n", output.name, output.type);
+        text += fmt::format("{} ({}){}\n", output.name, output.type, output.is_written ? ", written" : "");
         // Nine digits tell every fp32 number from its neighbours, seventeen every fp64 number.
         text += columns("fp32", output.in_float, "{:.9g}");
         text += columns("fp64", output.in_double, "{:.17g}");
@@ -172,6 +173,50 @@ std::vector<double> numbers_of(const Outputs& outputs, const Port& port, std::si
     return numbers;
 }
 
+/// What the invocation left in storage blocks and counters that was not there before.
+void add_written_ports(const Program& program, const Invocations& invocations, const Outputs& in_float,
+                       const Outputs& in_double, std::size_t at, EvalReport& report) {
+    for (const Port& port : program.uniforms) {
+        if (!port.is_written) continue;
+        const auto given = invocations.values.find(port.name);
+        const std::vector<double> before =
+            given == invocations.values.end() ? std::vector<double>(port.components) : given->second;
+        EvalOutput output{port.name, port.type, numbers_of(in_float, port, at),
+                          numbers_of(in_double, port, at), true};
+        if (output.in_float != before || output.in_double != before)
+            report.outputs.push_back(std::move(output));
+    }
+}
+
+/// "counts[3, 4]": the texel as the shader names it.
+std::string texel_name(const Program& program, const TexelPlace& place) {
+    const ImagePort& image = program.images[place.image];
+    const std::size_t count = dimensions_of(image.type) + (image.type.arrayed ? 1 : 0);
+    std::string name =
+        fmt::format("{}[{}", image.name, fmt::join(std::span(place.coordinates).first(count), ", "));
+    return name + (image.type.multisampled ? fmt::format(", sample {}]", place.sample) : "]");
+}
+
+/// What it left in texels; a NaN where one arithmetic did not write.
+void add_written_texels(const Program& program, const Outputs& in_float, const Outputs& in_double,
+                        std::size_t at, EvalReport& report) {
+    std::map<std::string, EvalOutput> texels;
+    for (const Outputs* const outputs : {&in_float, &in_double})
+        for (const WrittenTexel& written : outputs->written) {
+            if (written.place.invocation != at || written.place.image >= program.images.size()) continue;
+            const std::string name = texel_name(program, written.place);
+            const Scalar scalar = program.images[written.place.image].scalar;
+            EvalOutput& texel = texels[name];
+            texel.name = name;
+            texel.type = GlslType{scalar, 1, 4}.name();
+            texel.is_written = true;
+            for (auto* const numbers : {&texel.in_float, &texel.in_double}) numbers->resize(4, std::nan(""));
+            (outputs == &in_float ? texel.in_float : texel.in_double)
+                .assign(written.texel.begin(), written.texel.end());
+        }
+    for (auto& [name, texel] : texels) report.outputs.push_back(std::move(texel));
+}
+
 }  // namespace
 
 Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations,
@@ -187,6 +232,8 @@ Result<EvalReport> evaluate_once(const Program& program, const Invocations& invo
     for (const Port& port : program.outputs)
         report.outputs.push_back(
             {port.name, port.type, numbers_of(in_float, port, at), numbers_of(in_double, port, at)});
+    add_written_ports(program, invocations, in_float, in_double, at, report);
+    add_written_texels(program, in_float, in_double, at, report);
     report.is_discarded_in_float = in_float.discarded[at];
     report.is_discarded_in_double = in_double.discarded[at];
     report.counts = in_float.counts[at];
@@ -208,11 +255,12 @@ Json to_json(const EvalReport& report) {
     Json json;
     json["outputs"] = Json::array();
     for (const EvalOutput& output : report.outputs)
-        json["outputs"].push_back({{"name", output.name},
-                                   {"type", output.type},
-                                   {"fp32", numbers_json(output.in_float)},
-                                   {"fp64", numbers_json(output.in_double)},
-                                   {"difference", numbers_json(differences(output))}});
+        json[output.is_written ? "written" : "outputs"].push_back(
+            {{"name", output.name},
+             {"type", output.type},
+             {"fp32", numbers_json(output.in_float)},
+             {"fp64", numbers_json(output.in_double)},
+             {"difference", numbers_json(differences(output))}});
     json["discarded"] = {{"fp32", report.is_discarded_in_float}, {"fp64", report.is_discarded_in_double}};
     json["counts"] = Json::object();
     for (std::size_t kind = 0; kind < kKinds; ++kind)

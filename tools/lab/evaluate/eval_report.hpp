@@ -60,10 +60,11 @@ struct EvalOutput {
     std::string type;  ///< GLSL name
     std::vector<double> in_float;
     std::vector<double> in_double;
+    bool is_written = false;  ///< a texel, or what a storage block or counter holds in the end
 };
 
 struct EvalReport {
-    std::vector<EvalOutput> outputs;  ///< sorted by name
+    std::vector<EvalOutput> outputs;  ///< sorted by name; then what has been written besides, if it differs
     bool is_discarded_in_float = false;
     bool is_discarded_in_double = false;
     Counts counts{};               ///< in fp32

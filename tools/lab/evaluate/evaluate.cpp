@@ -140,7 +140,7 @@ class Evaluation {
         for (std::size_t first = 0; first < invocations_.count; first += kLanes) {
             begin_batch(first);
             for (const Binding& binding : bindings)
-                if (binding.is_per_invocation) fill(binding, first);
+                if (binding.is_per_invocation || binding.port->is_written) fill(binding, first);
             if (const std::optional<Diagnostic> error = scheduler_.run()) return fail(*error);
             if (registers_.missing_image() >= 0) return fail(missing_image());
             read_batch(first);
@@ -155,6 +155,8 @@ class Evaluation {
         if (options_.count) outputs_.counts.assign(invocations_.count, Counts{});
         for (const Port& port : program_.outputs)
             outputs_.values[port.name].assign(port.components * invocations_.count, 0.0);
+        for (const Port& port : program_.uniforms)
+            if (port.is_written) outputs_.values[port.name].assign(port.components * invocations_.count, 0.0);
     }
 
     void fill_constants() {
@@ -173,6 +175,8 @@ class Evaluation {
     void begin_batch(std::size_t first) {
         for (const auto& [slot, count] : program_.variables)
             std::fill_n(registers_.ints(slot), count * kLanes, Int<T>{0});
+        for (const Port& port : program_.uniforms)
+            if (port.is_written) std::fill_n(registers_.ints(port.slot), port.components * kLanes, Int<T>{0});
         registers_.first_invocation = first;
         registers_.callers_lanes = lanes_where([&](std::size_t lane) {
             const std::size_t at = first + lane;
@@ -206,18 +210,23 @@ class Evaluation {
 
     void read_batch(std::size_t first) {
         const std::size_t lanes = std::min(kLanes, invocations_.count - first);
-        for (const Port& port : program_.outputs) {
-            std::vector<double>& values = outputs_.values[port.name];
-            for (std::uint32_t component = 0; component < port.components; ++component)
-                for (std::size_t lane = 0; lane < lanes; ++lane)
-                    values[component * invocations_.count + first + lane] =
-                        number_in(registers_.floats(port.slot + component), port.scalar, lane);
-        }
+        for (const Port& port : program_.outputs) read_port(port, first, lanes);
+        for (const Port& port : program_.uniforms)
+            if (port.is_written) read_port(port, first, lanes);
+        for (const WrittenTexel& written : registers_.take_written()) outputs_.written.push_back(written);
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             outputs_.discarded[first + lane] = has_lane(scheduler_.discarded(), lane);
             if (options_.count && has_lane(registers_.callers_lanes, lane))
                 scheduler_.add_counts(lane, outputs_.counts[first + lane]);
         }
+    }
+
+    void read_port(const Port& port, std::size_t first, std::size_t lanes) {
+        std::vector<double>& values = outputs_.values[port.name];
+        for (std::uint32_t component = 0; component < port.components; ++component)
+            for (std::size_t lane = 0; lane < lanes; ++lane)
+                values[component * invocations_.count + first + lane] =
+                    number_in(registers_.floats(port.slot + component), port.scalar, lane);
     }
 
     [[nodiscard]] Diagnostic missing_image() {

@@ -114,13 +114,30 @@ struct Options {
     std::uint64_t iteration_limit = 1U << 20U;
 };
 
+/// A texel of an image that a stage reads and writes without a sampler.
+struct TexelPlace {
+    std::size_t invocation = 0;        ///< that writes it
+    std::size_t image = 0;             ///< index into Program::images
+    std::array<int, 4> coordinates{};  ///< then the layer
+    int sample = 0;
+
+    friend bool operator==(const TexelPlace&, const TexelPlace&) = default;
+};
+
+struct WrittenTexel {
+    TexelPlace place;
+    std::array<double, 4> texel{};  ///< as written: the image's format may round it
+};
+
 /// What a stage gives.
 struct Outputs {
     std::size_t count = 0;
-    /// By reflected name, component by component, as Invocations::values.
+    /// By reflected name, component by component, as Invocations::values: outputs, and what storage blocks
+    /// and counters hold in the end. Each invocation is alone with them.
     std::map<std::string, std::vector<double>, std::less<>> values;
-    std::vector<bool> discarded;  ///< of each invocation
-    std::vector<Counts> counts;   ///< of each invocation; empty unless asked for
+    std::vector<WrittenTexel> written;  ///< by imageStore() and its like, in their order in each invocation
+    std::vector<bool> discarded;        ///< of each invocation
+    std::vector<Counts> counts;         ///< of each invocation; empty unless asked for
 };
 
 /// What an observer sees of one operation, for up to kLanes invocations at once.

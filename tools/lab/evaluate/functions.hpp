@@ -58,6 +58,11 @@ using UsesById = std::unordered_map<spirv::Id, Uses>;
     return std::find(list.begin(), list.end(), opcode) != list.end();
 }
 
+/// atomicAdd() and its like.
+[[nodiscard]] inline bool is_atomic(spv::Op opcode) {
+    return (opcode >= spv::OpAtomicLoad && opcode <= spv::OpAtomicXor) || opcode == spv::OpAtomicFAddEXT;
+}
+
 /// An error in the shader at that place.
 [[nodiscard]] Diagnostic error_at(const Place& place, std::string message, std::string help = {});
 

@@ -32,8 +32,18 @@ struct ImageCall {
     std::uint32_t offset = 0;
     std::uint32_t sample = 0;
     std::uint32_t component = 0;  ///< of a gather
+    std::uint32_t texel = 0;      ///< that is written
+    // Of images without a sampler.
+    std::uint32_t is_storage = 0;
+    std::uint32_t texel_components = 0;
 };
 using ImageWords = std::array<std::uint32_t, sizeof(ImageCall) / sizeof(std::uint32_t)>;
+
+/// Coordinates of an image without its layer.
+[[nodiscard]] inline std::uint32_t dimensions_of(const spirv::Image& image) {
+    if (image.dimension == spv::Dim1D || image.dimension == spv::DimBuffer) return 1;
+    return image.dimension == spv::Dim3D || image.dimension == spv::DimCube ? 3 : 2;
+}
 
 /// Of an operation that is a texture function.
 [[nodiscard]] inline ImageCall image_call_of(const Program& program, const Operation& operation) {

@@ -35,6 +35,7 @@ constexpr ImageForm kForms[] = {
     {GOBO_CORE(ImageSampleProjDrefImplicitLod), What::sample, true, true, true, true, 6},
     {GOBO_CORE(ImageSampleProjDrefExplicitLod), What::sample, false, true, true, true, 6},
     {GOBO_CORE(ImageFetch), What::fetch, false, false, false, true, 5},
+    {GOBO_CORE(ImageRead), What::fetch, false, false, false, true, 5},
     {GOBO_CORE(ImageGather), What::gather, false, false, false, true, 6},
     {GOBO_CORE(ImageDrefGather), What::gather, false, false, true, true, 6},
     {GOBO_CORE(ImageQuerySizeLod), What::size, false, false, false, false, 0},
@@ -42,12 +43,6 @@ constexpr ImageForm kForms[] = {
     {GOBO_CORE(ImageQueryLevels), What::levels, false, false, false, false, 0},
     {GOBO_CORE(ImageQueryLod), What::lod, true, false, false, true, 0},
 };
-
-/// Coordinates of an image without its layer.
-std::uint32_t dimensions_of(const spirv::Image& image) {
-    if (image.dimension == spv::Dim1D || image.dimension == spv::DimBuffer) return 1;
-    return image.dimension == spv::Dim3D || image.dimension == spv::DimCube ? 3 : 2;
-}
 
 }  // namespace
 
@@ -73,6 +68,7 @@ bool Decoder::decode_image(const Instruction& instruction) {
     call.is_arrayed = sampled.image.arrayed && form->what != What::lod ? 1 : 0;
     call.is_implicit = form->is_implicit ? 1 : 0;
     call.has_int_result = is_float(result.value.scalar) ? 0 : 1;
+    call.is_storage = instruction.opcode == spv::OpImageRead ? 1 : 0;
     std::uint32_t needed = call.dimensions + call.is_arrayed;
     if (form->has_coordinates) {
         set(call.coordinates, 4);
@@ -94,6 +90,25 @@ bool Decoder::decode_image(const Instruction& instruction) {
     emit(instruction.opcode, instruction, result.scalars, define(instruction), operands,
          {words.begin(), words.end()});
     return true;
+}
+
+/// A texel of an image without a sampler; coordinates of a cube are its texel and its face.
+ImageCall Decoder::call_of_texel(const Instruction& instruction, const Texel& texel) {
+    const Type& image = type(texel.image);
+    const Type& coordinates = type(texel.coordinates);
+    ImageCall call;
+    call.what = static_cast<std::uint32_t>(What::fetch);
+    call.image = texel.image.slot + 1;
+    call.dimensions = dimensions_of(image.image);
+    call.is_arrayed = image.image.arrayed ? 1 : 0;
+    call.is_storage = 1;
+    call.has_int_result = 1;
+    call.has_int_coordinates = 1;
+    call.coordinates = texel.coordinates.slot + 1;
+    if (texel.sample.type != Id::none && image.image.multisampled) call.sample = texel.sample.slot + 1;
+    if (coordinates.scalars < call.dimensions + call.is_arrayed || !is_integer(coordinates.value.scalar))
+        report_types(instruction);
+    return call;
 }
 
 /// The optional operands after the mask, in the order of its bits.
@@ -170,28 +185,64 @@ ImageRequest request_of(const ImageCall& call, Registers<T>& registers, std::siz
     return request;
 }
 
+/// Which texel of an image a request without a sampler is about.
+template <class T>
+TexelPlace place_of(const ImageCall& call, const ImageRequest& request, Registers<T>& registers,
+                    std::size_t lane) {
+    TexelPlace place{request.invocation, static_cast<std::size_t>(registers.ints(call.image - 1)[lane])};
+    for (std::size_t axis = 0; axis < call.dimensions + call.is_arrayed; ++axis)
+        place.coordinates[axis] = static_cast<int>(request.coordinates[axis]);
+    place.sample = request.sample;
+    return place;
+}
+
 constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
     ImageWords words;
     std::copy_n(registers.words(operation), words.size(), words.begin());
     const auto call = std::bit_cast<ImageCall>(words);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
-        const Image* image = registers.image(static_cast<std::size_t>(registers.ints(call.image - 1)[lane]));
-        if (image == nullptr) return;
-        const std::array<double, 4> texel = (*image)(request_of(call, registers, lane));
+        const ImageRequest request = request_of(call, registers, lane);
+        std::optional<std::array<double, 4>> texel;
+        if (call.is_storage != 0) texel = registers.known_texel(place_of(call, request, registers, lane));
+        if (!texel) {
+            const Image* image =
+                registers.image(static_cast<std::size_t>(registers.ints(call.image - 1)[lane]));
+            if (image == nullptr) return;
+            texel = (*image)(request);
+        }
         for (std::uint32_t component = 0; component < operation.count; ++component) {
             if (call.has_int_result != 0)
                 registers.ints(operation.result + component)[lane] =
-                    to_signed(static_cast<std::int64_t>(texel[component]));
+                    to_signed(static_cast<std::int64_t>((*texel)[component]));
             else
-                registers.floats(operation.result + component)[lane] = static_cast<T>(texel[component]);
+                registers.floats(operation.result + component)[lane] = static_cast<T>((*texel)[component]);
         }
     }
 }>;
 
+constexpr Execution kWrite = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
+    ImageWords words;
+    std::copy_n(registers.words(operation), words.size(), words.begin());
+    const auto call = std::bit_cast<ImageCall>(words);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
+        const ImageRequest request = request_of(call, registers, lane);
+        std::array<double, 4> texel{};
+        for (std::uint32_t component = 0; component < std::min(call.texel_components, 4U); ++component) {
+            const std::uint32_t slot = call.texel - 1 + component;
+            texel[component] = call.has_int_result != 0
+                                   ? static_cast<double>(to_signed(registers.ints(slot)[lane]))
+                                   : static_cast<double>(registers.floats(slot)[lane]);
+        }
+        registers.write(place_of(call, request, registers, lane), texel);
+    }
+}>;
+
 constexpr auto kRows = [] {
-    std::array<Row, std::size(kForms)> rows{};
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    std::array<Row, std::size(kForms) + 1> rows{};
+    rows.back() = {GOBO_CORE(ImageWrite), Kind::image, "", kWrite};
+    for (std::size_t i = 0; i < std::size(kForms); ++i)
         rows[i] = {kForms[i].code, kForms[i].name, Kind::image, "", kAsk};
     return rows;
 }();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -137,9 +138,10 @@ struct Port {
     std::uint32_t slot = 0;
     std::uint32_t components = 1;  ///< column by column
     Scalar scalar = Scalar::float32;
-    // Uniform blocks: where it lies in the block's bytes.
+    // Uniform and storage blocks: where it lies in the block's bytes.
     int block = -1;                      ///< index into Program::uniform_blocks
     std::vector<std::uint32_t> offsets;  ///< of each component
+    bool is_written = false;  ///< of a storage block or a counter: a uniform that each invocation may write
 };
 
 /// A uniform block by name, for filling it from bytes.
@@ -173,6 +175,7 @@ struct Program {
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
         variables;  ///< slots set to zero first: start, count
     std::vector<UndefinedValue> undefined;
+    std::set<std::uint32_t> unstated_extents;     ///< of `words`: lengths of arrays that state none
     std::vector<Port> inputs, outputs, uniforms;  ///< sorted by name
     std::vector<UniformBlock> uniform_blocks;
     std::vector<ImagePort> images;
@@ -198,9 +201,14 @@ template <class... List>
     return names;
 }
 
-/// Reads a vertex or fragment stage from the SPIR-V that glslang makes with OpenGL semantics, with or without
-/// debug information. Anything that evaluation does not know is an error that names the instruction and the
-/// line it comes from; truncated or malformed modules are errors too.
-[[nodiscard]] Result<Program> decode(std::span<const std::uint32_t> words);
+/// Elements of an array without a size, unless more are asked for.
+inline constexpr std::uint32_t kUnstatedLength = 16;
+
+/// Reads a vertex or fragment stage from the SPIR-V that glslang makes, with or without debug information.
+/// Anything that evaluation does not know is an error that names the instruction and the line it comes from;
+/// truncated or malformed modules are errors too. Arrays without a size, as storage blocks have, get
+/// `unstated_length` elements.
+[[nodiscard]] Result<Program> decode(std::span<const std::uint32_t> words,
+                                     std::uint32_t unstated_length = kUnstatedLength);
 
 }  // namespace gobo::evaluate

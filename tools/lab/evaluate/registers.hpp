@@ -1,10 +1,13 @@
 // What operations work on: a register file in which each slot is a row, one number of each lane.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "lab/evaluate/evaluate.hpp"
@@ -76,6 +79,21 @@ class Registers {
     /// Index of an image that was asked for in vain, or -1.
     [[nodiscard]] int missing_image() const { return missing_image_; }
 
+    /// What the same invocation wrote to the texel last, if anything; below the first there is none, and such
+    /// a one reads as 0 (OpenGL 4.6, 8.26).
+    [[nodiscard]] std::optional<std::array<double, 4>> known_texel(const TexelPlace& place) const {
+        if (std::ranges::any_of(place.coordinates, [](int at) { return at < 0; }))
+            return std::array<double, 4>{};
+        const auto written = std::find_if(written_.rbegin(), written_.rend(),
+                                          [&](const WrittenTexel& one) { return one.place == place; });
+        return written == written_.rend() ? std::nullopt : std::optional(written->texel);
+    }
+    void write(const TexelPlace& place, const std::array<double, 4>& texel) {
+        written_.push_back({place, texel});
+    }
+    /// All that has been written since this was called last.
+    [[nodiscard]] std::vector<WrittenTexel> take_written() { return std::exchange(written_, {}); }
+
     /// The lanes that run. Operations compute all lanes where that is cheaper: only stores heed the mask.
     [[nodiscard]] LaneMask active() const { return active_; }
     [[nodiscard]] bool is_active(std::size_t lane) const { return has_lane(active_, lane); }
@@ -96,6 +114,7 @@ class Registers {
     const Program& program_;
     std::vector<const Image*> images_;
     int missing_image_ = -1;
+    std::vector<WrittenTexel> written_;
     std::vector<std::byte> cells_;
     std::byte* start_ = nullptr;
     LaneMask active_ = 0;

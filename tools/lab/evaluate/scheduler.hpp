@@ -365,17 +365,17 @@ class Scheduler {
 
     /// Tells the observer of each dynamic index outside its extent.
     void observe_indices(const Step<T>& step, const Operation& operation, LaneMask lanes) {
-        const auto check = [&](std::uint32_t slot, std::uint32_t extent) {
+        const auto check = [&](std::uint32_t slot, std::uint32_t extent, bool is_stated = true) {
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const std::int64_t index = to_signed(registers_.ints(slot)[lane]);
-                if (has_lane(lanes, lane) && (index < 0 || index >= extent))
+                if (has_lane(lanes, lane) && (index < 0 || (is_stated && index >= extent)))
                     observer_->clamped(step, lane, index, extent);
             }
         };
         const std::uint32_t* words = registers_.words(operation);
         const std::uint32_t code = row_of(operation).code;
         for (std::uint32_t at = 1; at < operation.extras && code == spv::OpAccessChain; at += 3)
-            check(words[at], words[at + 1]);
+            check(words[at], words[at + 1], !program_.unstated_extents.contains(operation.extra + at + 1));
         if (code == spv::OpVectorExtractDynamic) check(operation.operands[1], words[0]);
         if (code == spv::OpVectorInsertDynamic) check(operation.operands[2], words[0]);
     }

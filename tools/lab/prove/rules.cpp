@@ -208,8 +208,10 @@ bool index_is_within(View& view) {
     if (code == spv::OpVectorExtractDynamic) return holds(1, words[0]);
     if (code == spv::OpVectorInsertDynamic) return holds(2, words[0]);
     std::size_t operand = 0;
-    for (std::uint32_t word = 1; word < operation.extras; word += 3, ++operand)
-        if (!holds(operand, words[word + 1])) return false;
+    for (std::uint32_t word = 1; word < operation.extras; word += 3, ++operand) {
+        const bool is_stated = !view.program.unstated_extents.contains(operation.extra + word + 1);
+        if (!holds(operand, is_stated ? words[word + 1] : 0x1p31)) return false;
+    }
     return true;
 }
 
@@ -327,7 +329,7 @@ void add_image_rules(const evaluate::Program& program, const evaluate::Operation
     });
     if (may_be_cube && call.coordinates != 0 && call.dimensions == 3 && call.has_int_coordinates == 0)
         rules.push_back({"a cube map is looked up along a zero vector", direction_is_not_zero, 2});
-    if (static_cast<What>(call.what) == What::fetch)
+    if (static_cast<What>(call.what) == What::fetch && call.is_storage == 0)
         rules.push_back({"texelFetch() outside of the texture", fetches_inside, 2});
     if (call.has_int_level != 0 && call.lod != 0)
         rules.push_back(

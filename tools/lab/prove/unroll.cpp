@@ -582,6 +582,8 @@ class Unroller {
     /// What a texture may answer: what its domain says of the channel, or 0, as beyond a border.
     Range texel(const evaluate::ImageCall& call, const State& state, std::uint32_t component) {
         if (call.reference != 0) return between(0, 1);
+        // The stage itself may have written it.
+        if (call.is_storage != 0) return call.has_int_result != 0 ? kAnyInt : kAnything;
         const Id image = expressions_.origin(state.slots[call.image - 1]);
         Range all = kNothing;
         for (std::size_t index = 0; index < program_.images.size(); ++index) {

@@ -76,27 +76,39 @@ struct Run {
     }
 };
 
-/// The operation that last stores to the output; nothing where none does.
+/// The operation that last stores to the output, or to an array by an index that may lead to it; nothing
+/// where none does.
 std::optional<std::uint32_t> last_store(const evaluate::Program& program, const evaluate::Port& port) {
     std::optional<std::uint32_t> found;
     for (std::uint32_t at = 0; at < program.operations.size(); ++at) {
         const Slice& to = program.infos[at].result;
+        const std::uint32_t code = code_of(program.operations[at]);
         const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
-        if (code_of(program.operations[at]) == spv::OpStore && is_within) found = at;
+        const bool may_be_within = code == evaluate::kScatter && port.is_written && to.slot <= port.slot;
+        if ((code == spv::OpStore && is_within) || may_be_within) found = at;
     }
     return found;
 }
 
 /// Outputs of OpenGL's own may be left alone, and vertex outputs that the fragment stage does not read.
 bool must_be_written(const evaluate::Program& program, const evaluate::Port& port) {
-    if (last_store(program, port)) return true;
+    if (port.is_written || last_store(program, port)) return true;
     return program.is_fragment && !port.name.starts_with("gl_");
+}
+
+/// The outputs, and what storage blocks and counters hold.
+std::vector<const evaluate::Port*> written_ports(const evaluate::Program& program) {
+    std::vector<const evaluate::Port*> ports;
+    for (const evaluate::Port& port : program.outputs) ports.push_back(&port);
+    for (const evaluate::Port& port : program.uniforms)
+        if (port.is_written) ports.push_back(&port);
+    return ports;
 }
 
 /// Lanes of a batch in which a component of an output is undefined.
 struct UndefinedOutput {
     std::size_t first_invocation = 0;  ///< of lane 0
-    std::size_t output = 0;            ///< index into Program::outputs
+    std::size_t output = 0;            ///< index into written_ports()
     Lanes lanes = 0;
     Cause cause;
     std::optional<std::uint32_t> first_use;  ///< the operation that first computed with it
@@ -114,7 +126,7 @@ class TrapObserver final : public evaluate::Observer<float> {
   public:
     /// `also`, unless it is null, sees every step too.
     TrapObserver(const Run& run, evaluate::Observer<float>* also)
-        : run_(run), taint_(run.program), also_(also) {
+        : run_(run), ports_(written_ports(run.program)), taint_(run.program), also_(also) {
         for (std::size_t at = 0; at < run.program.operations.size(); ++at) {
             const evaluate::Row& row = evaluate::instruction_table()[run.program.operations[at].row];
             Watch& watch = watches_.emplace_back();
@@ -192,8 +204,8 @@ class TrapObserver final : public evaluate::Observer<float> {
     /// To be called when the run is over.
     void finish() {
         if (!is_in_batch_) return;
-        for (std::size_t output = 0; output < run_.program.outputs.size(); ++output) {
-            const evaluate::Port& port = run_.program.outputs[output];
+        for (std::size_t output = 0; output < ports_.size(); ++output) {
+            const evaluate::Port& port = *ports_[output];
             const Lanes lanes = taint_.lanes_of(port.slot, port.components);
             for (std::size_t lane = 0; lane < kLanes && lanes != 0; ++lane)
                 if ((lanes >> lane & 1U) != 0) finish_output(output, port, lane);
@@ -423,6 +435,7 @@ class TrapObserver final : public evaluate::Observer<float> {
     static constexpr std::size_t kMostConsequences = 8;  ///< told beneath a finding
 
     const Run& run_;
+    std::vector<const evaluate::Port*> ports_;
     std::vector<Watch> watches_;  ///< of each operation
     Taint taint_;
     evaluate::Observer<float>* also_;
@@ -443,7 +456,7 @@ class TrapObserver final : public evaluate::Observer<float> {
 
 void TrapObserver::judge_outputs(const evaluate::Outputs& outputs) {
     for (const UndefinedOutput& undefined : undefined_) {
-        const evaluate::Port& port = run_.program.outputs[undefined.output];
+        const evaluate::Port& port = *ports_[undefined.output];
         if (undefined.is_unwritten || !must_be_written(run_.program, port)) continue;
         const std::optional<std::uint32_t> store = last_store(run_.program, port);
         const std::uint32_t place = store ? run_.program.infos[*store].place : 0;

@@ -54,7 +54,10 @@ class ImageStep {
 
     [[nodiscard]] bool is_implicit() const { return call_.is_implicit != 0; }
     [[nodiscard]] bool is_shadow() const { return call_.reference != 0; }
-    [[nodiscard]] bool is_fetch() const { return static_cast<What>(call_.what) == What::fetch; }
+    /// Of a texture: without a sampler there is nothing undefined outside of an image.
+    [[nodiscard]] bool is_fetch() const {
+        return static_cast<What>(call_.what) == What::fetch && call_.is_storage == 0;
+    }
 
     [[nodiscard]] Lanes projects_from_behind() const {
         if (call_.divisor == 0) return 0;
