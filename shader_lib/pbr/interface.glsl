@@ -1,4 +1,6 @@
 // What becomes of light at the surface: a part is mirrored, the rest enters and may be scattered.
+//
+// Source: glTF 2.0, appendix B.3.4.
 
 /// The part of the light that is mirrored, by channel: all of what Fresnel's law says, `bare`. Besides, the cosine that this holds at, and
 /// what a surface that mirrors everything would mirror.
