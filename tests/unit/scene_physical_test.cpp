@@ -115,7 +115,7 @@ TEST(PhysicalScene, TellsWhichPicturesAreNotDrawn) {
     const Result<Scene> read = read_physical_scene(scene);
     ASSERT_TRUE(read) << to_text(read.error().front());
     EXPECT_THAT(read->materials[0].physical.not_drawn,
-                ElementsAre("baseColorTexture by texCoord 3", "emissiveTexture without source"));
+                ElementsAre("baseColorTexture by texCoord 3", "emissiveTexture by KHR_texture_basisu alone"));
 }
 
 /// Of the first draw: the effect's reason, and "in: " before it where it is in.
@@ -204,8 +204,40 @@ TEST(PhysicalScene, ReadsJpegAndSaysWhatIsNone) {
     json["images"][0]["uri"] = "data:image/jpeg;base64," + base64("\xff\xd8\xff");
     EXPECT_EQ(read_physical_scene(json).error().front().message,
               "images[0] is no JPEG that can be decoded: Premature end of JPEG file");
-    json["images"][0]["uri"] = "data:image/gif;base64," + base64("GIF89a");
-    EXPECT_EQ(read_physical_scene(json).error().front().message, "images[0] is neither PNG nor JPEG");
+    EXPECT_EQ(read_physical_scene(json).error().front().help, "");
+}
+
+TEST(PhysicalScene, SaysHowToConvertAPictureThatIsNotRead) {
+    struct Row {
+        const char* name;
+        std::string bytes;
+        const char* message;
+        const char* help;
+    };
+    const Row rows[] = {
+        {"KTX 2", "\xabKTX 20\xbb\r\n\x1a\n", "images[0] is KTX 2, but PNG and JPEG are read",
+         "convert it (ktx extract FILE.ktx2 FILE.png), and let the texture's source name the PNG"},
+        {"WebP", std::string("RIFF\x1a\0\0\0WEBPVP8L", 16), "images[0] is WebP, but PNG and JPEG are read",
+         "convert it (dwebp FILE.webp -o FILE.png), and let the texture's source name the PNG"},
+        {"AVIF",
+         std::string("\0\0\0\x1c"
+                     "ftypavif",
+                     12),
+         "images[0] is AVIF, but PNG and JPEG are read",
+         "convert it (avifdec FILE.avif FILE.png), and let the texture's source name the PNG"},
+        {"DDS", "DDS |", "images[0] is DDS, but PNG and JPEG are read",
+         "convert it (convert FILE.dds FILE.png), and let the texture's source name the PNG"},
+        {"another", "GIF89a", "images[0] is neither PNG nor JPEG", "convert it to one of them"},
+        {"nothing", "", "images[0] is neither PNG nor JPEG", "convert it to one of them"},
+    };
+    for (const Row& row : rows) {
+        const Result<Scene> scene =
+            read_physical_scene(scene_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+                                           "data:application/octet-stream;base64," + base64(row.bytes)));
+        ASSERT_FALSE(scene) << row.name;
+        EXPECT_EQ(scene.error().front().message, row.message) << row.name;
+        EXPECT_EQ(scene.error().front().help, row.help) << row.name;
+    }
 }
 
 // Of the usual picture T runs to the right and N x T, for w = 1, up.
@@ -254,7 +286,7 @@ TEST(PhysicalScene, RefusesAPictureThatIsCutShort) {
     EXPECT_TRUE(decode_picture(whole));
     const auto cut = decode_picture(whole.substr(0, whole.size() - 4));
     ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error(), "is no JPEG that can be decoded: Premature end of JPEG file");
+    EXPECT_EQ(cut.error().message, "is no JPEG that can be decoded: Premature end of JPEG file");
 }
 
 TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {

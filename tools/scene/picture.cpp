@@ -12,12 +12,12 @@
 namespace gobo::scene {
 namespace {
 
-tl::unexpected<std::string> too_large(std::size_t width, std::size_t height) {
+tl::unexpected<NoPicture> too_large(std::size_t width, std::size_t height) {
     return tl::unexpected(
-        fmt::format("is of {} x {} pixels, which is more than gobo decodes", width, height));
+        NoPicture{fmt::format("is of {} x {} pixels, which is more than gobo decodes", width, height), ""});
 }
 
-tl::expected<TextureImage, std::string> decode_png(std::string_view bytes) {
+tl::expected<TextureImage, NoPicture> decode_png(std::string_view bytes) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     unsigned width = 0;
     unsigned height = 0;
@@ -27,7 +27,8 @@ tl::expected<TextureImage, std::string> decode_png(std::string_view bytes) {
     if (error == 0 && std::size_t{width} * height > kMostTexels) return too_large(width, height);
     if (error == 0) error = lodepng::decode(picture.texels, width, height, data, bytes.size());
     if (error != 0)
-        return tl::unexpected(fmt::format("is no PNG that can be decoded: {}", lodepng_error_text(error)));
+        return tl::unexpected(
+            NoPicture{fmt::format("is no PNG that can be decoded: {}", lodepng_error_text(error)), ""});
     picture.width = static_cast<int>(width);
     picture.height = static_cast<int>(height);
     return picture;
@@ -76,7 +77,7 @@ bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_v
     return true;
 }
 
-tl::expected<TextureImage, std::string> decode_jpeg(std::string_view bytes) {
+tl::expected<TextureImage, NoPicture> decode_jpeg(std::string_view bytes) {
     jpeg_decompress_struct info{};
     JpegErrors errors{};
     info.err = jpeg_std_error(&errors.manager);
@@ -87,10 +88,36 @@ tl::expected<TextureImage, std::string> decode_jpeg(std::string_view bytes) {
     bool is_too_large = false;
     const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large);
     jpeg_destroy_decompress(&info);
-    if (!is_decoded) return tl::unexpected(fmt::format("is no JPEG that can be decoded: {}", errors.message));
+    if (!is_decoded)
+        return tl::unexpected(
+            NoPicture{fmt::format("is no JPEG that can be decoded: {}", errors.message), ""});
     if (is_too_large)
         return too_large(static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height));
     return picture;
+}
+
+/// A format that glTF's extensions allow, and that gobo leaves to others.
+struct OtherFormat {
+    const char* name;
+    std::string_view signature;
+    std::size_t place;  ///< of the signature in the file
+    const char* converter;
+};
+
+constexpr OtherFormat kOtherFormats[] = {
+    {"KTX 2", "\xabKTX 20\xbb", 0, "ktx extract FILE.ktx2 FILE.png"},
+    {"WebP", "WEBP", 8, "dwebp FILE.webp -o FILE.png"},
+    {"AVIF", "ftypavif", 4, "avifdec FILE.avif FILE.png"},
+    {"DDS", "DDS ", 0, "convert FILE.dds FILE.png"},
+};
+
+NoPicture not_decoded(std::string_view bytes) {
+    for (const OtherFormat& format : kOtherFormats)
+        if (bytes.size() > format.place && bytes.substr(format.place).starts_with(format.signature))
+            return {
+                fmt::format("is {}, but PNG and JPEG are read", format.name),
+                fmt::format("convert it ({}), and let the texture's source name the PNG", format.converter)};
+    return {"is neither PNG nor JPEG", "convert it to one of them"};
 }
 
 }  // namespace
@@ -100,7 +127,7 @@ PictureFormat format_of_picture(std::string_view bytes) {
     return bytes.starts_with("\x89PNG\r\n\x1a\n") ? PictureFormat::png : PictureFormat::unknown;
 }
 
-tl::expected<TextureImage, std::string> decode_picture(std::string_view bytes) {
+tl::expected<TextureImage, NoPicture> decode_picture(std::string_view bytes) {
     switch (format_of_picture(bytes)) {
         case PictureFormat::png:
             return decode_png(bytes);
@@ -109,7 +136,7 @@ tl::expected<TextureImage, std::string> decode_picture(std::string_view bytes) {
         case PictureFormat::unknown:
             break;
     }
-    return tl::unexpected(std::string("is neither PNG nor JPEG"));
+    return tl::unexpected(not_decoded(bytes));
 }
 
 }  // namespace gobo::scene

@@ -24,7 +24,13 @@ enum class PictureFormat { png, jpeg, unknown };
 /// By the first bytes.
 [[nodiscard]] PictureFormat format_of_picture(std::string_view bytes);
 
-/// Decodes a PNG or a JPEG. The error is the end of a sentence that begins with what the picture is.
-[[nodiscard]] tl::expected<TextureImage, std::string> decode_picture(std::string_view bytes);
+/// Why there is no picture.
+struct NoPicture {
+    std::string message;  ///< the end of a sentence that begins with what the picture is
+    std::string help;     ///< what to do; may be empty
+};
+
+/// Decodes a PNG or a JPEG.
+[[nodiscard]] tl::expected<TextureImage, NoPicture> decode_picture(std::string_view bytes);
 
 }  // namespace gobo::scene

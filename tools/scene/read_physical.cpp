@@ -54,7 +54,8 @@ PhysicalMaterial read_physical(const Value& value, Textures& textures) {
         auto picture = textures.use(of[name]);
         if (picture && picture->set > 1)
             material.not_drawn.push_back(fmt::format("{} by texCoord {}", name, picture->set));
-        if (!picture && of[name]) material.not_drawn.push_back(fmt::format("{} without source", name));
+        if (!picture && of[name])
+            material.not_drawn.push_back(fmt::format("{} {}", name, textures.why_unused(of[name])));
         return picture;
     };
     material.maps = {use(model, "baseColorTexture"), use(model, "metallicRoughnessTexture"),

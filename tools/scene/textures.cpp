@@ -76,11 +76,18 @@ std::optional<AlphaMap> Textures::alpha(const Value& info) const {
     if (format == PictureFormat::jpeg) return std::nullopt;  // it has no alpha
     if (format == PictureFormat::unknown) return AlphaMap();
     const auto picture = decode_picture(bytes);
-    if (!picture) images_[*source].fail("{}", picture.error());
+    if (!picture) images_[*source].fail_with(picture.error().help, "{}", picture.error().message);
     AlphaMap map{picture->width, picture->height, {}};
     for (std::size_t i = 3; i < picture->texels.size(); i += 4) map.texels.push_back(picture->texels[i]);
     const auto is_opaque = [](std::uint8_t alpha) { return alpha == 255; };
     return std::ranges::all_of(map.texels, is_opaque) ? std::nullopt : std::optional(std::move(map));
+}
+
+std::string Textures::why_unused(const Value& info) const {
+    const Value extensions =
+        textures_[*info["index"].index(textures_.size(), "textures")]["extensions"].object();
+    if (!extensions || extensions.json->empty()) return "without source";
+    return fmt::format("by {} alone", extensions.json->begin().key());
 }
 
 std::optional<TextureUse> Textures::use(const Value& info) {
@@ -90,7 +97,7 @@ std::optional<TextureUse> Textures::use(const Value& info) {
     if (!source) return std::nullopt;  // an extension's format
     if (!pictures_[*source]) {
         auto picture = decode_picture(bytes_of(images_[*source]));
-        if (!picture) images_[*source].fail("{}", picture.error());
+        if (!picture) images_[*source].fail_with(picture.error().help, "{}", picture.error().message);
         pictures_[*source] = scene_.pictures.size();
         scene_.pictures.push_back(std::move(*picture));
     }

@@ -21,6 +21,9 @@ struct Textures {
     /// none, or one without a picture that gobo reads.
     [[nodiscard]] std::optional<TextureUse> use(const Value& info);
 
+    /// Of a texture without a picture that gobo reads: "by KHR_texture_basisu alone".
+    [[nodiscard]] std::string why_unused(const Value& info) const;
+
   private:
     [[nodiscard]] bool is_plain(const Value& info, const Value& texture) const;
     [[nodiscard]] std::string bytes_of(const Value& image) const;
