@@ -1,7 +1,6 @@
 #include "gobo/input.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
@@ -13,11 +12,11 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "compose/known_names.hpp"
-#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "gobo/shader_files.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/scene_keys.hpp"
 
@@ -393,29 +392,6 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, const 
     return validated;
 }
 
-namespace {
-
-/// Whether shader files are written in GLSL for Vulkan, which OpenGL's compilers refuse.
-bool is_for_vulkan(const Composition& composition) {
-    constexpr std::array<std::string_view, 6> kWords = {"push_constant",  "input_attachment_index",
-                                                        "subpassInput",   "subpassInputMS",
-                                                        "gl_VertexIndex", "gl_InstanceIndex"};
-    for (const Piece& piece : composition.pieces) {
-        bool is_in_layout = false;
-        std::string_view last;
-        for (const std::string_view token : tokens_of(piece.text)) {
-            if (std::ranges::count(kWords, token) > 0) return true;
-            if (is_in_layout && last == "set" && token == "=") return true;
-            if (last == "uniform" && token.starts_with("texture")) return true;
-            if (last == "layout" || token == ")") is_in_layout = last == "layout";
-            last = token;
-        }
-    }
-    return false;
-}
-
-}  // namespace
-
 void make_counts_literal(Family& family) {
     for (Feature& feature : family.features) feature.is_specialized = false;
 }
@@ -436,11 +412,28 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
         subject.are_files = true;
         GOBO_TRY(subject.family.dialect, read_dialect(dialect));
         add_include_folders(world, subject.family.search);
-        GOBO_TRY(subject.family.family, family_of_files(names, world.disk, subject.family.search, kinds));
+        // A key of subroutines may stand beside the files.
+        std::vector<std::string> files = names;
+        std::vector<std::string> key;
+        std::erase_if(files, [&](const std::string& name) {
+            const bool is_key = selection == nullptr && name.find('=') != std::string::npos &&
+                                !is_shader_file(name) && !world.disk.is_file(name);
+            if (is_key) key.push_back(name);
+            return is_key;
+        });
+        GOBO_TRY(subject.family.family, family_of_files(files, world.disk, subject.family.search, kinds));
+        Family& family = subject.family.family;
         GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
-        if (dialect.empty() && is_for_vulkan(subject.composition)) {
-            subject.family.dialect = Dialect::vulkan;
-            GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
+        const bool is_vulkan = dialect.empty() && is_for_vulkan(subject.composition);
+        if (is_vulkan) subject.family.dialect = Dialect::vulkan;
+        const bool is_legacy = read_as_legacy(subject.composition, family);
+        const bool has_subroutines = add_subroutines(subject.composition, family);
+        if (is_legacy) subject.family.search.add(world.shipped, "templates", "templates/", false);
+        GOBO_TRY(const Key chosen, parse_key(family, key.empty() ? "default" : join(key, " ")));
+        if (is_vulkan || is_legacy || has_subroutines) {
+            const std::vector<Key> keys =
+                selection != nullptr ? keys_with_every_value(family) : std::vector<Key>{chosen};
+            GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, keys)));
         }
         return subject;
     }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/eval_report.hpp"
@@ -32,6 +33,19 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
                     "name its file, or state another 'stage' in the input file");
     return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv,
                             std::max(evaluate::kUnstatedLength, longest_array));
+}
+
+/// Which function each subroutine uniform of shader files is, where nobody said.
+Diagnostics functions_chosen(const Family& family, const Key& key) {
+    Diagnostics notes;
+    for (std::size_t i = 0; i < key.size() && key == default_key(family); ++i) {
+        const Feature& feature = family.features[i];
+        notes.push_back(note_in(
+            "", fmt::format("the subroutine uniform '{}' is '{}'; name another behind the "
+                            "files: {}={}",
+                            feature.name, feature.values.front(), feature.name, feature.values.back())));
+    }
+    return notes;
 }
 
 std::vector<std::string> machine_names() {
@@ -68,7 +82,9 @@ Result<Outcome> run(const EvalOptions& options, const World& world) {
         answers = verify::ask_oracle(subject.family.family, subject.composition.permutations.front().key,
                                      stage, program, invocations)
                       .value_or(answers);
-    const Diagnostics notes = evaluate::inputs_left_out(inputs, program);
+    Diagnostics notes = evaluate::inputs_left_out(inputs, program);
+    if (subject.are_files)
+        append(notes, functions_chosen(subject.family.family, subject.composition.permutations.front().key));
     if (options.json) {
         nlohmann::ordered_json json = evaluate::to_json(report);
         for (const verify::Answer& answer : answers)

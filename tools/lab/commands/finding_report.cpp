@@ -17,6 +17,11 @@ Result<Examined> load_examined(const World& world, const FindingOptions& options
     return Examined{std::move(subject), std::move(validated)};
 }
 
+void leave_out_keys(const Subject& subject, Diagnostics& diagnostics) {
+    if (!subject.are_files || !subject.family.family.features.empty()) return;
+    for (Diagnostic& diagnostic : diagnostics) diagnostic.subject.clear();
+}
+
 Diagnostics report_finding(const World& world, const FindingOptions& options, const Subject& subject,
                            const sanitize::Finding& finding, const std::vector<std::size_t>& permutations,
                            std::string message, std::size_t number) {
@@ -29,11 +34,13 @@ Diagnostics report_finding(const World& world, const FindingOptions& options, co
     std::vector<std::string> names = options.names;
     std::ranges::transform(names, names.begin(), shell_word);
     std::string what = join(names, " ");
-    if (!subject.are_files && !permutations.empty()) {
+    if (!permutations.empty()) {
         error.subject =
             key_text(subject.family.family, subject.composition.permutations[permutations.front()].key);
-        what += fmt::format(" '{}'", error.subject);
+        if (!subject.are_files || !subject.family.family.features.empty())
+            what += fmt::format(" '{}'", error.subject);
     }
+    leave_out_keys(subject, diagnostics);
     if (!options.dialect.empty()) what += " --dialect " + options.dialect;
     for (const sanitize::Consequence& one : finding.consequences) {
         Diagnostic& note = diagnostics.emplace_back();

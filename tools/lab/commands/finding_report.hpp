@@ -23,6 +23,9 @@ struct Examined {
 [[nodiscard]] Result<Examined> load_examined(const World& world, const FindingOptions& options,
                                              const std::string& what);
 
+/// Where shader files without subroutine uniforms are all there is, no message names a key.
+void leave_out_keys(const Subject& subject, Diagnostics& diagnostics);
+
 /// A finding as an error with how to follow it, its example as an input file where -o says. `permutations`
 /// are those that have it, `message` is what it says.
 [[nodiscard]] Diagnostics report_finding(const World& world, const FindingOptions& options,

@@ -29,6 +29,7 @@ Result<Outcome> run(const ProveCommandOptions& options, const World& world) {
     const prove::ProveReport found = prove::prove(family, subject.composition, validated, wanted);
     Diagnostics diagnostics = validated.diagnostics;
     append(diagnostics, found.diagnostics);
+    leave_out_keys(subject, diagnostics);
     std::size_t number = 0;
     for (const prove::SourceOperation& operation : found.operations)
         for (const prove::ProvenRule& rule : operation.rules)

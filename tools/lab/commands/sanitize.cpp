@@ -68,8 +68,7 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     const auto found = sanitize::sanitize(family, subject.composition, validated, wanted);
     Diagnostics diagnostics = validated.diagnostics;
     append(diagnostics, found.diagnostics);
-    if (subject.are_files)
-        for (Diagnostic& diagnostic : diagnostics) diagnostic.subject.clear();
+    leave_out_keys(subject, diagnostics);
     for (std::size_t i = 0; i < found.findings.size(); ++i) {
         const sanitize::SharedFinding& shared = found.findings[i];
         append(diagnostics, report_finding(world, options, subject, shared.finding, shared.permutations,
