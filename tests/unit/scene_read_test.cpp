@@ -200,6 +200,24 @@ TEST(SceneReading, BufferFilesAreNamedRelativeToTheScene) {
     EXPECT_EQ(scene->files, (std::vector<std::string>{"rooms/quad.gltf", "rooms/my quad.bin"}));
 }
 
+TEST(SceneReading, WarnsOfConesThatTheSpecificationForbids) {
+    const auto warnings_of = [](const std::string& light) {
+        std::string text;
+        for (const Diagnostic& warning :
+             read_patched(put("/extensions/KHR_lights_punctual/lights/0", light)).warnings)
+            text += to_text(warning);
+        return text;
+    };
+    EXPECT_EQ(warnings_of(R"({"type": "spot"})"),
+              "quad.gltf: warning: extensions.KHR_lights_punctual.lights[0] is a spot light without 'spot'\n"
+              "  help: its cone reaches 45 degrees from its axis\n");
+    EXPECT_EQ(
+        warnings_of(R"({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}})"),
+        "quad.gltf: warning: extensions.KHR_lights_punctual.lights[0].spot must have innerConeAngle, 0.5, "
+        "below outerConeAngle, 0.5\n  help: its edge is hard\n");
+    EXPECT_EQ(warnings_of(R"({"type": "spot", "spot": {"innerConeAngle": 0.4, "outerConeAngle": 0.5}})"), "");
+}
+
 TEST(SceneReading, MissingNormalsAreComputedFlat) {
     const Scene scene = read_patched("[]");
     const Primitive& quad = scene.meshes[0].primitives[0];

@@ -175,6 +175,7 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     }
     const std::vector<Key> keys = scene::distinct_keys(report.keys);
     Outcome outcome;
+    outcome.diagnostics = scene.warnings;
     if (options.keys) {
         for (const Key& key : keys) outcome.output += key_text(family, key) + "\n";
         return outcome;
@@ -185,10 +186,11 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     for (const Permutation& permutation : composition.permutations) programs.insert(permutation.stages);
     report.distinct_programs = programs.size();
     report.compiled_stages = composition.stages.size();
-    outcome.diagnostics =
+    append(
+        outcome.diagnostics,
         validate(family, composition,
                  {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache})
-            .diagnostics;
+            .diagnostics);
     outcome.output = options.json ? scene_json(report) : scene_text(report);
     outcome.summary = scene::not_drawn_text(options.scene, draws, report.keys);
     return outcome;

@@ -79,6 +79,12 @@ void Value::throw_error(const std::string& message, std::string_view help) const
     throw gobo::fail(Fault::input, fmt::format("{} {}", path, message), std::string(help)).value();
 }
 
+Diagnostic Value::warning(const std::string& message, std::string_view help) const {
+    return {.severity = Severity::warning,
+            .message = fmt::format("{} {}", path, message),
+            .help = std::string(help)};
+}
+
 Value Value::object() const {
     static_cast<void>(is(&json::is_object, "an object"));
     return *this;

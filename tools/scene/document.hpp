@@ -53,6 +53,9 @@ struct Value {
         throw_error(fmt::format(message, std::forward<Args>(args)...), help);
     }
 
+    /// A warning of what is read all the same, without the file's name.
+    [[nodiscard]] Diagnostic warning(const std::string& message, std::string_view help) const;
+
     /// The value itself, if it is an object, and its `extras.gobo`. Other programs' extras may be of any
     /// type.
     [[nodiscard]] Value object() const;

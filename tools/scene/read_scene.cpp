@@ -69,9 +69,12 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 /// Angles are written in single precision as a rule: pi / 2 rounded up must pass.
 constexpr double kAngleSlack = 1e-6;
 
-void read_cone(const Value& value, Light& light) {
+void read_cone(const Value& value, Light& light, Diagnostics& warnings) {
     light.outer_angle = std::numbers::pi / 4;
     const Value cone = value["spot"];
+    if (!cone)
+        warnings.push_back(
+            value.warning("is a spot light without 'spot'", "its cone reaches 45 degrees from its axis"));
     const Range angles{0, kRightAngle + kAngleSlack};
     cone["innerConeAngle"].read(light.inner_angle, angles);
     cone["outerConeAngle"].read(light.outer_angle, angles);
@@ -79,10 +82,15 @@ void read_cone(const Value& value, Light& light) {
     if (light.inner_angle > light.outer_angle + kAngleSlack)
         cone["innerConeAngle"].fail("is {:g}, wider than outerConeAngle, {:g}", light.inner_angle,
                                     light.outer_angle);
+    if (light.inner_angle >= light.outer_angle)
+        warnings.push_back(
+            cone.warning(fmt::format("must have innerConeAngle, {:g}, below outerConeAngle, {:g}",
+                                     light.inner_angle, light.outer_angle),
+                         "its edge is hard"));
     light.inner_angle = std::min(light.inner_angle, light.outer_angle);
 }
 
-Light read_light(const Value& value) {
+Light read_light(const Value& value, Diagnostics& warnings) {
     Light light;
     value["name"].read(light.name);
     light.kind = static_cast<LightKind>(value["type"].choice({kLightKinds.begin(), kLightKinds.end()}));
@@ -92,7 +100,7 @@ Light read_light(const Value& value) {
     light.color *= intensity;
     value["range"].read(light.range);
     if (light.range <= 0) value["range"].fail("is {:g}, but must be above 0", light.range);
-    if (light.kind == LightKind::spot) read_cone(value, light);
+    if (light.kind == LightKind::spot) read_cone(value, light, warnings);
     const Value extras = value.gobo_extras();
     extras.only({"attenuation", "exponent", "shadow"});
     extras["attenuation"].read_color(light.attenuation);
@@ -226,7 +234,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path, Readi
         const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene);
         Accessors accessors(root, buffers);
         for (const Value& light : root["extensions"]["KHR_lights_punctual"]["lights"].objects())
-            scene.lights.push_back(read_light(light));
+            scene.lights.push_back(read_light(light, scene.warnings));
         read_cameras(root, scene);
         read_materials(root, accessors, files, scene);
         read_meshes(root, accessors, scene);
@@ -237,6 +245,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path, Readi
         if (wrong.front().place.file.empty()) wrong.front().place.file = path;
         return tl::unexpected(std::move(wrong));
     }
+    for (Diagnostic& warning : scene.warnings) warning.place.file = path;
     GOBO_TRY_DO(check_size(scene));
     return scene;
 }

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/diagnostic.hpp"
 #include "scene/picture.hpp"
 
 namespace gobo::scene {
@@ -248,6 +249,7 @@ struct Skin {
 struct Scene {
     std::string path;
     std::vector<std::string> files;  ///< every file read, the scene first
+    Diagnostics warnings;            ///< of what the specification forbids and can still be drawn
     std::vector<Node> nodes;
     std::vector<std::size_t> order;  ///< the nodes of the scene, parents before children
     std::vector<Mesh> meshes;

@@ -183,6 +183,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
     GOBO_TRY(const scene::Scene scene,
              scene::read_scene(world.disk, path, scene::reading_for(family.family)));
+    append(rendered.diagnostics, scene.warnings);
     auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const scene::SceneView view, view_of(scene, draws, options.camera, pictures.view));
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));

@@ -29,28 +29,19 @@ void upload(GlResources& resources, GLuint location, const AttributeValues& valu
     gl.EnableVertexAttribArray(location);
 }
 
-constexpr GLint kCornersOfPatch = 3;
-
-/// As what the triangles of a mesh are drawn, so that the program's first stage behind the vertex stage takes
-/// them.
-Result<GLenum> primitive_of(const GladGLContext& gl, const Program& program, const Interface& interface) {
+/// As what a mesh is drawn, so that the program's first stage behind the vertex stage takes it.
+Primitive primitive_of(const GladGLContext& gl, const Program& program, const Interface& interface) {
     const auto has = [&](StageKind kind) { return std::ranges::count(interface.stages, name_of(kind)) > 0; };
     const auto number = [&](GLenum name) {
         GLint value = 0;
         gl.GetProgramiv(program.id(), name, &value);
         return value;
     };
-    if (has(StageKind::tess_evaluation)) {
-        const bool takes_three =
-            !has(StageKind::tess_control) || number(GL_TESS_CONTROL_OUTPUT_VERTICES) == kCornersOfPatch;
-        if (takes_three && number(GL_TESS_GEN_MODE) == GL_TRIANGLES) return GL_PATCHES;
-        return fail(Fault::input, "the renderer draws patches of three vertices, these stages take others",
-                    "it can draw layout(triangles) behind layout(vertices = 3)");
-    }
-    const GLint taken = has(StageKind::geometry) ? number(GL_GEOMETRY_INPUT_TYPE) : GL_TRIANGLES;
-    if (taken == GL_TRIANGLES || taken == GL_POINTS) return static_cast<GLenum>(taken);
-    return fail(Fault::input, "the renderer draws triangles or points, the geometry stage takes others",
-                "it can draw layout(triangles) in and layout(points) in");
+    if (!has(StageKind::tess_evaluation))
+        return {has(StageKind::geometry) ? static_cast<GLenum>(number(GL_GEOMETRY_INPUT_TYPE))
+                                         : GL_TRIANGLES};
+    if (has(StageKind::tess_control)) return {GL_PATCHES, number(GL_TESS_CONTROL_OUTPUT_VERTICES)};
+    return {GL_PATCHES, number(GL_TESS_GEN_MODE) == GL_TRIANGLES ? 3 : 4};
 }
 
 }  // namespace
@@ -141,7 +132,7 @@ void DrawList::draw() const {
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);
     gl.UseProgram(program_.id());
-    if (primitive_ == GL_PATCHES) gl.PatchParameteri(GL_PATCH_VERTICES, kCornersOfPatch);
+    if (primitive_.mode == GL_PATCHES) gl.PatchParameteri(GL_PATCH_VERTICES, primitive_.corners_of_patch);
     for (const Unit& unit : units_) {
         gl.ActiveTexture(GL_TEXTURE0 + unit.unit);
         gl.BindTexture(unit.texture.target, unit.texture.name);
@@ -160,7 +151,7 @@ void DrawList::draw() const {
             gl.CullFace(item.culled);
         }
         gl.BindVertexArray(item.array);
-        gl.DrawElements(primitive_, item.indices, GL_UNSIGNED_INT, nullptr);
+        gl.DrawElements(primitive_.mode, item.indices, GL_UNSIGNED_INT, nullptr);
     }
     gl.Disable(GL_CULL_FACE);
     gl.BindVertexArray(0);
@@ -171,10 +162,9 @@ Result<DrawList> make_draw_list(const Context& context, const Program& program, 
                                 const std::vector<Object>& objects, const std::vector<RenderValue>& values,
                                 const ViewedObject& view, const GivenTextures& textures) {
     context.make_current();
-    const GladGLContext& gl = context.gl();
     GOBO_TRY_DO(check_textures(interface, values));
     DrawList list(context, program);
-    GOBO_TRY(list.primitive_, primitive_of(gl, program, interface));
+    list.primitive_ = primitive_of(context.gl(), program, interface);
     list.add_textures(interface, values, textures);
     for (const Object& object : objects) GOBO_TRY_DO(list.add(interface, object, values, view));
     return list;

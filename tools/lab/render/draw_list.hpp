@@ -22,6 +22,12 @@ struct Object {
     [[nodiscard]] bool is_mirrored() const;
 };
 
+/// As what the corners of a mesh's triangles are drawn: in their order, as many at a time as it takes.
+struct Primitive {
+    GLenum mode = GL_TRIANGLES;
+    GLint corners_of_patch = 0;  ///< of GL_PATCHES
+};
+
 /// Objects with their vertex arrays, filled uniform buffers and textures.
 class DrawList {
   public:
@@ -68,7 +74,7 @@ class DrawList {
 
     GlResources resources_;
     Program program_;
-    GLenum primitive_ = GL_TRIANGLES;  ///< as which the triangles of a mesh are drawn
+    Primitive primitive_;
     std::vector<Item> items_;
     std::vector<Unit> units_;
     Diagnostics warnings_;
@@ -76,8 +82,9 @@ class DrawList {
 
 /// Uploads the objects. Samplers that `textures` names get those, others what `values` say. `values` are the
 /// family's, an object's own come after them; `view` is the camera's part (its model matrix is replaced by
-/// each object's). Errors as of resolve_uniforms(), unknown attribute or texture sources, and geometry and
-/// tessellation stages that take something else than triangles, patches of three vertices or points.
+/// each object's). Patches have as many corners as the tessellation control stage makes; without one, three
+/// for triangles and four for quads and lines. Errors as of resolve_uniforms(), and unknown attribute or
+/// texture sources.
 [[nodiscard]] Result<DrawList> make_draw_list(const Context& context, const Program& program,
                                               const Interface& interface, const std::vector<Object>& objects,
                                               const std::vector<RenderValue>& values,

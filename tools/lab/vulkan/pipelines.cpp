@@ -15,22 +15,41 @@ bool has_stage(const std::vector<StageModule>& stages, StageKind kind) {
                        [&](const StageModule& stage) { return stage.kind == kind; });
 }
 
-/// As what the triangles of a mesh are drawn.
-Result<VkPrimitiveTopology> topology_of(const std::vector<StageModule>& stages) {
-    if (has_stage(stages, StageKind::tess_evaluation)) return VK_PRIMITIVE_TOPOLOGY_PATCH_LIST;
+VkPrimitiveTopology topology_of(std::uint32_t mode) {
+    switch (mode) {
+        case spv::ExecutionModeInputPoints:
+            return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+        case spv::ExecutionModeInputLines:
+            return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+        case spv::ExecutionModeInputLinesAdjacency:
+            return VK_PRIMITIVE_TOPOLOGY_LINE_LIST_WITH_ADJACENCY;
+        case spv::ExecutionModeInputTrianglesAdjacency:
+            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY;
+        default:
+            return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    }
+}
+
+/// Patches have as many corners as the tessellation control stage makes.
+Result<Primitive> primitive_of(const std::vector<StageModule>& stages) {
+    Primitive primitive;
     for (const StageModule& stage : stages) {
-        if (stage.kind != StageKind::geometry) continue;
+        if (stage.kind != StageKind::geometry && stage.kind != StageKind::tess_control) continue;
         GOBO_TRY(const spirv::Module module, spirv::read_module(stage.words));
         for (const spirv::Instruction& instruction : module.instructions) {
             if (instruction.opcode != spv::OpExecutionMode) continue;
-            const auto mode = instruction.as<spv::ExecutionMode>(2);
-            if (mode == spv::ExecutionModeInputPoints) return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-            if (mode == spv::ExecutionModeTriangles) return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+            const std::uint32_t mode = instruction.word(2);
+            if (stage.kind == StageKind::tess_control) {
+                if (mode == spv::ExecutionModeOutputVertices)
+                    primitive.corners_of_patch = instruction.word(3);
+            } else if (const VkPrimitiveTopology taken = topology_of(mode);
+                       taken != VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST) {
+                primitive.topology = taken;
+            }
         }
-        return fail(Fault::input, "the renderer draws triangles or points, the geometry stage takes others",
-                    "it can draw layout(triangles) in and layout(points) in");
     }
-    return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    if (has_stage(stages, StageKind::tess_evaluation)) primitive.topology = VK_PRIMITIVE_TOPOLOGY_PATCH_LIST;
+    return primitive;
 }
 
 /// A vertex stage that does nothing.
@@ -67,13 +86,14 @@ constexpr std::array<std::uint32_t, 29> kNothing = {spv::MagicNumber,
 }  // namespace
 
 bool Pipelines::draws_triangles() const {
-    return topology_ == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST && !has_stage(stages_, StageKind::geometry);
+    return primitive_.topology == VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST &&
+           !has_stage(stages_, StageKind::geometry);
 }
 
 Result<void> Pipelines::make(VkPipelineLayout layout) {
     const Functions& vk = resources_.state().vk;
     layout_ = layout;
-    GOBO_TRY(topology_, topology_of(stages_));
+    GOBO_TRY(primitive_, primitive_of(stages_));
     constants_.resize(stages_.size());
     for (std::size_t i = 0; i < stages_.size(); ++i) {
         Constants& own = constants_[i];
@@ -147,10 +167,10 @@ Result<VkPipeline> Pipelines::make_pipeline(VkCullModeFlags culled, const std::v
     inputs.pVertexAttributeDescriptions = attributes.data();
     auto assembly = made<VkPipelineInputAssemblyStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
-    assembly.topology = draws_nothing ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : topology_;
+    assembly.topology = draws_nothing ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : primitive_.topology;
     auto tessellation = made<VkPipelineTessellationStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO);
-    tessellation.patchControlPoints = 3;
+    tessellation.patchControlPoints = primitive_.corners_of_patch;
     const VkViewport area{
         0, 0, static_cast<float>(target_.extent.width), static_cast<float>(target_.extent.height), 0, 1};
     const VkRect2D scissor{{0, 0}, target_.extent};

@@ -23,13 +23,18 @@ struct AttributeBuffer {
     VkBuffer buffer = VK_NULL_HANDLE;
 };
 
+/// As what the corners of a mesh's triangles are drawn: in their order, as many at a time as it takes.
+struct Primitive {
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    std::uint32_t corners_of_patch = 3;
+};
+
 class Pipelines {
   public:
     Pipelines(Resources& resources, const std::vector<StageModule>& stages, const Target& target,
               DepthBias bias)
         : resources_(resources), stages_(stages), target_(target), bias_(bias) {}
 
-    /// Fault::input for stages that take neither triangles nor points.
     Result<void> make(VkPipelineLayout layout);
     /// The pipeline for an object; made where none is alike.
     [[nodiscard]] Result<VkPipeline> of(VkCullModeFlags culled,
@@ -56,7 +61,7 @@ class Pipelines {
     const std::vector<StageModule>& stages_;
     const Target& target_;
     DepthBias bias_;
-    VkPrimitiveTopology topology_ = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    Primitive primitive_;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     std::vector<Constants> constants_;
     std::vector<VkPipelineShaderStageCreateInfo> infos_;
