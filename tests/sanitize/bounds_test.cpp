@@ -64,6 +64,17 @@ TEST(DepthPromise, IsKeptWhereDenormalNumbersAreFlushed) {
     EXPECT_EQ(found_lines(sanitized_text("depth.frag", unchanged, {}, {denormal})), Lines{});
 }
 
+TEST(DepthPromise, IsNamedWhereItIsBroken) {
+    for (const std::string promise : {"depth_less", "depth_unchanged"})
+        EXPECT_EQ(
+            found_lines(sanitized_text("depth.frag",
+                                       "#version 450\nin float push;\nlayout(" + promise +
+                                           ") out float gl_FragDepth;\nvoid main() {\n"
+                                           "gl_FragDepth = clamp(gl_FragCoord.z + push, 0.0, 1.0);\n}\n",
+                                       {}, {})),
+            Lines{"5: the output 'gl_FragDepth' breaks " + promise});
+}
+
 /// A piece of `lit` with a fault that traps nowhere.
 struct Fault {
     std::string name;
@@ -91,7 +102,7 @@ const Fault kFaults[] = {
      "'gl_FragDepth' is above what its inputs allow"},
     {"depth_promise_broken", "depth=greater", "depth/greater.glsl",
      "depthOffset.offset > 0.0 ? depthOffset.offset : 0.0", "depthOffset.offset",
-     "'gl_FragDepth' is below what its inputs allow"},
+     "'gl_FragDepth' breaks depth_greater"},
 };
 
 class FaultyLit : public testing::TestWithParam<Fault> {};

@@ -135,5 +135,14 @@ std::string row_name(const testing::TestParamInfo<Row>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Undefined, testing::ValuesIn(kRows), row_name);
 
+/// A stage whose main() does nothing has no operation to be watched.
+TEST(UndefinedOutputs, OfAnEmptyStageAreFound) {
+    const sanitize::SanitizeReport report =
+        sanitized_text("empty.frag", "#version 450\nout vec4 color;\nvoid main() {}\n", {});
+    EXPECT_EQ(found_lines(report), Lines{"0: the output 'color' is never written"});
+    EXPECT_EQ(report.findings.front().finding.place.file, "empty.frag");
+    EXPECT_EQ(report.findings.front().finding.points, report.points);
+}
+
 }  // namespace
 }  // namespace gobo

@@ -6,5 +6,5 @@ layout(depth_greater) out float gl_FragDepth;
 
 void main() {
     color = vec4(1.0);
-    gl_FragDepth = clamp(gl_FragCoord.z + offset, 0.0, 1.0);  // trap: the output 'gl_FragDepth' is below what its inputs allow
+    gl_FragDepth = clamp(gl_FragCoord.z + offset, 0.0, 1.0);  // trap: the output 'gl_FragDepth' breaks depth_greater
 }

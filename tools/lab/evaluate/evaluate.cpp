@@ -128,6 +128,7 @@ class Evaluation {
         : program_(program),
           invocations_(invocations),
           options_(options),
+          observer_(observer),
           registers_(program, invocations.images),
           scheduler_(program, registers_, options, observer) {}
 
@@ -178,6 +179,7 @@ class Evaluation {
         for (const Port& port : program_.uniforms)
             if (port.is_written) std::fill_n(registers_.ints(port.slot), port.components * kLanes, Int<T>{0});
         registers_.first_invocation = first;
+        if (observer_ != nullptr) observer_->begins(first);
         registers_.callers_lanes = lanes_where([&](std::size_t lane) {
             const std::size_t at = first + lane;
             return at < invocations_.count &&
@@ -239,6 +241,7 @@ class Evaluation {
     const Program& program_;
     const Invocations& invocations_;
     const Options& options_;
+    Observer<T>* observer_;
     Registers<T> registers_;
     Scheduler<T> scheduler_;
     Outputs outputs_;

@@ -169,6 +169,8 @@ class Observer {
     Observer(const Observer&) = delete;
     Observer& operator=(const Observer&) = delete;
     virtual ~Observer() = default;
+    /// A batch of invocations, which may have no steps.
+    virtual void begins(std::size_t /*first_invocation*/) {}
     /// Operands stand ready; the result does not.
     virtual void before(const Step<T>& /*step*/) {}
     virtual void after(const Step<T>& /*step*/) {}

@@ -183,6 +183,7 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
 }
 
 void OutputBounds::keep_promise(double own_depth, Interval& depth) const {
+    depth.promise = promise_;
     // A machine that flushes denormal numbers reads 0 for one.
     const double seen = own_depth < std::numeric_limits<float>::min() ? 0 : own_depth;
     if (promise_ == DepthPromise::greater || promise_ == DepthPromise::unchanged) depth.low = seen;

@@ -27,6 +27,7 @@ enum class DepthPromise { none, greater, less, unchanged };
 struct Interval {
     double low = -static_cast<double>(std::numeric_limits<float>::max());
     double high = static_cast<double>(std::numeric_limits<float>::max());
+    DepthPromise promise = DepthPromise::none;  ///< which made gl_FragCoord.z one of the ends, or both
 };
 
 /// Every output is finite. A fragment stage's stay within the domain that the family declares for them by

@@ -141,8 +141,17 @@ class TrapObserver final : public evaluate::Observer<float> {
         }
     }
 
+    void begins(std::size_t first_invocation) override {
+        finish();
+        is_in_batch_ = true;
+        batch_ = first_invocation;
+        callers_lanes_ = 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (batch_ + lane < run_.invocations.count) callers_lanes_ |= Lanes{1} << lane;
+        taint_.begin();
+    }
+
     void after(const Step& step) override {
-        if (!is_in_batch_ || step.first_invocation != batch_) begin_batch(step.first_invocation);
         const Watch& watch = watches_[step.operation];
         hits_.clear();
         if (watch.has_silent || watch.makes_floats) judge(step, watch);
@@ -160,7 +169,6 @@ class TrapObserver final : public evaluate::Observer<float> {
     }
 
     void clamped(const Step& step, std::size_t lane, std::int64_t index, std::uint32_t extent) override {
-        if (!is_in_batch_ || step.first_invocation != batch_) begin_batch(step.first_invocation);
         const Lanes lanes = Lanes{1} << lane;
         mark_trapped(lanes);
         constexpr std::string_view kMessage = "array index out of bounds";
@@ -175,7 +183,6 @@ class TrapObserver final : public evaluate::Observer<float> {
 
     bool gives_up(const evaluate::Block& loop, Lanes lanes, std::size_t first_invocation) override {
         if (lanes == 0) return true;
-        if (!is_in_batch_ || first_invocation != batch_) begin_batch(first_invocation);
         mark_trapped(lanes);
         // Numbered behind what reach() tells of.
         const evaluate::Program& program = run_.program;
@@ -190,16 +197,14 @@ class TrapObserver final : public evaluate::Observer<float> {
 
     void ends(const evaluate::Block& block, Lanes lanes) override {
         using End = evaluate::Block::End;
-        if (!is_in_batch_ || (block.end != End::branch && block.end != End::select)) return;
+        if (block.end != End::branch && block.end != End::select) return;
         const Lanes undefined = taint_.lanes_of(block.condition, 1) & lanes;
         for (std::size_t lane = 0; lane < kLanes && undefined != 0; ++lane)
             if ((undefined >> lane & 1U) != 0)
                 reach(taint_.cause_of(block.condition, 1, lane), lane, block.place);
     }
 
-    void copied(const Operation& copy, Lanes lanes) override {
-        if (is_in_batch_) taint_.copied(copy, lanes);
-    }
+    void copied(const Operation& copy, Lanes lanes) override { taint_.copied(copy, lanes); }
 
     /// To be called when the run is over.
     void finish() {
@@ -252,16 +257,6 @@ class TrapObserver final : public evaluate::Observer<float> {
     [[nodiscard]] static bool is_marked(const std::vector<Lanes>& batches, std::size_t invocation) {
         const std::size_t batch = invocation / kLanes;
         return batch < batches.size() && (batches[batch] >> invocation % kLanes & 1U) != 0;
-    }
-
-    void begin_batch(std::size_t first_invocation) {
-        finish();
-        is_in_batch_ = true;
-        batch_ = first_invocation;
-        callers_lanes_ = 0;
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (batch_ + lane < run_.invocations.count) callers_lanes_ |= Lanes{1} << lane;
-        taint_.begin();
     }
 
     void judge(const Step& step, const Watch& watch) {
@@ -476,6 +471,20 @@ std::string_view fault_of(double value, const Interval& bounds) {
     return {};
 }
 
+/// What a value outside of its bounds breaks, as GLSL spells it; nothing where it is no promise.
+std::string_view broken_promise(double value, const Interval& bounds) {
+    switch (bounds.promise) {
+        case DepthPromise::greater:
+            return value < bounds.low ? "depth_greater" : "";
+        case DepthPromise::less:
+            return value > bounds.high ? "depth_less" : "";
+        case DepthPromise::unchanged:
+            return "depth_unchanged";
+        default:
+            return "";
+    }
+}
+
 /// Findings about outputs, each at the first invocation that showed it.
 struct OutputFindings {
     const Run& run;
@@ -496,10 +505,12 @@ void add_unwritten(const evaluate::Outputs& outputs, const TrapObserver& observe
     for (const UndefinedOutput& unwritten : observer.undefined_outputs()) {
         const evaluate::Port& port = findings.run.program.outputs[unwritten.output];
         if (!unwritten.is_unwritten || !must_be_written(findings.run.program, port)) continue;
+        const bool is_stored = last_store(findings.run.program, port).has_value();
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const std::size_t index = unwritten.first_invocation + lane;
             if ((unwritten.lanes >> lane & 1U) != 0 && index < outputs.count && !outputs.discarded[index])
-                findings.add(port, "is not written on some path", index).machine = Machine::ieee;
+                findings.add(port, is_stored ? "is not written on some path" : "is never written", index)
+                    .machine = Machine::ieee;
         }
     }
 }
@@ -517,10 +528,17 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
                 const Interval& bounds = all[i * components + component];
                 if (value >= bounds.low && value <= bounds.high) continue;
                 if (outputs.discarded[i] || observer.trapped(i)) continue;
-                Finding& finding = findings.add(
-                    port, fault_of(value, bounds), i,
-                    fmt::format("{} is not within [{}, {}]", static_cast<float>(value),
-                                static_cast<float>(bounds.low), static_cast<float>(bounds.high)));
+                const auto low = static_cast<float>(bounds.low);
+                const auto high = static_cast<float>(bounds.high);
+                const std::string_view promise = broken_promise(value, bounds);
+                Finding& finding =
+                    promise.empty()
+                        ? findings.add(
+                              port, fault_of(value, bounds), i,
+                              fmt::format("{} is not within [{}, {}]", static_cast<float>(value), low, high))
+                        : findings.add(port, fmt::format("breaks {}", promise), i,
+                                       fmt::format("{} where gl_FragCoord.z is {}", static_cast<float>(value),
+                                                   value < bounds.low ? low : high));
                 finding.follows_from_constants = observer.is_of_constants(i);
             }
     }

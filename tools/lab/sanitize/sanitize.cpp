@@ -200,13 +200,15 @@ std::vector<Finding> findings_of_constants(const Composition& composition, const
     return findings;
 }
 
-/// What stages share is reported once.
-void add(SanitizeReport& report, const StageSearch& search, std::size_t stage,
+/// What stages share is reported once. What has no line of its own is the template's.
+void add(SanitizeReport& report, const StageSearch& search, const Composition& composition, std::size_t stage,
          const std::vector<std::size_t>& permutations) {
     report.points += search.points();
-    for (const auto& [signature, finding] : search.findings()) {
+    for (auto [signature, finding] : search.findings()) {
+        if (finding.place.file.empty())
+            finding.place.file = composition.piece(composition.stages[stage].pieces.back()).path;
         const auto shared = std::find_if(report.findings.begin(), report.findings.end(),
-                                         [&, known = signature](const SharedFinding& other) {
+                                         [known = signature_of(finding)](const SharedFinding& other) {
                                              return signature_of(other.finding) == known;
                                          });
         if (shared == report.findings.end()) {
@@ -271,7 +273,7 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
                 error.subject = key_text(family, composition.permutations[permutations.front()].key);
             report.diagnostics.push_back(std::move(error));
         }
-        add(report, *stages[i], i, permutations);
+        add(report, *stages[i], composition, i, permutations);
     }
     parallel_for(options.jobs, stages.size(), [&](std::size_t stage) {
         for (SharedFinding& shared : report.findings)
