@@ -26,25 +26,21 @@ struct SeenLight {
     glm::vec3 shines_along;
 };
 
-void fill(const SeenLight& seen, lit::DirectionalLight& to) {
-    to.direction = -seen.shines_along;
+/// Fills the members that the kind of light has.
+template <class Light>
+void fill(const SeenLight& seen, Light& to) {
     to.color = glm::vec3(seen.light.color);
-}
-
-void fill(const SeenLight& seen, lit::PointLight& to) {
-    to.position = seen.position;
-    to.color = glm::vec3(seen.light.color);
-    to.attenuation = glm::vec3(seen.light.attenuation);
-}
-
-void fill(const SeenLight& seen, lit::SpotLight& to) {
-    to.position = seen.position;
-    to.color = glm::vec3(seen.light.color);
-    to.attenuation = glm::vec3(seen.light.attenuation);
-    to.exponent = static_cast<float>(seen.light.exponent);
-    to.innerOneMinusCosine = one_minus_cosine(seen.light.inner_angle);
-    to.outerOneMinusCosine = one_minus_cosine(seen.light.outer_angle);
-    to.axis = seen.shines_along;
+    if constexpr (requires { to.direction; }) to.direction = -seen.shines_along;
+    if constexpr (requires { to.position; }) {
+        to.position = seen.position;
+        to.attenuation = glm::vec3(seen.light.attenuation);
+    }
+    if constexpr (requires { to.axis; }) {
+        to.exponent = static_cast<float>(seen.light.exponent);
+        to.innerOneMinusCosine = one_minus_cosine(seen.light.inner_angle);
+        to.outerOneMinusCosine = one_minus_cosine(seen.light.outer_angle);
+        to.axis = seen.shines_along;
+    }
 }
 
 /// Fills the next free element, if there is one.
@@ -60,9 +56,10 @@ glm::vec3 unit_or_zero(const glm::dvec3& vector) {
 
 }  // namespace
 
-LightBlocks light_blocks(const Stage& stage, const StageDraw& draw, const glm::dmat4& view) {
+template <class Blocks>
+Blocks light_blocks(const Stage& stage, const StageDraw& draw, const glm::dmat4& view) {
     const std::vector<PlacedLight> lights = gobo::scene::place_lights(stage.scene);
-    LightBlocks blocks;
+    Blocks blocks;
     std::size_t directional = 0;
     std::size_t point = 0;
     std::size_t spot = 0;
@@ -77,5 +74,8 @@ LightBlocks light_blocks(const Stage& stage, const StageDraw& draw, const glm::d
     }
     return blocks;
 }
+
+template ClassicLights light_blocks(const Stage&, const StageDraw&, const glm::dmat4&);
+template PhysicalLights light_blocks(const Stage&, const StageDraw&, const glm::dmat4&);
 
 }  // namespace viewer

@@ -1,4 +1,4 @@
-// viewer SCENE.gltf: shows a scene, each draw with the permutation of lit that it needs.
+// viewer SCENE.gltf: shows a scene, each draw with the permutation that it needs.
 #include <fmt/format.h>
 
 #include "headless.hpp"
@@ -14,7 +14,9 @@ int leave(const gobo::Diagnostics& diagnostics) {
 
 int run(const Options& options) {
     const gobo::DiskFileSystem disk;
-    const gobo::Result<Stage> stage = read_stage(disk, options.scene);
+    const gobo::Result<Stage> stage =
+        read_stage(disk, options.scene,
+                   options.family == "pbr" ? gobo::scene::Reading::physical : gobo::scene::Reading::classic);
     if (!stage) return leave(stage.error());
     gobo::KeyRecord record(options.record);
     const gobo::Result<void> shown =

@@ -1,7 +1,9 @@
 #include "renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,6 +12,7 @@
 #include <gobo/gl.hpp>
 
 #include "lab/render/camera.hpp"
+#include "lab/render/texture.hpp"
 #include "light_blocks.hpp"
 
 namespace viewer {
@@ -35,6 +38,8 @@ void add_attribute(const GladGLContext& gl, int location, const std::vector<Vect
     gl.VertexAttribPointer(static_cast<GLuint>(location), Vector::length(), GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
+/// `pbr` shares pieces with `lit`, and with them the blocks Transform, Ambient, Hemisphere, Harmonics and
+/// Fog.
 lit::Transform transform_block(const glm::dmat4& model_view, const glm::dmat4& projection) {
     lit::Transform transform{};
     transform.modelView = glm::mat4(model_view);
@@ -62,7 +67,8 @@ lit::Harmonics harmonics_block(const gobo::scene::Probe& probe, const glm::dmat4
 }
 
 /// Whether the texts are those that the header has.
-bool is_as_built(const gobo::ReloadedProgram& program, const lit::Permutation& permutation) {
+template <class Permutation>
+bool is_as_built(const gobo::ReloadedProgram& program, const Permutation& permutation) {
     bool is_same = true;
     gobo::runtime::for_each_stage(permutation, [&](gobo::runtime::StageKind kind, const auto& stage) {
         const auto other = std::find_if(program.stages.begin(), program.stages.end(),
@@ -76,8 +82,9 @@ bool is_as_built(const gobo::ReloadedProgram& program, const lit::Permutation& p
 
 Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record,
                    const std::string& reload)
-    : gl_(gl), stage_(stage), size_(size), record_(record), reload_(reload) {
+    : gl_(gl), stage_(stage), size_(size), record_(record), reload_(reload), textures_(gl) {
     make_framebuffer();
+    if (stage.scene.is_physical) make_environment();
     for (const StageDraw& draw : stage.draws) {
         upload(draw.mesh);
         for (const std::string& effect : draw.not_drawn)
@@ -98,6 +105,13 @@ void Renderer::make_framebuffer() {
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
 }
 
+void Renderer::make_environment() {
+    const gobo::Result<EnvironmentMaps> maps = studio_maps();
+    if (!maps) return complain("studio", "there is no studio: " + maps.error().front().message);
+    diffuse_map_ = textures_.of(maps->diffuse);
+    specular_map_ = textures_.of(maps->specular);
+}
+
 void Renderer::upload(const gobo::Mesh& mesh) {
     Vertices vertices;
     vertices.count = static_cast<GLsizei>(mesh.indices.size());
@@ -106,6 +120,9 @@ void Renderer::upload(const gobo::Mesh& mesh) {
     add_attribute(gl_, lit::attribute::position, mesh.positions);
     add_attribute(gl_, lit::attribute::normal, mesh.normals);
     add_attribute(gl_, lit::attribute::color, mesh.colors);
+    add_attribute(gl_, pbr::attribute::texcoord, mesh.texcoords);
+    add_attribute(gl_, pbr::attribute::texcoord1, mesh.texcoords1);
+    add_attribute(gl_, pbr::attribute::tangent, mesh.tangents);
     buffer_of(gl_, GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
     vertices_.push_back(vertices);
 }
@@ -122,24 +139,34 @@ void Renderer::complain(const std::string& key, const std::string& why) {
     if (complained_.insert(key).second) complaints_.push_back(why);
 }
 
-GLuint Renderer::program_of(const lit::Key& key) {
-    const std::string text = lit::key_text(key);
-    const lit::Permutation* permutation = lit::find(key);
+template <class Key>
+GLuint Renderer::program_of(const Key& key) {
+    const std::string text = key_text(key);
+    const auto* const permutation = find(key);
     if (permutation == nullptr) {
         record_.note(text);
-        complain(text, lit::describe_missing(key));
+        complain(text, describe_missing(key));
         return 0;
     }
     keys_.insert(text);
-    const auto known = programs_.find(permutation);
-    if (known != programs_.end()) return known->second;
+    Built& built = programs_[permutation];
+    if (built.build) return built.id;
+    built.key = text;
+    built.build = [this, permutation](const gobo::ReloadedProgram* texts) {
+        const gobo::gl::Program program = texts != nullptr
+                                              ? gobo::gl::build_program(*permutation, texts->stages, gl_)
+                                              : gobo::gl::build_program(*permutation, gl_);
+        return std::pair(GLuint{program.id}, program.error);
+    };
+    built.is_as_built = [permutation](const gobo::ReloadedProgram& texts) {
+        return viewer::is_as_built(texts, *permutation);
+    };
     const auto reloaded = reloaded_.find(text);
-    gobo::gl::Program program;
-    if (reloaded != reloaded_.end())
-        program = gobo::gl::build_program(*permutation, reloaded->second.stages, gl_);
-    if (!program) program = gobo::gl::build_program(*permutation, gl_);
-    if (!program) complain(text, program.error);
-    return programs_[permutation] = program.id;
+    if (reloaded != reloaded_.end()) built.id = built.build(&reloaded->second).first;
+    std::string error;
+    if (built.id == 0) std::tie(built.id, error) = built.build(nullptr);
+    if (built.id == 0) complain(text, error);
+    return built.id;
 }
 
 std::string Renderer::take_changes() {
@@ -147,16 +174,15 @@ std::string Renderer::take_changes() {
     reload_.take([&](const gobo::ReloadedProgram& program) {
         const bool is_first = reloaded_.find(program.key) == reloaded_.end();
         reloaded_[program.key] = program;
-        for (auto& [permutation, id] : programs_) {
-            if (lit::key_text(permutation->key()) != program.key) continue;
-            if (is_first && is_as_built(program, *permutation)) continue;
-            const gobo::gl::Program rebuilt = gobo::gl::build_program(*permutation, program.stages, gl_);
-            if (!rebuilt) {  // the old one stays
-                complaints_.push_back(program.key + ": " + rebuilt.error);
+        for (auto& [permutation, built] : programs_) {
+            if (built.key != program.key || (is_first && built.is_as_built(program))) continue;
+            const auto [id, error] = built.build(&program);
+            if (id == 0) {  // the old one stays
+                complaints_.push_back(program.key + ": " + error);
                 continue;
             }
-            gl_.DeleteProgram(id);
-            id = rebuilt.id;
+            gl_.DeleteProgram(built.id);
+            built.id = id;
             ++changed;
         }
     });
@@ -169,22 +195,71 @@ std::string Renderer::take_changes() {
     return is_new_error ? (errors.empty() ? "errors are mended" : "errors") : "";
 }
 
-void Renderer::draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
-                    const glm::dmat4& projection) {
-    const StageDraw& draw = stage_.draws[number];
-    const GLuint program = program_of(lit::select(under(draw.state, settings)));
-    if (program == 0) return;
-    const LightBlocks lights = light_blocks(stage_, draw, view);
-    set(transform_block(view * draw.model, projection));
+void Renderer::set_classic(const StageDraw& draw, const glm::dmat4& view) {
+    const auto lights = light_blocks<ClassicLights>(stage_, draw, view);
     set(draw.material);
-    set(lit::Ambient{glm::vec3(stage_.scene.ambient), {}});
-    set(hemisphere_block(draw.probe, view));
-    set(harmonics_block(draw.probe, view));
+    set(draw.toon);
     set(lights.directional);
     set(lights.point);
     set(lights.spot);
+}
+
+void Renderer::set_physical(const StageDraw& draw, const glm::dmat4& view) {
+    const PhysicalDraw& physical = *draw.physical;
+    const auto lights = light_blocks<PhysicalLights>(stage_, draw, view);
+    const glm::mat3 to_world(glm::transpose(glm::dmat3(view)));
+    pbr::ImageLight image_light{};
+    image_light.color = glm::vec3(stage_.scene.ambient);
+    image_light.weight = static_cast<float>(draw.probe.share);
+    image_light.toMap = to_world;
+    pbr::Reflection reflection{};
+    reflection.toMap = to_world;
+    reflection.weight = physical.mirrored;
+    reflection.roughestLevel = static_cast<float>(gobo::kRoughnessLevels - 1);
+    set(physical.material);
+    set(physical.iridescence);
+    set(physical.placements);
+    set(physical.cutout);
+    set(image_light);
+    set(reflection);
+    set(lights.directional);
+    set(lights.point);
+    set(lights.spot);
+    const auto bind = [&](int unit, GLenum target, GLuint texture) {
+        gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        gl_.BindTexture(target, texture);
+    };
+    bind(pbr::sampler::diffuseMap, GL_TEXTURE_CUBE_MAP, diffuse_map_);
+    bind(pbr::sampler::specularMap, GL_TEXTURE_CUBE_MAP, specular_map_);
+    constexpr std::array<int, gobo::scene::kMapFeatures.size()> units = {
+        pbr::sampler::baseColorMap, pbr::sampler::metallicRoughnessMap, pbr::sampler::normalMap,
+        pbr::sampler::occlusionMap, pbr::sampler::emissiveMap};
+    for (std::size_t map = 0; map < units.size(); ++map) {
+        const auto& use = physical.maps[map];
+        if (!use) continue;
+        const auto kind = static_cast<gobo::scene::MapKind>(map);
+        const bool is_color =
+            kind == gobo::scene::MapKind::base_color || kind == gobo::scene::MapKind::emissive;
+        const GLuint texture = textures_.of(stage_.scene.pictures[use->picture], *use, is_color);
+        bind(units[map], GL_TEXTURE_2D, texture);
+    }
+}
+
+void Renderer::draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
+                    const glm::dmat4& projection) {
+    const StageDraw& draw = stage_.draws[number];
+    const GLuint program = draw.physical ? program_of(pbr::select(under(draw.physical->state, settings)))
+                                         : program_of(lit::select(under(draw.state, settings)));
+    if (program == 0) return;
+    set(transform_block(view * draw.model, projection));
+    set(lit::Ambient{glm::vec3(stage_.scene.ambient), {}});
+    set(hemisphere_block(draw.probe, view));
+    set(harmonics_block(draw.probe, view));
     set(draw.fog);
-    set(draw.toon);
+    if (draw.physical)
+        set_physical(draw, view);
+    else
+        set_classic(draw, view);
     const bool is_mirrored = glm::determinant(glm::dmat3(draw.model)) < 0;
     if (draw.double_sided)
         gl_.Disable(GL_CULL_FACE);
@@ -204,8 +279,23 @@ void Renderer::draw(const Settings& settings, const Orbit& orbit) {
     gl_.ClearColor(background[0], background[1], background[2], background[3]);
     gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl_.Enable(GL_DEPTH_TEST);
-    for (std::size_t i = 0; i < stage_.draws.size(); ++i)
-        draw(i, settings, orbit.view(), orbit.start.projection);
+    const glm::dmat4 view = orbit.view();
+    std::vector<std::size_t> blended;
+    for (std::size_t i = 0; i < stage_.draws.size(); ++i) {
+        if (stage_.draws[i].physical && stage_.draws[i].physical->is_blended)
+            blended.push_back(i);
+        else
+            draw(i, settings, view, orbit.start.projection);
+    }
+    // Behind all others, the farthest first.
+    const auto depth = [&](std::size_t i) { return (view * glm::dvec4(stage_.draws[i].middle, 1)).z; };
+    std::ranges::stable_sort(blended, {}, depth);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.DepthMask(GL_FALSE);
+    for (const std::size_t i : blended) draw(i, settings, view, orbit.start.projection);
+    gl_.DepthMask(GL_TRUE);
+    gl_.Disable(GL_BLEND);
 }
 
 double Renderer::frame_time(const Settings& settings, const Orbit& orbit) {
@@ -232,6 +322,7 @@ gobo::Image Renderer::picture() const {
     for (std::size_t y = 0; y < static_cast<std::size_t>(size_.height); ++y)  // OpenGL's rows run up
         std::copy_n(upward.end() - static_cast<std::ptrdiff_t>((y + 1) * row), row,
                     image.values.begin() + static_cast<std::ptrdiff_t>(y * row));
+    for (std::size_t i = 3; i < image.values.size(); i += 4) image.values[i] = 1;  // what is blended, too
     return image;
 }
 

@@ -1,6 +1,7 @@
 // Draws a stage, each draw by the permutation that it needs. Programs are built when first asked for.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "lab/render/image.hpp"
 #include "orbit.hpp"
 #include "stage.hpp"
+#include "textures.hpp"
 
 namespace viewer {
 
@@ -49,6 +51,14 @@ class Renderer {
     [[nodiscard]] std::vector<std::string> take_complaints();
 
   private:
+    /// A program, and how it is built anew.
+    struct Built {
+        GLuint id = 0;
+        std::string key;
+        /// By the texts given, else by those of the header: its id, or 0 and why there is none.
+        std::function<std::pair<GLuint, std::string>(const gobo::ReloadedProgram*)> build;
+        std::function<bool(const gobo::ReloadedProgram&)> is_as_built;
+    };
     struct Vertices {
         GLuint array = 0;
         GLsizei count = 0;
@@ -58,7 +68,12 @@ class Renderer {
     void upload(const gobo::Mesh& mesh);
     void draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
               const glm::dmat4& projection);
-    GLuint program_of(const lit::Key& key);
+    void set_classic(const StageDraw& draw, const glm::dmat4& view);
+    void set_physical(const StageDraw& draw, const glm::dmat4& view);
+    /// Of either header's key; 0 where there is none.
+    template <class Key>
+    GLuint program_of(const Key& key);
+    void make_environment();
     void complain(const std::string& key, const std::string& why);
     template <class Block>
     void set(const Block& block);
@@ -70,9 +85,12 @@ class Renderer {
     gobo::Reload reload_;
     std::map<std::string, gobo::ReloadedProgram> reloaded_;  ///< what was taken last, by key
     GLuint framebuffer_ = 0;
-    std::vector<Vertices> vertices_;  ///< of each draw
-    std::map<int, GLuint> blocks_;    ///< buffers by binding
-    std::map<const lit::Permutation*, GLuint> programs_;
+    std::vector<Vertices> vertices_;         ///< of each draw
+    std::map<int, GLuint> blocks_;           ///< buffers by binding
+    std::map<const void*, Built> programs_;  ///< by permutation
+    Textures textures_;
+    GLuint diffuse_map_ = 0;
+    GLuint specular_map_ = 0;
     std::set<std::string> keys_;
     std::set<std::string> complained_;
     std::vector<std::string> complaints_;

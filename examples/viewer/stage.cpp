@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "lab/scene_picture/posed_mesh.hpp"
-#include "scene/read_scene.hpp"
 
 namespace viewer {
 namespace {
@@ -91,11 +90,15 @@ StageDraw make_draw(const Scene& scene, const Draw& draw) {
     const gobo::scene::Overrides overrides = overrides_of(scene, draw);
     if (overrides.fog) result.fog = fog_block(*overrides.fog);
     result.probe = overrides.probe.value_or(gobo::scene::Probe());
+    if (draw.bounds) result.middle = (draw.bounds->low + draw.bounds->high) / 2.0;
+    if (scene.is_physical) result.physical = physical_draw_of(scene, draw);
     result.toon.levels = std::max(overrides.toon_levels.value_or(0), 0) > 0 ? *overrides.toon_levels : 4;
     for (std::size_t i = 0; i < draw.effects.size(); ++i) {
         const Effect& effect = draw.effects[i];
         if (!effect.is_in) continue;
-        if (!call_for(effect, result.state)) result.not_drawn.push_back(effect.name);
+        const bool is_drawn = result.physical ? viewer::call_for(effect, result.physical->state)
+                                              : call_for(effect, result.state);
+        if (!is_drawn) result.not_drawn.push_back(effect.name);
         if (is_light(effect)) result.lights.push_back(i);  // lights come first, in the scene's order
     }
     return result;
@@ -103,8 +106,9 @@ StageDraw make_draw(const Scene& scene, const Draw& draw) {
 
 }  // namespace
 
-gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path) {
-    gobo::Result<Scene> scene = gobo::scene::read_scene(files, path);
+gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path,
+                               gobo::scene::Reading reading) {
+    gobo::Result<Scene> scene = gobo::scene::read_scene(files, path, reading);
     if (!scene) return tl::unexpected(scene.error());
     Stage stage;
     stage.scene = std::move(*scene);

@@ -1,6 +1,7 @@
 // A glTF scene as this application holds it: meshes, materials, and what each draw is lit by.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "core/file_system.hpp"
 #include "lab/render/mesh.hpp"
 #include "lit.hpp"
+#include "physical_draw.hpp"
 #include "scene/effects.hpp"
+#include "scene/read_scene.hpp"
 #include "settings.hpp"
 
 namespace viewer {
@@ -35,13 +38,15 @@ struct StageDraw {
     std::string name;
     gobo::Mesh mesh;
     glm::dmat4 model{1};
+    glm::dvec3 middle{0};  ///< of its bounds, in world space
     bool double_sided = false;
     lit::Material material{};
     lit::Fog_block fog{};
     lit::Toon toon{};
     gobo::scene::Probe probe;
     DrawState state;
-    std::vector<std::string> not_drawn;  ///< effects that it needs, but that this viewer lacks
+    std::optional<PhysicalDraw> physical;  ///< in place of the above, where the scene is read for `pbr`
+    std::vector<std::string> not_drawn;    ///< effects that it needs, but that this viewer lacks
     /// The lights that reach it, by their number among all lights of the scene.
     std::vector<std::size_t> lights;
 };
@@ -54,8 +59,10 @@ struct Stage {
     double radius = 1;  ///< of a sphere that has all draws in it
 };
 
-/// Reads the scene. Effects are decided for a camera that may be anywhere, as this one's may.
-[[nodiscard]] gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path);
+/// Reads the scene, for the family `lit` or `pbr`. Effects are decided for a camera that may be anywhere, as
+/// this one's may.
+[[nodiscard]] gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string& path,
+                                             gobo::scene::Reading reading);
 
 /// The state with the settings applied: what they turn off is not needed.
 [[nodiscard]] DrawState under(const DrawState& state, const Settings& settings);

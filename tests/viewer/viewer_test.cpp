@@ -83,6 +83,36 @@ TEST(Viewer, StartsAtTheScenesCamera) {
     EXPECT_LE(comparison->percentile_999, kOneLevel) << to_text(*comparison);
 }
 
+/// The still life without its shadow, which the viewer does not draw.
+TEST(Viewer, DrawsMaterialsOfGltfAsTheyAre) {
+    const std::string folder = fresh_folder("physical");
+    std::filesystem::copy(GOBO_SOURCE_DIR "/examples/still_life", folder);
+    std::string scene = text_of(folder + "/still_life.gltf");
+    const std::string shadow = "\"shadow\": true";
+    const auto at = scene.find(shadow);
+    ASSERT_NE(at, std::string::npos);
+    DiskFileSystem disk;
+    ASSERT_TRUE(
+        disk.write(folder + "/still_life.gltf", scene.replace(at, shadow.size(), "\"shadow\": false")));
+    const std::string log = folder + "/log";
+    ASSERT_EQ(
+        run(fmt::format("cd '{}' && '{}' still_life.gltf --family pbr --headless --width 320 --height 200 "
+                        "-o . > log 2>&1 && '{}' render pbr --scene still_life.gltf --size 320x200 -o . -q",
+                        folder, GOBO_VIEWER, GOBO_PROGRAM)),
+        0)
+        << text_of(log);
+    EXPECT_EQ(text_of(log).find("viewer: "), std::string::npos) << text_of(log);
+    EXPECT_NE(
+        text_of(log).find("\n  ambient=image clearcoat=layer fog=linear point=1 reflection=image spot=1\n"),
+        std::string::npos)
+        << text_of(log);
+    const Result<Image> rendered = read_image(disk, folder + "/still_life.png");
+    ASSERT_TRUE(rendered);
+    const Result<Comparison> comparison = compare(frame(folder, 0), *rendered);
+    ASSERT_TRUE(comparison);
+    EXPECT_LE(comparison->percentile_999, kOneLevel) << to_text(*comparison);
+}
+
 TEST(Viewer, EveryKeyChangesThePicture) {
     const std::string keys = "ft123s";
     const std::string folder = fresh_folder("keys");
