@@ -58,7 +58,7 @@ class LinkRule : public testing::TestWithParam<Row> {};
 TEST_P(LinkRule, IsToldAndAgreesWithMesa) {
     const Row& row = GetParam();
     const std::string head = std::string("#version ") + row.version + "\n";
-    const bool is_es = head.ends_with("es\n");
+    const bool is_es = head.ends_with("es\n") || head.ends_with(" 100\n");
     const std::string vertex = head + row.vertex;
     const std::string fragment = head + (is_es ? "precision highp float;\n" : "") + row.fragment;
     const Diagnostics found = checked(vertex, fragment);
@@ -83,6 +83,17 @@ struct Versions {
     const char* fragment;
     std::string message;  ///< empty where they go together
 };
+
+/// Mesa 22.3 crashes on it.
+TEST(LinkRules, TellOfAUniformCalledAsABlock) {
+    const Diagnostics found = checked(
+        "#version 450\nlayout(std140) uniform Tint { vec4 v; } b;\nvoid main() { gl_Position = b.v; }\n",
+        "#version 450\nuniform vec4 Tint;\nout vec4 c;\nvoid main() { c = Tint; }\n");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(to_text(found.front()),
+              "tiny.frag:2: error: 'Tint' is a uniform here, and a block in tiny.vert:2 [default]\n"
+              "    uniform vec4 Tint;\n  help: rename one of them: some drivers take them for one\n");
+}
 
 TEST(LinkRules, TellOfVersionsThatMakeNoProgram) {
     const Versions rows[] = {
@@ -207,6 +218,65 @@ const Row varyings[] = {
      "i.uv.xyxy; }\n",
      Mesa::refuses,
      {"'Surface.normal' is flat here, but smooth in tiny.vert:2"}},
+    {"flat_beside_smooth_at_one_location",
+     "450",
+     "layout(location = 1) flat out vec2 a;\nlayout(location = 1, component = 2) out vec2 b;\n"
+     "void main() { a = b = vec2(1.0); gl_Position = vec4(0.0); }\n",
+     "layout(location = 1) flat in vec2 a;\nlayout(location = 1, component = 2) in vec2 b;\nout vec4 c;\n"
+     "void main() { c = vec4(a, 0.0, 1.0); }\n",
+     Mesa::refuses,
+     {"tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth",
+      "tiny.frag:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth"}},
+    {"centroid_beside_an_array",
+     "450",
+     "layout(location = 1) out vec2 a[2];\nlayout(location = 2, component = 2) centroid out vec2 b;\n"
+     "void main() { a[0] = a[1] = b = vec2(1.0); gl_Position = vec4(0.0); }\n",
+     "layout(location = 1) in vec2 a[2];\nlayout(location = 2, component = 2) in vec2 b;\nout vec4 c;\n"
+     "void main() { c = vec4(a[1], b); }\n",
+     Mesa::refuses,
+     {"tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 2 and are smooth and smooth centroid"}},
+    {"numbers_beside_an_array",
+     "450",
+     "layout(location = 1) flat out vec2 a[2];\nlayout(location = 2, component = 2) flat out ivec2 b;\n"
+     "void main() { a[0] = a[1] = vec2(1.0); b = ivec2(1); gl_Position = vec4(0.0); }\n",
+     color,
+     Mesa::refuses,
+     {"tiny.vert:3: error: 'vec2 a' and 'ivec2 b' share location 2 and have not one numerical type"}},
+    {"alike_at_one_location",
+     "450",
+     "layout(location = 1) flat out vec2 a;\nlayout(location = 1, component = 2) flat out vec2 b;\n"
+     "void main() { a = b = vec2(1.0); gl_Position = vec4(0.0); }\n",
+     "layout(location = 1) flat in vec2 a;\nlayout(location = 1, component = 2) flat in vec2 b;\nout vec4 "
+     "c;\n"
+     "void main() { c = vec4(a, b); }\n",
+     Mesa::links,
+     {}},
+    {"block_meets_a_variable",
+     "450",
+     "layout(location = 1) out Surface { vec4 tint; } o;\nvoid main() { o.tint = gl_Position = vec4(0.0); "
+     "}\n",
+     "layout(location = 1) in vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'tint' (location 1, 'Surface.tint' in the vertex stage) is no member of a block "
+      "here, but a member of a block in tiny.vert:2"}},
+    {"centroid_of_a_member_of_a_block",
+     "450",
+     "out Surface { centroid vec4 tint; } o;\nvoid main() { o.tint = gl_Position = vec4(0.0); }\n",
+     "in Surface { vec4 tint; } o;\nout vec4 c;\nvoid main() { c = o.tint; }\n",
+     Mesa::refuses,
+     {"'Surface.tint' is not centroid here, but centroid in tiny.vert:2: the members of a block must agree"}},
+    {"centroid_of_a_variable",
+     "450",
+     "centroid out vec4 tint;\nvoid main() { tint = gl_Position = vec4(0.0); }\n",
+     "in vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::links,
+     {}},
+    {"invariant_member_of_a_block",
+     "330 core",
+     "out Surface { invariant vec4 tint; } o;\nvoid main() { o.tint = gl_Position = vec4(0.0); }\n",
+     "in Surface { vec4 tint; } o;\nout vec4 c;\nvoid main() { c = o.tint; }\n",
+     Mesa::links,
+     {}},
 };
 
 const Row names[] = {
@@ -266,13 +336,13 @@ const Row names[] = {
      "uniform mediump vec4 tint;\nvoid main() { gl_Position = tint; }\n",
      "uniform highp vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
      Mesa::refuses,
-     {"'tint' is highp here, but mediump or lowp in tiny.vert:2"}},
+     {"'tint' is highp here, but mediump in tiny.vert:2"}},
     {"precision_of_a_sampler_es300",
      "300 es",
      "uniform highp sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",
      "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture(map, vec2(0.0)); }\n",
      Mesa::refuses,
-     {"'map' is mediump or lowp here, but highp in tiny.vert:2"}},
+     {"'map' is lowp here, but highp in tiny.vert:2"}},
     {"members_of_a_block",
      "450",
      "layout(std140, binding = 0) uniform Camera { mat4 m; vec4 eye; } camera;\n"
@@ -290,6 +360,101 @@ const Row names[] = {
      "layout(std140, binding = 0) uniform Camera { mat4 m; };\nout vec4 c;\nvoid main() { c = m[1]; }\n",
      Mesa::refuses,
      {"the block 'Camera' has no instance name here, but one in tiny.vert:2"}},
+    {"formats_of_an_image",
+     "450",
+     "layout(rgba8, binding = 0) uniform image2D map;\n"
+     "void main() { gl_Position = vec4(imageSize(map).xyxy); }\n",
+     "layout(rgba16f, binding = 0) uniform image2D map;\nout vec4 c;\n"
+     "void main() { c = vec4(imageSize(map).xyxy); }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'map' is of format rgba16f here, but of format rgba8 in tiny.vert:2"}},
+    {"no_format_of_an_unread_image",
+     "450",
+     "layout(rgba8, binding = 0) writeonly uniform image2D map[2];\nvoid main() { gl_Position = vec4(0.0); "
+     "}\n",
+     "layout(binding = 0) writeonly uniform image2D map[2];\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"'map' is of no format here, but of format rgba8 in tiny.vert:2"}},
+    {"one_format_of_an_image",
+     "450",
+     "layout(r32f, binding = 0) coherent uniform image2D map;\nvoid main() { gl_Position = vec4(0.0); }\n",
+     "layout(r32f, binding = 0) coherent uniform image2D map;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"precision_es100",
+     "100",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform highp vec4 tint;\nvoid main() { gl_FragColor = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is highp here, but mediump in tiny.vert:2"}},
+    {"precision_of_an_unread_uniform_es100",
+     "100",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = vec4(0.0); }\n",
+     "uniform highp vec4 tint;\nvoid main() { gl_FragColor = tint; }\n",
+     Mesa::links,
+     {}},
+    {"low_and_medium_precision",
+     "300 es",
+     "uniform lowp vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform mediump vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is mediump here, but lowp in tiny.vert:2"}},
+    {"precision_of_a_struct",
+     "300 es",
+     "struct S { vec4 tint; mediump float gloss; };\nuniform S s;\nvoid main() { gl_Position = s.tint; }\n",
+     "struct S { vec4 tint; float gloss; };\nuniform S s;\nout vec4 c;\nvoid main() { c = s.tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:4: error: 's' is S { highp vec4 tint; highp float gloss } here, but S { highp vec4 tint; "
+      "mediump float gloss } in tiny.vert:3"}},
+    {"precision_of_an_unread_struct_es100",
+     "100",
+     "struct T { lowp vec4 tint; };\nstruct S { T t; };\nuniform S s[2];\n"
+     "void main() { gl_Position = vec4(0.0); }\n",
+     "struct T { mediump vec4 tint; };\nstruct S { T t; };\nuniform S s[2];\n"
+     "void main() { gl_FragColor = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"'s' is S[2] { T { mediump vec4 tint } t } here, but S[2] { T { lowp vec4 tint } t } in tiny.vert:4"}},
+    {"precision_of_a_sampler_in_a_struct",
+     "300 es",
+     "struct S { highp sampler2D map; };\nuniform S s;\n"
+     "void main() { gl_Position = texture(s.map, vec2(0.0)); }\n",
+     "struct S { lowp sampler2D map; };\nuniform S s;\nout vec4 c;\n"
+     "void main() { c = texture(s.map, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'s.map' is lowp here, but highp in tiny.vert:3"}},
+    {"precision_of_a_blocks_member",
+     "300 es",
+     "uniform B { mediump vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "uniform B { highp vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::links,
+     {}},
+    {"access_to_a_storage_block",
+     "450",
+     "layout(std430, binding = 0) buffer B { vec4 x; vec4 y[]; } b;\nvoid main() { gl_Position = b.x; }\n",
+     "layout(std430, binding = 0) coherent readonly buffer B { vec4 x; vec4 y[]; } b;\nout vec4 c;\n"
+     "void main() { c = b.x; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the block 'B' has 'x' coherent readonly here, but 'x' without qualifiers of "
+      "memory in "
+      "tiny.vert:2"}},
+    {"binding_of_a_block_in_one_stage",
+     "450",
+     "layout(std140, binding = 1) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std140) uniform B { vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::refuses,
+     {"the block 'B' has no binding here, but binding 1 in tiny.vert:2"}},
+    {"binding_0_of_a_block_in_one_stage",
+     "450",
+     "layout(std140, binding = 0) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std140) uniform B { vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::links,
+     {}},
+    {"uniform_block_and_storage_block",
+     "450",
+     "layout(std140) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std430) buffer B { vec4 tone; } b;\nout vec4 c;\nvoid main() { c = b.tone; }\n",
+     Mesa::refuses,
+     {"the block 'B' has 'vec4 tone' at offset 0 here, but 'vec4 tint' at offset 0 in tiny.vert:2"}},
 };
 
 const Row places[] = {
@@ -331,6 +496,76 @@ const Row places[] = {
      "void main() { c = texture(map, vec2(0.0)); }\n",
      Mesa::links,
      {}},
+    {"counters_at_one_offset",
+     "450",
+     plain,
+     "layout(binding = 0, offset = 4) uniform atomic_uint hits;\n"
+     "layout(binding = 0) uniform atomic_uint misses;\nout vec4 c;\n"
+     "void main() { c = vec4(atomicCounter(hits) + atomicCounter(misses)); }\n",
+     Mesa::links,
+     {}},
+    {"counters_of_two_stages_at_one_offset",
+     "450",
+     "layout(binding = 0, offset = 0) uniform atomic_uint hits[2];\n"
+     "void main() { gl_Position = vec4(atomicCounter(hits[1])); }\n",
+     "layout(binding = 0, offset = 4) uniform atomic_uint misses;\nout vec4 c;\n"
+     "void main() { c = vec4(atomicCounter(misses)); }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the atomic counters 'misses' and 'hits' (tiny.vert:2) share offset 4 of binding "
+      "0"}},
+    {"unread_counter_at_one_offset",
+     "450",
+     plain,
+     "layout(binding = 0, offset = 0) uniform atomic_uint hits;\nout vec4 c;\n"
+     "void main() { c = vec4(atomicCounter(hits)); }\n",
+     Mesa::links,
+     {}},
+    {"offsets_of_a_counter",
+     "450",
+     "layout(binding = 0, offset = 0) uniform atomic_uint hits;\nvoid main() { gl_Position = "
+     "vec4(atomicCounter(hits)); }\n",
+     "layout(binding = 0, offset = 4) uniform atomic_uint hits;\nout vec4 c;\n"
+     "void main() { c = vec4(atomicCounter(hits)); }\n",
+     Mesa::refuses,
+     {"'hits' is at offset 4 here, but at 0 in tiny.vert:2"}},
+    {"room_for_a_matrix",
+     "450",
+     "layout(location = 3) in vec4 a;\nlayout(location = 8) in vec4 b;\nin vec4 z;\nin mat4 m;\nin mat4 n;\n"
+     "in mat3 k;\nvoid main() { gl_Position = a + b + z + m[0] + n[0] + k[0].xyzx; }\n",
+     color,
+     Mesa::links,
+     {}},
+    {"no_room_for_a_matrix",
+     "330 core",
+     "layout(location = 3) in vec4 a;\nlayout(location = 7) in vec4 b;\nlayout(location = 11) in vec4 c;\n"
+     "layout(location = 15) in vec4 d;\nin mat4 m;\nvoid main() { gl_Position = a + b + c + d + m[0]; }\n",
+     color,
+     Mesa::refuses,
+     {"tiny.vert:6: error: the vertex attribute 'm' takes 4 locations in a row, and no 4 in a row of the 16 "
+      "that "
+      "OpenGL guarantees are free (MAX_VERTEX_ATTRIBS)"}},
+    {"no_room_for_an_unread_matrix",
+     "330 core",
+     "layout(location = 3) in vec4 a;\nlayout(location = 7) in vec4 b;\nlayout(location = 11) in vec4 c;\n"
+     "layout(location = 15) in vec4 d;\nin mat4 m;\nvoid main() { gl_Position = a + b + c + d; }\n",
+     color,
+     Mesa::links,
+     {}},
+    {"no_room_for_an_array_of_outputs",
+     "450",
+     plain,
+     "layout(location = 1) out vec4 a;\nlayout(location = 3) out vec4 b;\nlayout(location = 5) out vec4 c;\n"
+     "layout(location = 7) out vec4 d;\nout vec4 m[2];\n"
+     "void main() { a = b = c = d = m[0] = m[1] = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"tiny.frag:6: error: the fragment output 'm' takes 2 locations in a row, and no 2 in a row of the 8"}},
+    {"locations_of_a_sampler_and_a_uniform",
+     "450",
+     "layout(location = 1) uniform sampler2D maps[3];\nvoid main() { gl_Position = texture(maps[0], "
+     "vec2(0.0)); }\n",
+     "layout(location = 3) uniform vec4 tone;\nout vec4 c;\nvoid main() { c = tone; }\n",
+     Mesa::refuses,
+     {"the uniforms 'tone' and 'maps' (tiny.vert:2) share location 3"}},
 };
 
 const Row limits[] = {
@@ -408,6 +643,27 @@ const Row limits[] = {
      "in vec3 v[16];\nout vec4 c;\nvoid main() { c = v[15].xyzx; }\n",
      Mesa::is_lax,
      {"varying vectors: 16, OpenGL guarantees only 15 (MAX_VARYING_VECTORS)"}},
+    {"storage_blocks_16",
+     "450",
+     plain,
+     "layout(std430, binding = 0) buffer A { float x; } a[8];\n"
+     "layout(std430, binding = 0) buffer B { float x; } b[8];\nout vec4 c;\n"
+     "void main() { c = vec4(a[0].x + a[1].x + a[2].x + a[3].x + a[4].x + a[5].x + a[6].x + a[7].x\n"
+     "    + b[0].x + b[1].x + b[2].x + b[3].x + b[4].x + b[5].x + b[6].x + b[7].x); }\n",
+     Mesa::links,
+     {"share binding 0", "warning: storage blocks in the fragment stage: 16, OpenGL guarantees only 8"}},
+    {"storage_blocks_17",
+     "450",
+     plain,
+     "layout(std430, binding = 0) buffer A { float x; } a[8];\n"
+     "layout(std430, binding = 0) buffer B { float x; } b[8];\n"
+     "layout(std430, binding = 0) buffer C { float x; } d;\nout vec4 c;\n"
+     "void main() { c = vec4(a[0].x + a[1].x + a[2].x + a[3].x + a[4].x + a[5].x + a[6].x + a[7].x\n"
+     "    + b[0].x + b[1].x + b[2].x + b[3].x + b[4].x + b[5].x + b[6].x + b[7].x + d.x); }\n",
+     Mesa::refuses,
+     {"share binding 0", "share binding 0", "share binding 0",
+      "error: storage blocks in the fragment stage: 17, OpenGL guarantees only 8 "
+      "(MAX_FRAGMENT_SHADER_STORAGE_BLOCKS)"}},
 };
 
 const Row outputs[] = {
@@ -508,6 +764,39 @@ const Row language[] = {
      "}\n",
      Mesa::refuses,
      {"tiny.frag:2: error: OpenGL's GLSL has no constant_id: it is Vulkan's"}},
+    {"function_without_body_called_by_none",
+     "330 core",
+     plain,
+     "float g(float x);\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"function_without_body_called_by_an_uncalled_one",
+     "330 core",
+     plain,
+     "float g(int x) { return 1.0; }\nfloat g(float x);\nfloat f(float x) { return g(x); }\nout vec4 c;\n"
+     "void main() { c = vec4(g(1)); }\n",
+     Mesa::refuses,
+     {"error: the function 'g' has no body"}},
+    {"sample_mask_beyond_the_first",
+     "450",
+     plain,
+     "out vec4 c;\nvoid main() { c = vec4(1.0); gl_SampleMask[1] = 3; }\n",
+     Mesa::refuses,
+     {"tiny.frag:3: error: elements of gl_SampleMask up to the last: 2, OpenGL guarantees only 1 "
+      "(MAX_SAMPLE_MASK_WORDS)"}},
+    {"sample_mask_of_the_first",
+     "450",
+     plain,
+     "out vec4 c;\nvoid main() { c = vec4(gl_SampleMaskIn[0]); gl_SampleMask[0] = 3; }\n",
+     Mesa::links,
+     {}},
+    {"fragment_data_beyond_the_last",
+     "110",
+     plain,
+     "void main() { gl_FragData[8] = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: elements of gl_FragData up to the last: 9, OpenGL guarantees only 8 "
+      "(MAX_DRAW_BUFFERS)"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Language, LinkRule, testing::ValuesIn(language), name_of_row);

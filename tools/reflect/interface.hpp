@@ -13,9 +13,12 @@ namespace gobo {
 
 /// How stages declare and use an entry. Programs may differ in it, so it never makes two entries unequal.
 struct Usage {
-    bool unused = false;     ///< no stage reads it; an output: the stage never writes it
-    bool anonymous = false;  ///< of a block: it has no instance, so its members are names of their own
-    bool relaxed = false;    ///< mediump or lowp
+    bool unused = false;         ///< no stage reads it; an output: the stage never writes it
+    bool anonymous = false;      ///< of a block: it has no instance, so its members are names of their own
+    std::string precision = {};  ///< "mediump"; empty but of plain uniforms, and of samplers, in OpenGL ES
+    /// What linkers compare beside the type: of an image its format, "rgba8"; of a member of a storage block
+    /// how its memory is accessed, "coherent readonly".
+    std::string access = {};
 
     friend bool operator==(const Usage&, const Usage&) { return true; }
 };
@@ -41,6 +44,7 @@ struct Member {
     int matrix_stride = 0;   ///< 0 where it is no matrix
     bool row_major = false;
     std::vector<Member> members;  ///< of a struct
+    Usage usage = {};
 
     friend bool operator==(const Member&, const Member&) = default;
 };
@@ -67,6 +71,9 @@ struct Uniform {
     std::vector<Member> members;  ///< of a struct (offsets are meaningless and 0)
     std::vector<std::string> stages;
     Usage usage = {};
+    int counter_binding =
+        -1;  ///< of an atomic counter its buffer, and where it stands there, in bytes; else -1
+    int counter_offset = -1;
 
     friend bool operator==(const Uniform&, const Uniform&) = default;
 };
@@ -78,10 +85,14 @@ struct Sampler {
     std::vector<int> array;
     std::vector<std::string> stages;
     Usage usage = {};
-    int set = -1;  ///< Vulkan's descriptor set; -1: OpenGL has none
+    int set = -1;       ///< Vulkan's descriptor set; -1: OpenGL has none
+    int location = -1;  ///< as a uniform; -1 where the source states none
 
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
+
+/// What declares a variable: it is declared by itself, or a member of a struct or of a block.
+enum class Whole : std::uint8_t { itself, structure, block };
 
 /// A vertex attribute, a fragment output, or a value between the stages.
 struct Variable {
@@ -94,6 +105,7 @@ struct Variable {
     bool per_vertex = false;  ///< an array with an element for each vertex of the primitive or patch
     bool patch = false;       ///< one for all vertices of a patch
     Usage usage = {};
+    Whole whole = Whole::itself;
 
     friend bool operator==(const Variable&, const Variable&) = default;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/stage.hpp"
+#include "core/text.hpp"
 
 namespace gobo {
 namespace {
@@ -48,6 +49,11 @@ Id array_element(const Module& module, Id id) {
 
 bool is_structure(const Module& module, Id id) {
     return module.type(id).opcode == spv::OpTypeStruct;
+}
+
+bool is_block(const Module& module, Id structure) {
+    return module.decoration(structure, spv::DecorationBlock) ||
+           module.decoration(structure, spv::DecorationBufferBlock);
 }
 
 /// Calls `visit(index, type)` for each member of a struct.
@@ -125,6 +131,20 @@ int locations_of(const Module& module, Id id, bool is_attribute) {
     return static_cast<int>(std::min<std::int64_t>(count, kLargest));
 }
 
+/// The memory qualifiers of a storage block's member, which SPIR-V has member by member.
+std::string access_of(const Module& module, Id structure, int index) {
+    constexpr std::pair<spv::Decoration, std::string_view> kQualifiers[] = {
+        {spv::DecorationCoherent, "coherent"},
+        {spv::DecorationVolatile, "volatile"},
+        {spv::DecorationRestrict, "restrict"},
+        {spv::DecorationNonWritable, "readonly"},
+        {spv::DecorationNonReadable, "writeonly"}};
+    std::vector<std::string> words;
+    for (const auto& [decoration, word] : kQualifiers)
+        if (module.decoration(structure, decoration, index)) words.emplace_back(word);
+    return join(words, " ");
+}
+
 std::vector<Member> members_of(const Module& module, Id structure) {
     std::vector<Member> members;
     for_each_member(module, structure, [&](int index, Id id) {
@@ -138,6 +158,7 @@ std::vector<Member> members_of(const Module& module, Id structure) {
         member.matrix_stride = decorated(module, spv::DecorationMatrixStride, structure, index);
         member.row_major = module.decoration(structure, spv::DecorationRowMajor, index).has_value();
         member.members = members_of(module, element);
+        member.usage.access = access_of(module, structure, index);
         members.push_back(std::move(member));
     });
     return members;
@@ -199,7 +220,6 @@ class Reflection {
     [[nodiscard]] Usage usage_of(Id variable) const {
         Usage usage;
         usage.unused = !used_.reads(variable) && !used_.writes(variable);
-        usage.relaxed = module_.decoration(variable, spv::DecorationRelaxedPrecision).has_value();
         return usage;
     }
 
@@ -280,22 +300,29 @@ class Reflection {
         const std::string name = module_.name(variable.id);
         const std::vector<int> array = array_extents(module_, variable.type);
         std::string type = type_name(module_, element);
-        const Usage usage = usage_of(variable.id);
+        Usage usage = usage_of(variable.id);
         if (lacks_size(array))
             return stop("sampler '{}' is an array without a size, which Vulkan 1.0 cannot bind", name,
                         Fault::input, kStateSize);
         if (is_opaque(element)) {
+            usage.access = spirv::format_name(module_.type(element).image.format);
             interface_.samplers.push_back({name, type, stated(module_, spv::DecorationBinding, variable.id),
-                                           array, interface_.stages, usage, set_of(variable.id)});
+                                           array, interface_.stages, usage, set_of(variable.id),
+                                           stated(module_, spv::DecorationLocation, variable.id)});
             return;
         }
         if (holds_opaque(element)) {
             int location = stated(module_, spv::DecorationLocation, variable.id);
             return add_parts(name, variable.type, location, usage);
         }
-        if (variable.storage == spv::StorageClassAtomicCounter) type = "atomic_uint";
-        interface_.uniforms.push_back({name, type, stated(module_, spv::DecorationLocation, variable.id),
-                                       array, members_of(module_, element), interface_.stages, usage});
+        const bool is_counter = variable.storage == spv::StorageClassAtomicCounter;
+        if (is_counter) type = "atomic_uint";
+        Uniform& uniform = interface_.uniforms.emplace_back(
+            Uniform{name, type, stated(module_, spv::DecorationLocation, variable.id), array,
+                    members_of(module_, element), interface_.stages, usage});
+        if (!is_counter) return;
+        uniform.counter_binding = stated(module_, spv::DecorationBinding, variable.id);
+        uniform.counter_offset = decorated(module_, spv::DecorationOffset, variable.id);
     }
 
     [[nodiscard]] bool is_opaque(Id type) const {
@@ -325,7 +352,8 @@ class Reflection {
             const std::vector<int> array = array_extents(module_, id);
             const std::string name = type_name(module_, element);
             if (is_opaque(element))
-                interface_.samplers.push_back({path, name, -1, array, interface_.stages, usage});
+                interface_.samplers.push_back(
+                    {path, name, -1, array, interface_.stages, usage, -1, location});
             else
                 interface_.uniforms.push_back({path, name, location, array, {}, interface_.stages, usage});
             if (location >= 0) location += element_count(array);
@@ -355,8 +383,12 @@ class Reflection {
             return stop("variable '{}' takes too many locations", name);
         int location = stated(module_, spv::DecorationLocation, variable.id);
         const std::size_t first = list.size();
+        const Id element = array_element(module_, type);
         add_paths(name, type, location, is_attribute, list);
         for (std::size_t i = first; i < list.size(); ++i) {
+            list[i].whole = is_block(module_, element)       ? Whole::block
+                            : is_structure(module_, element) ? Whole::structure
+                                                             : Whole::itself;
             list[i].per_vertex = is_per_vertex;
             list[i].patch = is_of_patch;
             list[i].component = decorated(module_, spv::DecorationComponent, variable.id);
@@ -425,9 +457,7 @@ bool is_built_in(const Module& module, const spirv::Variable& variable) {
 
 std::string interface_name(const Module& module, const spirv::Variable& variable) {
     const Id structure = array_element(module, variable.type);
-    const bool is_block = module.decoration(structure, spv::DecorationBlock) ||
-                          module.decoration(structure, spv::DecorationBufferBlock);
-    return module.name(is_block ? structure : variable.id);
+    return module.name(is_block(module, structure) ? structure : variable.id);
 }
 
 Result<Interface> reflect_stage(std::span<const std::uint32_t> words) {

@@ -289,8 +289,9 @@ class Reader {
     void set_image(Type& type, const Instruction& instruction) {
         set_element(type, instruction.id(2), 1, {spv::OpTypeBool, spv::OpTypeInt, spv::OpTypeFloat});
         type.value = {Scalar::uint32};
-        type.image = {instruction.as<spv::Dim>(3), instruction.word(4) == 1, instruction.word(5) == 1,
-                      instruction.word(6) == 1, instruction.word(7) == 2};
+        type.image = {instruction.as<spv::Dim>(3), instruction.word(4) == 1,
+                      instruction.word(5) == 1,    instruction.word(6) == 1,
+                      instruction.word(7) == 2,    instruction.as<spv::ImageFormat>(8)};
     }
 
     std::uint32_t array_extent(Id id) {
@@ -319,6 +320,25 @@ std::string image_name(const Module& module, const Type& type, std::string_view 
 }
 
 }  // namespace
+
+std::string_view format_name(spv::ImageFormat format) {
+    constexpr std::array<std::string_view, 40> kFormats = {"",          "rgba32f",      "rgba16f",
+                                                           "r32f",      "rgba8",        "rgba8_snorm",
+                                                           "rg32f",     "rg16f",        "r11f_g11f_b10f",
+                                                           "r16f",      "rgba16",       "rgb10_a2",
+                                                           "rg16",      "rg8",          "r16",
+                                                           "r8",        "rgba16_snorm", "rg16_snorm",
+                                                           "rg8_snorm", "r16_snorm",    "r8_snorm",
+                                                           "rgba32i",   "rgba16i",      "rgba8i",
+                                                           "r32i",      "rg32i",        "rg16i",
+                                                           "rg8i",      "r16i",         "r8i",
+                                                           "rgba32ui",  "rgba16ui",     "rgba8ui",
+                                                           "r32ui",     "rgb10_a2ui",   "rg32ui",
+                                                           "rg16ui",    "rg8ui",        "r16ui",
+                                                           "r8ui"};
+    const auto number = static_cast<std::size_t>(format);
+    return number < kFormats.size() ? kFormats[number] : "";
+}
 
 std::string literal_text(std::span<const std::uint32_t> literal) {
     std::string text;

@@ -49,6 +49,7 @@ struct Image {
     bool arrayed = false;
     bool multisampled = false;
     bool storage = false;  ///< read and written without a sampler
+    spv::ImageFormat format = spv::ImageFormatUnknown;
 };
 
 /// A type. The ids in it are of types that the module declares earlier, so types never form a cycle.
@@ -134,5 +135,8 @@ struct Module {
 /// GLSL's name of a type that is no array: "float", "ivec3", "sampler2DArrayShadow", "uimageBuffer", or the
 /// struct's name.
 [[nodiscard]] std::string type_name(const Module& module, Id type);
+
+/// GLSL's name of an image's format: "rgba8"; empty where it states none.
+[[nodiscard]] std::string_view format_name(spv::ImageFormat format);
 
 }  // namespace gobo::spirv

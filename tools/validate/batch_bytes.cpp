@@ -5,32 +5,32 @@
 namespace gobo {
 
 static void fields(auto& archive, OneOf<Usage> auto& value) {
-    auto& [unused, anonymous, relaxed] = value;
-    archive(unused, anonymous, relaxed);
+    auto& [unused, anonymous, precision, access] = value;
+    archive(unused, anonymous, precision, access);
 }
 static void fields(auto& archive, OneOf<Interpolation> auto& value) {
     auto& [flat, noperspective, centroid, sample, invariant] = value;
     archive(flat, noperspective, centroid, sample, invariant);
 }
 static void fields(auto& archive, OneOf<Member> auto& value) {
-    auto& [name, type, offset, array, array_stride, matrix_stride, row_major, members] = value;
-    archive(name, type, offset, array, array_stride, matrix_stride, row_major, members);
+    auto& [name, type, offset, array, array_stride, matrix_stride, row_major, members, usage] = value;
+    archive(name, type, offset, array, array_stride, matrix_stride, row_major, members, usage);
 }
 static void fields(auto& archive, OneOf<Block> auto& value) {
     auto& [name, binding, size, stages, members, usage, set] = value;
     archive(name, binding, size, stages, members, usage, set);
 }
 static void fields(auto& archive, OneOf<Uniform> auto& value) {
-    auto& [name, type, location, array, members, stages, usage] = value;
-    archive(name, type, location, array, members, stages, usage);
+    auto& [name, type, location, array, members, stages, usage, counter_binding, counter_offset] = value;
+    archive(name, type, location, array, members, stages, usage, counter_binding, counter_offset);
 }
 static void fields(auto& archive, OneOf<Sampler> auto& value) {
-    auto& [name, type, binding, array, stages, usage, set] = value;
-    archive(name, type, binding, array, stages, usage, set);
+    auto& [name, type, binding, array, stages, usage, set, location] = value;
+    archive(name, type, binding, array, stages, usage, set, location);
 }
 static void fields(auto& archive, OneOf<Variable> auto& value) {
-    auto& [name, type, location, array, component, interpolation, per_vertex, patch, usage] = value;
-    archive(name, type, location, array, component, interpolation, per_vertex, patch, usage);
+    auto& [name, type, location, array, component, interpolation, per_vertex, patch, usage, whole] = value;
+    archive(name, type, location, array, component, interpolation, per_vertex, patch, usage, whole);
 }
 static void fields(auto& archive, OneOf<SpecializationConstant> auto& value) {
     auto& [name, type, id, bits] = value;

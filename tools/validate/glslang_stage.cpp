@@ -24,6 +24,7 @@
 #include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
 #include "validate/switch_rules.hpp"
+#include "validate/syntax_tree.hpp"
 
 namespace gobo {
 namespace {
@@ -170,6 +171,7 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     bindings_mapped_ = map_bindings;
     const auto messages = static_cast<EShMessages>(rules(for_spirv, is_vulkan) | further_messages_);
     const bool is_fine = shader.parse(GetDefaultResources(), 110, false, messages);
+    if (is_fine && version_of(prologue).es) precisions_ = precisions_of(shader);
     const Place place{pieces_.back()->path, 0, 0};
     Diagnostics found = with_macros(
         with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
@@ -234,6 +236,10 @@ Diagnostics GlslangStage::parse() {
     // Vulkan's language is what glslang takes.
     Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_);
     std::ranges::move(more, std::back_inserter(found));
+    if (!is_spirv(dialect_)) {
+        more = check_calls(shader_->shader, pieces_);
+        std::ranges::move(more, std::back_inserter(found));
+    }
     if (has_switches) {
         more = check_switches(shader_->shader.getInfoDebugLog(), pieces_);
         std::ranges::move(more, std::back_inserter(found));
@@ -296,6 +302,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     Result<Interface> interface = reflect_stage(module, usage, is_vulkan ? Api::vulkan : Api::opengl);
     if (!interface) return placed(std::move(interface).error(), pieces_);
     stage.interface = *std::move(interface);
+    set_precisions(stage.interface, precisions_);
     std::erase_if(stage.interface.uniforms,
                   [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
     stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices, dialect_);

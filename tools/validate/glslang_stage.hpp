@@ -9,6 +9,7 @@
 
 #include <glslang/Public/ShaderLang.h>
 
+#include "validate/syntax_tree.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -58,6 +59,7 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
+    Precisions precisions_;                 ///< of the stage as OpenGL ES, where it is that
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };
 

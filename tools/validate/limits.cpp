@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -124,27 +125,27 @@ class LimitCheck {
                         "MAX_COMBINED_TEXTURE_IMAGE_UNITS");
         }
         // By the tables of implementation-dependent values of OpenGL 4.3, OpenGL ES 3.1 and 3.2; most drivers
-        // have more, and have them in every stage.
+        // have more, and have them in every stage: up to `usual`, which Mesa's software renderer has.
         const bool is_compute = stage.kind == StageKind::compute;
         const bool may_store =
             is_compute || (stage.kind == StageKind::fragment && !(is_es_ && version_ < 320));
         const int stored = !may_store ? 0 : is_es_ ? 4 : 8;
         const auto offered = [&](int limit, std::int64_t count, std::string_view what,
-                                 std::string_view constant) {
+                                 std::string_view constant, int usual) {
             at_most(limit, count, stage, "", fmt::format("{} in the {} stage:", what, name),
-                    fmt::format("MAX_{}_{}", upper(name), constant), Severity::warning);
+                    fmt::format("MAX_{}_{}", upper(name), constant),
+                    count > usual ? Severity::error : Severity::warning);
         };
         if (dialect_ != Dialect::vulkan) {
-            offered(stored, images, "images", "IMAGE_UNIFORMS");
+            offered(stored, images, "images", "IMAGE_UNIFORMS", 32);
             std::int64_t counters = 0;
             for (const Uniform& uniform : interface.uniforms)
                 if (uniform.type == "atomic_uint" && !uniform.usage.unused)
                     counters += element_count(uniform.array);
-            offered(may_store ? 8 : 0, counters, "atomic counters", "ATOMIC_COUNTERS");
-            offered(stored,
-                    std::ranges::count_if(interface.storage_blocks,
-                                          [](const Block& block) { return !block.usage.unused; }),
-                    "storage blocks", "SHADER_STORAGE_BLOCKS");
+            offered(may_store ? 8 : 0, counters, "atomic counters", "ATOMIC_COUNTERS", 4096);
+            const auto blocks = std::ranges::count_if(interface.storage_blocks,
+                                                      [](const Block& block) { return !block.usage.unused; });
+            offered(stored, blocks, "storage blocks", "SHADER_STORAGE_BLOCKS", 16);
         }
         at_most(kSamplersOfStage, samplers, stage, "", fmt::format("samplers in the {} stage:", name),
                 "MAX_TEXTURE_IMAGE_UNITS");
@@ -247,7 +248,44 @@ class LimitCheck {
                 stage.kind == StageKind::vertex && type.scalar == Scalar::float64 && type.rows > 2;
             if (!variable.usage.unused && variable.component == 0) needed += is_wide ? 2 * count : count;
         }
-        at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
+        if (needed > limit)
+            return at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
+        check_room(stage, list, limit, what, constant);
+    }
+
+    /// What states no location takes free ones in a row, the largest first, as drivers do (OpenGL 4.6, 11.1.1
+    /// and 15.2.3).
+    void check_room(const StageView& stage, const std::vector<Variable>& list, int limit,
+                    std::string_view what, std::string_view constant) {
+        std::vector<bool> is_taken(static_cast<std::size_t>(limit), false);
+        const auto take = [&](std::int64_t first, std::int64_t count) {
+            std::fill_n(is_taken.begin() + first, count, true);
+        };
+        std::vector<std::pair<std::int64_t, const Variable*>> open;
+        for (const Variable& variable : list) {
+            if (variable.usage.unused) continue;
+            const std::int64_t count = location_count(variable.type, variable.array);
+            if (variable.location >= 0)
+                take(variable.location, count);
+            else
+                open.emplace_back(count, &variable);
+        }
+        std::ranges::stable_sort(open, std::greater(), &decltype(open)::value_type::first);
+        for (const auto& [count, variable] : open) {
+            const auto room = std::search_n(is_taken.begin(), is_taken.end(), count, false);
+            if (room != is_taken.end()) {
+                take(room - is_taken.begin(), count);
+                continue;
+            }
+            found_.push_back(diagnostic_at(
+                declaration_of(variable->name, variable->type, stage.pieces), Severity::error,
+                fmt::format(
+                    "the {} '{}' takes {} locations in a row, and no {} in a row of the {} that OpenGL "
+                    "guarantees are free ({})",
+                    what, variable->name, count, count, limit, constant),
+                "state locations that leave it room"));
+            return;
+        }
     }
 
     const std::vector<StageView>& stages_;

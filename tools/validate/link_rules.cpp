@@ -28,6 +28,13 @@ std::string_view sampling_of(const Interpolation& interpolation) {
     return interpolation.sample ? "sample" : interpolation.centroid ? "centroid" : "neither";
 }
 
+/// "flat" or "smooth centroid".
+std::string interpolation_text(const Interpolation& interpolation) {
+    std::string text(shading_of(interpolation));
+    if (sampling_of(interpolation) != "neither") text += fmt::format(" {}", sampling_of(interpolation));
+    return text;
+}
+
 /// A name of the program's one name space for uniforms, as one stage declares it.
 struct GlobalName {
     std::string name;
@@ -37,13 +44,20 @@ struct GlobalName {
     const Usage* usage = nullptr;
     int location = -1;
     int binding = -1;
+    int counter_offset = -1;
 };
 
+std::string format_text(const std::string& format) {
+    return format.empty() ? "of no format" : fmt::format("of format {}", format);
+}
+
+/// In OpenGL ES the precision of a struct's members belongs to its type.
 std::string type_text(const std::string& type, const std::vector<int>& array,
                       const std::vector<Member>& members) {
     std::vector<std::string> parts;
     for (const Member& member : members)
-        parts.push_back(type_text(member.type, member.array, member.members) + " " + member.name);
+        parts.push_back(member.usage.precision + (member.usage.precision.empty() ? "" : " ") +
+                        type_text(member.type, member.array, member.members) + " " + member.name);
     const std::string inner = parts.empty() ? "" : fmt::format(" {{ {} }}", join(parts, "; "));
     return with_extents(type, array) + inner;
 }
@@ -52,10 +66,11 @@ std::vector<GlobalName> global_names(const Interface& interface) {
     std::vector<GlobalName> names;
     for (const Uniform& uniform : interface.uniforms)
         names.push_back({uniform.name, type_text(uniform.type, uniform.array, uniform.members), "",
-                         "a uniform", &uniform.usage, uniform.location});
+                         "a uniform", &uniform.usage, uniform.location, uniform.counter_binding,
+                         uniform.counter_offset});
     for (const Sampler& sampler : interface.samplers)
         names.push_back({sampler.name, with_extents(sampler.type, sampler.array), "", "a sampler",
-                         &sampler.usage, -1, sampler.binding});
+                         &sampler.usage, sampler.location, sampler.binding});
     for (const auto* const blocks : {&interface.blocks, &interface.storage_blocks})
         for (const Block& block : *blocks) {
             if (!block.usage.anonymous) continue;
@@ -65,6 +80,10 @@ std::vector<GlobalName> global_names(const Interface& interface) {
                                  &block.usage});
         }
     return names;
+}
+
+const std::string& access_of(const Member& member) {
+    return member.usage.access;
 }
 
 class LinkCheck {
@@ -87,19 +106,18 @@ class LinkCheck {
             if (stage.kind != StageKind::fragment) check_components(stage, stage.interface.outputs);
             if (stage.kind != StageKind::vertex) check_components(stage, stage.interface.inputs);
         }
+        check_block_names();
         for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
             earlier_ = stages_.begin();
             if (later_ != earlier_) check_versions();
             for (; earlier_ != later_; ++earlier_) {
                 if (earlier_ + 1 == later_) check_varyings();
                 check_names();
-                check_blocks(earlier_->interface.blocks, later_->interface.blocks);
-                check_blocks(earlier_->interface.storage_blocks, later_->interface.storage_blocks);
+                check_blocks();
             }
         }
-        check_shared_bindings();
-        check_shared_units();
-        check_uniform_locations();
+        const Diagnostics shared = check_shared_places(stages_);
+        found_.insert(found_.end(), shared.begin(), shared.end());
         return std::move(found_);
     }
 
@@ -108,20 +126,32 @@ class LinkCheck {
         found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
     }
 
-    /// What shares a location by its components has one numerical type (GLSL 4.60, 4.4.1).
+    /// What shares a location by its components has one numerical type and is interpolated alike (GLSL 4.60,
+    /// 4.4.1).
     void check_components(const StageView& stage, const std::vector<Variable>& list) {
+        const auto end_of = [](const Variable& variable) {
+            return variable.location + location_count(variable.type, variable.array);
+        };
         for (const Variable& one : list)
             for (const Variable& other : list) {
-                if (&one >= &other || one.location < 0 || one.location != other.location ||
+                if (&one >= &other || one.location < 0 || other.location < 0 ||
+                    one.location >= end_of(other) || other.location >= end_of(one) ||
                     one.component == other.component)
                     continue;
                 const auto type = glsl_type(one.type);
                 const auto other_type = glsl_type(other.type);
-                if (type && other_type && type->scalar != other_type->scalar)
+                const auto how = interpolation_text(one.interpolation);
+                const auto other_how = interpolation_text(other.interpolation);
+                const auto differ = [&](std::string_view what) {
                     add(declaration_of(other.name, other.type, stage.pieces), Severity::error,
-                        fmt::format("'{} {}' and '{} {}' share location {} and have not one numerical type",
-                                    one.type, one.name, other.type, other.name, one.location),
+                        fmt::format("'{} {}' and '{} {}' share location {} and {}", one.type, one.name,
+                                    other.type, other.name, std::max(one.location, other.location), what),
                         "give each a location of its own");
+                };
+                if (type && other_type && type->scalar != other_type->scalar)
+                    differ("have not one numerical type");
+                else if (how != other_how)
+                    differ(fmt::format("are {} and {}", how, other_how));
             }
     }
 
@@ -203,9 +233,18 @@ class LinkCheck {
                             in_earlier(output.name, output.type).text(), rule),
                 std::move(help));
         };
+        const auto whole = [](const Variable& variable) {
+            return variable.whole == Whole::block       ? "a member of a block"
+                   : variable.whole == Whole::structure ? "a member of a struct"
+                                                        : "no member of a block";
+        };
+        if (input.whole != output.whole)
+            return differ(Severity::error, whole(input), whole(output), "",
+                          "declare it alike in both stages");
         if (input.type != output.type || input.array != output.array)
             return differ(Severity::error, with_extents(input.type, input.array),
                           with_extents(output.type, output.array), "", "declare it alike in both stages");
+        const bool is_of_block = input.whole == Whole::block;
         if (input.patch != output.patch)
             return differ(Severity::error, input.patch ? "patch" : "not patch",
                           output.patch ? "patch" : "not", "", "write patch in both stages, or in neither");
@@ -222,9 +261,12 @@ class LinkCheck {
                           output.interpolation.invariant ? "invariant" : "not",
                           ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
         if (centroid_differs(input, output))
-            return differ(Severity::warning, input.interpolation.centroid ? "centroid" : "not centroid",
-                          output.interpolation.centroid ? "centroid" : "not",
-                          ": some drivers refuse to link it", "write centroid in both stages");
+            return differ(
+                is_of_block ? Severity::error : Severity::warning,
+                input.interpolation.centroid ? "centroid" : "not centroid",
+                output.interpolation.centroid ? "centroid" : "not",
+                is_of_block ? ": the members of a block must agree" : ": some drivers refuse to link it",
+                "write centroid in both stages");
         if (!input.usage.unused && output.usage.unused)
             add(in_later(input.name, input.type), Severity::warning,
                 fmt::format("the {} stage reads {}, which the {} stage declares in {} and never writes",
@@ -238,10 +280,12 @@ class LinkCheck {
                shading_of(input.interpolation) != shading_of(output.interpolation);
     }
     [[nodiscard]] bool invariance_differs(const Variable& input, const Variable& output) const {
-        return is_before(420, 300) && input.interpolation.invariant != output.interpolation.invariant;
+        return is_before(420, 300) && input.whole != Whole::block &&
+               input.interpolation.invariant != output.interpolation.invariant;
     }
     [[nodiscard]] bool centroid_differs(const Variable& input, const Variable& output) const {
-        return is_before(430, 310) && input.interpolation.centroid != output.interpolation.centroid;
+        return (is_before(430, 310) || (!version_.es && input.whole == Whole::block)) &&
+               input.interpolation.centroid != output.interpolation.centroid;
     }
 
     // ---- names that both stages declare
@@ -278,25 +322,47 @@ class LinkCheck {
         else if (here.binding >= 0 && there.binding >= 0 && here.binding != there.binding)
             differ(fmt::format("at binding {}", here.binding), fmt::format("at {}", there.binding),
                    "state one binding in both stages");
-        else if (version_.es && here.usage->relaxed != there.usage->relaxed &&
+        else if (here.counter_offset != there.counter_offset)
+            differ(fmt::format("at offset {}", here.counter_offset),
+                   fmt::format("at {}", there.counter_offset), "state one offset in both stages");
+        else if (here.usage->access != there.usage->access)
+            differ(format_text(here.usage->access), format_text(there.usage->access),
+                   "state one format in both stages");
+        else if (here.usage->precision != there.usage->precision &&
                  (version_.number >= 300 || (!here.usage->unused && !there.usage->unused)))
-            differ(here.usage->relaxed ? "mediump or lowp" : "highp",
-                   there.usage->relaxed ? "mediump or lowp" : "highp",
+            differ(here.usage->precision, there.usage->precision,
                    "write its precision in both stages: OpenGL ES wants the same");
     }
 
     // ---- blocks
 
-    void check_blocks(const std::vector<Block>& of_earlier, const std::vector<Block>& of_later) {
-        std::string_view last;
-        for (const Block& here : of_later) {
-            if (root_of(here.name) == last) continue;  // of an array of blocks one will do
-            const auto there = std::ranges::find(of_earlier, here.name, &Block::name);
-            if (there == of_earlier.end()) continue;
-            const std::size_t before = found_.size();
-            check_block(here, *there);
-            if (found_.size() > before) last = root_of(here.name);
-        }
+    void check_blocks() {
+        std::set<std::string_view> told;  // of an array of blocks one will do
+        for (const auto lists : {&Interface::blocks, &Interface::storage_blocks})
+            for (const Block& here : later_->interface.*lists)
+                for (const auto others : {&Interface::blocks, &Interface::storage_blocks}) {
+                    const auto& of_earlier = earlier_->interface.*others;
+                    const auto there = std::ranges::find(of_earlier, here.name, &Block::name);
+                    if (there == of_earlier.end() || told.contains(root_of(here.name))) continue;
+                    const std::size_t before = found_.size();
+                    check_block(here, *there);
+                    if (found_.size() > before) told.insert(root_of(here.name));
+                }
+    }
+
+    /// By the specification a uniform may be called as a block of another stage; Mesa 22.3 crashes.
+    void check_block_names() {
+        for (const StageView& stage : stages_)
+            for (const auto lists : {&Interface::blocks, &Interface::storage_blocks})
+                for (const Block& block : stage.interface.*lists)
+                    for (const StageView& other : stages_)
+                        for (const GlobalName& name : global_names(other.interface))
+                            if (name.block.empty() && name.name == root_of(block.name) &&
+                                !block.usage.anonymous)
+                                add(declaration_of(name.name, "", other.pieces), Severity::error,
+                                    fmt::format("'{}' is {} here, and a block in {}", name.name, name.kind,
+                                                declaration_of(block.name, "", stage.pieces).text()),
+                                    "rename one of them: some drivers take them for one");
     }
 
     void check_block(const Block& here, const Block& there) {
@@ -318,99 +384,25 @@ class LinkCheck {
             std::string other = member_text(there.members, theirs);
             if (text == other) text += " (of other members or strides)";
             differ(text, other, once);
+        } else if (const auto [own, other] =
+                       std::ranges::mismatch(here.members, there.members, {}, access_of, access_of);
+                   own != here.members.end()) {
+            const auto access_text = [](const Member& member) {
+                return fmt::format(
+                    "'{}' {}", member.name,
+                    member.usage.access.empty() ? "without qualifiers of memory" : member.usage.access);
+            };
+            differ(access_text(*own), access_text(*other), once);
         } else if (here.usage.anonymous != there.usage.anonymous) {
             differ(here.usage.anonymous ? "no instance name" : "an instance name",
                    there.usage.anonymous ? "none" : "one", once);
-        } else if (here.binding >= 0 && there.binding >= 0 && here.binding != there.binding) {
-            differ(fmt::format("binding {}", here.binding), fmt::format("binding {}", there.binding), once);
+        } else if (std::max(here.binding, 0) != std::max(there.binding, 0)) {  // unstated is 0
+            const auto binding_text = [](const Block& block) {
+                return block.binding < 0 ? std::string("no binding")
+                                         : fmt::format("binding {}", block.binding);
+            };
+            differ(binding_text(here), binding_text(there), once);
         }
-    }
-
-    // ---- places that two names share
-
-    /// A binding or unit range that one name takes in one of the stages.
-    struct Taken {
-        std::string_view name;
-        std::string type;
-        std::int64_t first;
-        std::int64_t count;
-        const StageView* stage;
-    };
-
-    template <class Say>
-    void for_each_overlap(const std::vector<Taken>& places, const Say& say) {
-        std::set<std::pair<std::string_view, std::string_view>> told;
-        for (auto one = places.begin(); one != places.end(); ++one)
-            for (auto other = places.begin(); other != one; ++other) {
-                if (one->first >= other->first + other->count || other->first >= one->first + one->count)
-                    continue;
-                if (one->name == other->name) continue;
-                if (told.emplace(root_of(one->name), root_of(other->name)).second)
-                    say(*one, *other, std::max(one->first, other->first));
-            }
-    }
-
-    [[nodiscard]] static Declaration declared(const Taken& taken) {
-        return declaration_of(taken.name, taken.type, taken.stage->pieces);
-    }
-
-    void check_shared_bindings() {
-        for (const auto blocks : {&Interface::blocks, &Interface::storage_blocks}) {
-            std::vector<Taken> places;
-            for (const StageView& stage : stages_)
-                for (const Block& block : stage.interface.*blocks)
-                    if (block.binding >= 0 && block.set < 0 && !block.usage.unused)
-                        places.push_back({block.name, "", block.binding, 1, &stage});
-            for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t binding) {
-                if (root_of(one.name) == root_of(other.name)) return;
-                add(declared(one), Severity::warning,
-                    fmt::format("the blocks '{}' and '{}' ({}) share binding {}: both read the same buffer",
-                                one.name, other.name, declared(other).text(), binding),
-                    "give each a binding of its own");
-            });
-        }
-    }
-
-    void check_shared_units() {
-        std::vector<Taken> places;
-        for (const StageView& stage : stages_)
-            for (const Sampler& sampler : stage.interface.samplers)
-                if (sampler.binding >= 0 && sampler.set < 0 && !sampler.usage.unused &&
-                    sampler.type.find("sampler") != std::string::npos)
-                    places.push_back(
-                        {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), &stage});
-        for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t unit) {
-            const bool is_refused = one.type != other.type;
-            add(declared(one), is_refused ? Severity::error : Severity::warning,
-                fmt::format("'{} {}' and '{} {}' ({}) share texture unit {}{}", one.type, one.name,
-                            other.type, other.name, declared(other).text(), unit,
-                            is_refused ? ": OpenGL refuses to draw (INVALID_OPERATION)"
-                                       : ": both read the same texture"),
-                "give each a unit of its own");
-        });
-    }
-
-    /// Each element of an array and each member of a struct has a location of its own.
-    [[nodiscard]] static std::int64_t locations_of(const std::vector<int>& array,
-                                                   const std::vector<Member>& members) {
-        std::int64_t inner = members.empty() ? 1 : 0;
-        for (const Member& member : members) inner += locations_of(member.array, member.members);
-        return std::min<std::int64_t>(inner, 1 << 30) * element_count(array);
-    }
-
-    void check_uniform_locations() {
-        std::vector<Taken> places;
-        for (const StageView& stage : stages_)
-            for (const Uniform& uniform : stage.interface.uniforms)
-                if (uniform.location >= 0)
-                    places.push_back({uniform.name, uniform.type, uniform.location,
-                                      locations_of(uniform.array, uniform.members), &stage});
-        for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t location) {
-            add(declared(one), Severity::error,
-                fmt::format("the uniforms '{}' and '{}' ({}) share location {}", one.name, other.name,
-                            declared(other).text(), location),
-                "an array takes a location for each element: count on behind it");
-        });
     }
 
     const std::vector<StageView>& stages_;

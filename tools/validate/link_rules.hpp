@@ -22,6 +22,9 @@ struct StageView {
 /// The stages stand in the order of the pipeline.
 [[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
+/// The part of check_link() that looks at bindings, texture units, locations of uniforms and atomic counters.
+[[nodiscard]] Diagnostics check_shared_places(const std::vector<StageView>& stages);
+
 /// Of stages for Vulkan: blocks and samplers that share a place, with both lines; sets and push constants
 /// beyond what every device has, as warnings.
 [[nodiscard]] Diagnostics check_descriptors(const std::vector<StageView>& stages);

@@ -1,6 +1,7 @@
 #include "validate/stage_rules.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ class StageCheck {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
             check_early_tests();
+            check_built_in_arrays();
         }
         return std::move(found_);
     }
@@ -247,6 +249,26 @@ class StageCheck {
                                "(MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS)",
                                vertices, components, vertices * components, kGuaranteed),
                    "emit fewer vertices, or write fewer components with each");
+    }
+
+    /// glslang sizes gl_SampleMask by its use, and gl_FragData for all that any driver has.
+    void check_built_in_arrays() {
+        struct Limit {
+            std::string_view name;
+            std::int64_t elements;
+            std::string_view constant;
+        };
+        constexpr std::array<Limit, 3> kLimits = {{{"gl_SampleMask", 1, "MAX_SAMPLE_MASK_WORDS"},
+                                                   {"gl_SampleMaskIn", 1, "MAX_SAMPLE_MASK_WORDS"},
+                                                   {"gl_FragData", 8, "MAX_DRAW_BUFFERS"}}};
+        for (const spirv::Instruction& access : module_.instructions) {
+            const auto index = module_.integers.find(access.id(4));
+            if (access.opcode != spv::OpAccessChain || index == module_.integers.end()) continue;
+            const auto limit = std::ranges::find(kLimits, module_.name(access.id(3)), &Limit::name);
+            if (limit != kLimits.end())
+                at_most(limit->elements, index->second + 1, use_of(limit->name, pieces_),
+                        fmt::format("elements of {} up to the last", limit->name), limit->constant);
+        }
     }
 
     void check_output(const spirv::Variable& variable) {
