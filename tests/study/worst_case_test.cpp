@@ -50,6 +50,23 @@ TEST(WorstCase, IsFoundWhereNoSceneIs) {
     EXPECT_EQ(worst_of(all_cases(), ""), 0) << "the most accurate quality errs by nothing but roundings";
 }
 
+/// Rough metals lose up to half of their light to a second reflection; what gives it back looks up a table,
+/// which holds what an application's does.
+TEST(WorstCase, FindsWhatATableOfTheEnvironmentBrdfGivesBack) {
+    const auto of_templates = [](const std::string& name) {
+        const std::string path = "templates/" + name + ".toml";
+        return Result<FamilyText>(FamilyText{source_files().read(path).value(), path});
+    };
+    const FamilyText pbr = of_templates("pbr").value();
+    const Family family = read_family(pbr.text, pbr.path, of_templates).value();
+    const Key once = parse_key(family, "diffuse_lobe=oren_nayar directional=1 fresnel=exact").value();
+    const Subject subject = lit_subject();
+    const Subject of_pbr{subject.shipped, family, subject.search, subject.jobs};
+    const auto found = find_worst_cases(of_pbr, {once}, {2048}).value();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GT(found[0].error, 0.1);
+}
+
 TEST(WorstCase, IsNoneWhereVerticesComputeTheLight) {
     for (const WorstCase& one : searched({"point=1 diffuse=toon"})) {
         const std::string quality = quality_text(lit_under_study().family, one.key);

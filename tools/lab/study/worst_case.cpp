@@ -10,9 +10,11 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <gobo/environment_brdf.hpp>
 
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
+#include "lab/oracle/oracle.hpp"
 #include "lab/raster/random_numbers.hpp"
 #include "lab/study/parallel_results.hpp"
 #include "lab/study/qualities.hpp"
@@ -54,6 +56,20 @@ void bring_to_edges(Sample& sample, Random& random) {
         if (glm::length(aside) == 0) continue;
         light.axis = std::cos(angle) * to_point + std::sin(angle) * glm::normalize(aside);
     }
+}
+
+/// Gives the sample what the table of the environment BRDF holds at its roughness and n.v, as an application
+/// makes it (gobo/environment_brdf.hpp): any other table would be another model.
+void look_up_table(const oracle::Model& model, Sample& sample) {
+    constexpr int kSize = 32;
+    static const std::vector<float> kTexels = environment_brdf_table(kSize);
+    const double nv = glm::dot(oracle::shading_direction(model, sample.surface.normal),
+                               oracle::to_viewer(model, sample.surface.position));
+    const auto place = [](double coordinate) {
+        return static_cast<std::size_t>(std::clamp(coordinate * kSize, 0.0, kSize - 1.0));
+    };
+    const std::size_t texel = kSize * place(sample.scene.material.roughness) + place(std::abs(nv));
+    sample.scene.environment_brdf = {kTexels[2 * texel], kTexels[2 * texel + 1]};
 }
 
 /// A number, vector or matrix that the stage reads.
@@ -136,8 +152,10 @@ class Search {
             const std::size_t count = std::min(kPortion, options_.points - done);
             const bool is_fresh = kept_.empty() || done / kPortion % 2 == 0;
             std::vector<Sample> samples = is_fresh ? drawn(count) : varied(count);
-            for (Sample& sample : samples)
+            for (Sample& sample : samples) {
                 for (const SearchedField& field : fields_) bring_into_domain(field, sample);
+                if (model_.environment_brdf == oracle::EnvironmentBrdf::table) look_up_table(model_, sample);
+            }
             GOBO_TRY_DO(judge(verify::rounded_to_float(std::move(samples))));
         }
         return std::move(worst_);
