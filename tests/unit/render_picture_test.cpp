@@ -166,12 +166,16 @@ uniform bool on;
 uniform mat2x3 shear;
 uniform sampler2D rampTexture;
 uniform sampler2D tint;
+struct Surface { float share; sampler2D albedo; };
+uniform Surface surfaces[2];
 layout(std140) uniform Second { vec2 pair; } second;
 layout(std140) uniform First { float single[3]; } first;
 out vec4 color;
 void main() {
     color = vec4(parts[1].gain[2] + float(parts[0].shift.y), float(mask) + (on ? 0.5 : 0.0) + shear[1][2],
-                 texture(rampTexture, vec2(0.5)).r + texture(tint, vec2(0.5)).g, second.pair.y + first.single[2]);
+                 texture(rampTexture, vec2(0.5)).r + texture(tint, vec2(0.5)).g +
+                 surfaces[1].share * texture(surfaces[1].albedo, vec2(0.5)).r + texture(surfaces[0].albedo, vec2(0.5)).r,
+                 second.pair.y + first.single[2]);
 }
 )";
     const std::vector<RenderValue> values = {
@@ -183,6 +187,9 @@ void main() {
         {"on", "", {1}, {}},
         {"shear", "", {1, 2, 3, 4, 5, 6}, {}},
         {"tint", "", {0.25, 0.75, 0.5}, {}},
+        {"surfaces[].albedo", "", {2, 0, 0}, {}},
+        {"surfaces[1].albedo", "", {4, 0, 0}, {}},
+        {"surfaces[].share", "", {0.5}, {}},
         {"Second.pair", "", {100, 200}, {}},
         {"First.single[1]", "", {10, 20}, {}},
     };
@@ -199,7 +206,8 @@ void main() {
     EXPECT_EQ(text_of(picture->warnings), "");
     EXPECT_EQ(picture->color.at(4, 4, 0), 1.0F);
     EXPECT_EQ(picture->color.at(4, 4, 1), 11.5F);
-    EXPECT_NEAR(picture->color.at(4, 4, 2), 0.5 + 0.75, 1e-6);  // the sampler interpolates floats
+    EXPECT_NEAR(picture->color.at(4, 4, 2), 0.5 + 0.75 + 0.5 * 4 + 2,
+                1e-6);  // the sampler interpolates floats
     EXPECT_EQ(picture->color.at(4, 4, 3), 220.0F);
 }
 

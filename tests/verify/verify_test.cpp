@@ -179,6 +179,31 @@ TEST(Verify, AsksTheOracleAboutAnyInvocation) {
     EXPECT_FALSE(verify::ask_oracle(family, keys[0], StageKind::fragment, program, invocation));
 }
 
+/// A lamp a thousandth away: what rounding the inputs does is far more than what the arithmetic does.
+TEST(Verify, BoundsFloatsWhoseInputsNoFloatHolds) {
+    const Family family = lit_family();
+    const auto keys = keys_of(family, {"point=1"});
+    const Composition composition = compose_lit(family, keys, {}).value();
+    ValidateOptions options;
+    options.keep_spirv = true;
+    const Validated validated = validate(family, composition, options);
+    const auto fragment = static_cast<std::size_t>(composition.permutations[0].stages[StageKind::fragment]);
+    const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
+    const oracle::Model model = oracle::model_of(family, keys[0]).value();
+    auto invocation =
+        verify::bind_inputs(program, verify::make_samples(model, StageKind::fragment, 1, 3)).value();
+    invocation.values["eyePosition"] = {0.1, 0.2, -3.3};
+    invocation.values["eyeNormal"] = {0, 0.6, 0.8};
+    invocation.values["PointLights.lights[0].position"] = {0.1003, 0.2007, -3.2994, 1};
+    invocation.values["PointLights.lights[0].attenuation"] = {1, 0, 1};
+    const auto answers = verify::ask_oracle(family, keys[0], StageKind::fragment, program, invocation);
+    ASSERT_TRUE(answers.has_value());
+    const auto outputs = evaluate::run<float>(program, invocation).value();
+    const verify::Answer& color = answers->front();
+    for (std::size_t c = 0; c < color.value.size(); ++c)
+        EXPECT_NEAR(outputs.values.at(color.output)[c], color.value[c], color.float_error[c]) << c;
+}
+
 TEST(Verify, KeepsTheWorstPoints) {
     verify::StageReport report;
     for (const double ratio : {2.0, 5.0, 3.0, 9.0, 4.0}) {

@@ -19,6 +19,7 @@
 #include "core/text.hpp"
 #include "family/render_sources.hpp"
 #include "lab/render/camera.hpp"
+#include "lab/render/texture.hpp"
 
 namespace gobo {
 namespace {
@@ -73,18 +74,6 @@ std::optional<Leaf> find_leaf(const std::vector<Leaf>& leaves, std::string_view 
         return leaf;
     }
     return std::nullopt;
-}
-
-/// The name with every subscript emptied: "PointLights.lights[].position".
-std::string without_subscripts(std::string_view name) {
-    std::string text;
-    bool inside = false;
-    for (const char character : name) {
-        if (character == ']') inside = false;
-        if (!inside) text += character;
-        if (character == '[') inside = true;
-    }
-    return text;
 }
 
 /// The type of that name, where it is one that OpenGL can set.
@@ -219,6 +208,14 @@ std::vector<Leaf> named_leaves(const std::vector<Leaf>& leaves, const RenderValu
         named.push_back(*leaf);
     }
     return named;
+}
+
+/// A struct may hold samplers beside what has numbers.
+bool is_of_sampler(const Interface& interface, const RenderValue& value) {
+    return std::ranges::any_of(interface.samplers,
+                               [plain = without_subscripts(value.name)](const Sampler& sampler) {
+                                   return without_subscripts(sampler.name) == plain;
+                               });
 }
 
 /// An error where the interface has the block or uniform, but not what the value names in it.
@@ -409,7 +406,7 @@ Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std:
     std::ranges::stable_partition(ordered, is_of_all_elements);
     for (const RenderValue& value : ordered) {
         const std::vector<Leaf> named = named_leaves(leaves, value);
-        if (named.empty()) GOBO_TRY_DO(check_name(leaves, value));
+        if (named.empty() && !is_of_sampler(interface, value)) GOBO_TRY_DO(check_name(leaves, value));
         for (const Leaf& leaf : named) {
             GOBO_TRY(Assignment assignment, assign(leaf, value, object));
             resolved.assignments.push_back(std::move(assignment));

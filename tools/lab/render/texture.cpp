@@ -95,10 +95,24 @@ void fill_depth(const GladGLContext& gl, GLenum target, const std::vector<double
 
 }  // namespace
 
+std::string without_subscripts(std::string_view name) {
+    std::string text;
+    bool inside = false;
+    for (const char character : name) {
+        if (character == ']') inside = false;
+        if (!inside) text += character;
+        if (character == '[') inside = true;
+    }
+    return text;
+}
+
 const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
-    const auto found = std::find_if(values.rbegin(), values.rend(),
-                                    [&](const RenderValue& value) { return value.name == name; });
-    return found == values.rend() ? nullptr : &*found;
+    for (const std::string& wanted : {std::string(name), without_subscripts(name)}) {
+        const auto found = std::find_if(values.rbegin(), values.rend(),
+                                        [&](const RenderValue& value) { return value.name == wanted; });
+        if (found != values.rend()) return &*found;
+    }
+    return nullptr;
 }
 
 TextureSource texture_source_of(const std::string& sampler, const std::vector<RenderValue>& values) {

@@ -264,15 +264,22 @@ std::optional<std::vector<Answer>> ask_oracle(const Family& family, const Key& k
     if (!model || !sample) return std::nullopt;
     std::vector<Answer> answers;
     oracle::Decisions decisions;
+    oracle::Decisions float_decisions;
+    const std::vector<Expected> of_floats = expect(*model, stage, rounded_to_float(*sample), float_decisions);
     for (const Expected& expected : expect(*model, stage, *sample, decisions)) {
         const bool is_there =
             std::any_of(program.outputs.begin(), program.outputs.end(),
                         [&](const evaluate::Port& port) { return port.name == expected.output; });
         if (!is_there) continue;
-        answers.push_back(
-            {std::string(expected.output),
-             {expected.value.begin(), expected.value.begin() + expected.components},
-             {expected.float_error.begin(), expected.float_error.begin() + expected.components}});
+        Answer& answer = answers.emplace_back(Answer{
+            expected.output, {expected.value.begin(), expected.value.begin() + expected.components}, {}});
+        const auto rounded =
+            std::ranges::find(of_floats, expected.output, [](const Expected& one) { return one.output; });
+        for (std::size_t c = 0; c < expected.components; ++c)
+            answer.float_error.push_back(rounded == of_floats.end()
+                                             ? expected.float_error[c]
+                                             : rounded->float_error[c] +
+                                                   std::abs(rounded->value[c] - expected.value[c]));
     }
     return answers;
 }

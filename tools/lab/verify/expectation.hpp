@@ -43,7 +43,7 @@ inline constexpr std::string_view kDiscard = "discard";
 struct Answer {
     std::string output;
     std::vector<double> value;
-    std::vector<double> float_error;  ///< bound of a float evaluation's error
+    std::vector<double> float_error;  ///< bound of a float evaluation's error, its inputs' rounding with it
 };
 
 /// The answers for the outputs that the stage has; nothing where the oracle does not know the key's model or
