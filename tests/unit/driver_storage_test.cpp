@@ -19,6 +19,7 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2
 )";
 /// Each pixel has an element and a texel of its own, so that the order of pixels is no matter.
 constexpr const char* kDeclarations = R"(#version 450
+#extension GL_ARB_gpu_shader_int64 : require
 layout(std430, binding = 0) buffer Numbers { int numbers[64]; };
 layout(std430, binding = 1) buffer Vectors { vec4 vectors[64]; };
 layout(std430, binding = 2) buffer Matrices { layout(row_major) mat3 turns[64]; };
@@ -63,6 +64,24 @@ const Case kCases[] = {
     {"atomics_of_a_texel",
      "uint n = imageAtomicAdd(words, p, 4u); n += imageAtomicMax(words, p, 120u) * 2u; numbers[at] = int(n + "
      "imageAtomicCompSwap(words, p, 120u, 1u));"},
+    {"doubles",
+     "double d = double(numbers[at]) / 3.0lf + 1e-12lf; vectors[at] = vec4(d * 3.0lf - double(numbers[at]), "
+     "fract(d), sqrt(abs(d)), mod(d, 0.7lf)); numbers[at] = int(floor(d * 1e7lf));"},
+    {"doubles_in_matrices",
+     "dmat3 m = dmat3(turns[at]) * dmat3(0.1lf); m[0] += dvec3(1e-3lf); turns[at] = mat3(m * m); "
+     "vectors[at].x = float(determinant(dmat2(vectors[at])));"},
+    {"bits_of_doubles",
+     "uvec2 u = unpackDouble2x32(double(numbers[at]) / 3.0lf); numbers[at] = int(u.x ^ u.y);"},
+    {"integers_of_64_bits",
+     "int64_t l = int64_t(numbers[at]) * 123456789123l; numbers[at] = int((l >> 20) ^ (l / 1000l)) + int(l < "
+     "0l);"},
+    {"unsigned_integers_of_64_bits",
+     "uint64_t u = uint64_t(int64_t(numbers[at])) * 0x9e3779b97f4a7c15ul; numbers[at] = int(u >> 33) + int(u "
+     "% 1000ul) + "
+     "int(u > 0x8000000000000000ul); vectors[at].x = float(u / 3ul);"},
+    {"conversions_of_64_bits",
+     "int64_t l = int64_t(vectors[at].x * 1e10); vectors[at].y = float(double(l) * 0.5lf); numbers[at] = "
+     "int(uint64_t(uint(numbers[at])) >> 4);"},
 };
 
 std::vector<int> first_numbers() {
@@ -148,7 +167,8 @@ Memory drawn(const Context& context, const std::string& fragment) {
 /// The same by one invocation for each pixel.
 Memory evaluated(const std::string& fragment) {
     const Memory before;
-    const Program program = program_of(ShaderStage::fragment, fragment);
+    const Program program =
+        decode(compile(ShaderStage::fragment, fragment), {.widths = Widths::up_to_64}).value();
     Invocations invocations;
     invocations.count = kPixels;
     for (const Port& port : program.inputs)
@@ -178,7 +198,8 @@ Memory evaluated(const std::string& fragment) {
         };
     };
     invocations.images = {{"colors", texel_of(before.colors, 4)}, {"words", texel_of(before.words, 1)}};
-    const Result<Outputs> outputs = run<float>(program, invocations);
+    const Result<Outputs> outputs = program.has_wide ? run<double>(program, invocations, {.is_single = true})
+                                                     : run<float>(program, invocations);
     EXPECT_TRUE(outputs) << to_text(outputs.error().front());
     Memory memory;
     if (!outputs) return memory;

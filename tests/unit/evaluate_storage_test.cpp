@@ -160,7 +160,7 @@ void main() { r = data[i] + vec4(data[20].x, data.length(), 0, 0); }
 )");
     // The largest constant index counts too.
     for (const auto& [asked, given] : {std::pair(16U, 21.0), {30U, 30.0}}) {
-        const Result<Program> program = decode(words, asked);
+        const Result<Program> program = decode(words, {.unstated_length = asked});
         ASSERT_TRUE(program) << to_text(program.error().front());
         EXPECT_THAT(
             output_of<float>(*program,

@@ -396,47 +396,58 @@ void make_counts_literal(Family& family) {
     for (Feature& feature : family.features) feature.is_specialized = false;
 }
 
+namespace {
+
+/// Shader files; all functions of their subroutine uniforms, or where one key is wanted, those that stand
+/// beside the files as a key.
+Result<Subject> load_files(const World& world, const std::vector<std::string>& names,
+                           const std::vector<std::string>& stages, const std::string& dialect,
+                           bool wants_one_key) {
+    Subject subject;
+    std::vector<StageKind> kinds;
+    for (const std::string& name : stages) {
+        const std::optional<StageKind> kind = stage_named(name);
+        if (!kind)
+            return fail(Fault::usage, fmt::format("-S: there is no stage '{}'", name),
+                        suggestion(name, split(stage_words(), '|')));
+        kinds.push_back(*kind);
+    }
+    subject.are_files = true;
+    GOBO_TRY(subject.family.dialect, read_dialect(dialect));
+    add_include_folders(world, subject.family.search);
+    std::vector<std::string> files = names;
+    std::vector<std::string> key;
+    std::erase_if(files, [&](const std::string& name) {
+        const bool is_key = wants_one_key && !is_shader_file(name) && !world.disk.is_file(name) &&
+                            (name == "default" || name.find('=') != std::string::npos);
+        if (is_key) key.push_back(name);
+        return is_key;
+    });
+    GOBO_TRY(subject.family.family, family_of_files(files, world.disk, subject.family.search, kinds));
+    Family& family = subject.family.family;
+    GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
+    const bool is_vulkan = dialect.empty() && is_for_vulkan(subject.composition);
+    if (is_vulkan) subject.family.dialect = Dialect::vulkan;
+    const bool is_legacy = read_as_legacy(subject.composition, family);
+    const bool has_subroutines = add_subroutines(subject.composition, family);
+    if (is_legacy) subject.family.search.add(world.shipped, "templates", "templates/", false);
+    GOBO_TRY(const Key chosen, parse_key(family, key.empty() ? "default" : join(key, " ")));
+    if (is_vulkan || is_legacy || has_subroutines) {
+        const std::vector<Key> keys =
+            wants_one_key ? std::vector<Key>{chosen} : keys_with_every_value(family);
+        GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, keys)));
+    }
+    return subject;
+}
+
+}  // namespace
+
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                              const std::vector<std::string>& stages, const std::string& dialect,
                              const SelectionOptions* selection, Counts counts) {
+    if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file))
+        return load_files(world, names, stages, dialect, selection == nullptr);
     Subject subject;
-    if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file)) {
-        std::vector<StageKind> kinds;
-        for (const std::string& name : stages) {
-            const std::optional<StageKind> kind = stage_named(name);
-            if (!kind)
-                return fail(Fault::usage, fmt::format("-S: there is no stage '{}'", name),
-                            suggestion(name, split(stage_words(), '|')));
-            kinds.push_back(*kind);
-        }
-        subject.are_files = true;
-        GOBO_TRY(subject.family.dialect, read_dialect(dialect));
-        add_include_folders(world, subject.family.search);
-        // A key of subroutines may stand beside the files.
-        std::vector<std::string> files = names;
-        std::vector<std::string> key;
-        std::erase_if(files, [&](const std::string& name) {
-            const bool is_key = selection == nullptr && name.find('=') != std::string::npos &&
-                                !is_shader_file(name) && !world.disk.is_file(name);
-            if (is_key) key.push_back(name);
-            return is_key;
-        });
-        GOBO_TRY(subject.family.family, family_of_files(files, world.disk, subject.family.search, kinds));
-        Family& family = subject.family.family;
-        GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, {Key{}})));
-        const bool is_vulkan = dialect.empty() && is_for_vulkan(subject.composition);
-        if (is_vulkan) subject.family.dialect = Dialect::vulkan;
-        const bool is_legacy = read_as_legacy(subject.composition, family);
-        const bool has_subroutines = add_subroutines(subject.composition, family);
-        if (is_legacy) subject.family.search.add(world.shipped, "templates", "templates/", false);
-        GOBO_TRY(const Key chosen, parse_key(family, key.empty() ? "default" : join(key, " ")));
-        if (is_vulkan || is_legacy || has_subroutines) {
-            const std::vector<Key> keys =
-                selection != nullptr ? keys_with_every_value(family) : std::vector<Key>{chosen};
-            GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, keys)));
-        }
-        return subject;
-    }
     const std::size_t most = selection != nullptr ? 1 : 2;
     if (names.size() > most)
         return fail(Fault::usage, fmt::format("unexpected argument '{}'", names[most]),

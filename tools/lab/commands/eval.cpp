@@ -32,7 +32,7 @@ Result<evaluate::Program> program_of(const World& world, const Subject& subject,
         return fail(Fault::input, fmt::format("there is no {} stage to evaluate", name_of(stage)),
                     "name its file, or state another 'stage' in the input file");
     return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv,
-                            std::max(evaluate::kUnstatedLength, longest_array));
+                            {std::max(evaluate::kUnstatedLength, longest_array), evaluate::Widths::up_to_64});
 }
 
 /// Which function each subroutine uniform of shader files is, where nobody said.

@@ -17,8 +17,16 @@ Result<Examined> load_examined(const World& world, const FindingOptions& options
     return Examined{std::move(subject), std::move(validated)};
 }
 
+namespace {
+
+bool has_keys(const Subject& subject) {
+    return !subject.are_files || !subject.family.family.features.empty();
+}
+
+}  // namespace
+
 void leave_out_keys(const Subject& subject, Diagnostics& diagnostics) {
-    if (!subject.are_files || !subject.family.family.features.empty()) return;
+    if (has_keys(subject)) return;
     for (Diagnostic& diagnostic : diagnostics) diagnostic.subject.clear();
 }
 
@@ -34,13 +42,11 @@ Diagnostics report_finding(const World& world, const FindingOptions& options, co
     std::vector<std::string> names = options.names;
     std::ranges::transform(names, names.begin(), shell_word);
     std::string what = join(names, " ");
-    if (!permutations.empty()) {
+    if (has_keys(subject) && !permutations.empty()) {
         error.subject =
             key_text(subject.family.family, subject.composition.permutations[permutations.front()].key);
-        if (!subject.are_files || !subject.family.family.features.empty())
-            what += fmt::format(" '{}'", error.subject);
+        what += fmt::format(" '{}'", error.subject);
     }
-    leave_out_keys(subject, diagnostics);
     if (!options.dialect.empty()) what += " --dialect " + options.dialect;
     for (const sanitize::Consequence& one : finding.consequences) {
         Diagnostic& note = diagnostics.emplace_back();

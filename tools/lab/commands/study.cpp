@@ -41,6 +41,7 @@ struct StudyCommandOptions {
     std::string svg;
     std::string study_file;
     std::size_t worst = 0;  ///< points of each quality to search
+    std::vector<std::string> mediump;
     std::string domain;     ///< a file of domains to search within
     std::string promises;   ///< a table of errors that are promised
     std::string draw;       ///< a key to draw once: what callgrind watches
@@ -313,6 +314,25 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
     return Outcome{text, std::move(diagnostics)};
 }
 
+/// What each name alone makes of the default quality where it is mediump.
+Result<Outcome> search_mediump(const StudyCommandOptions& options, const World& world) {
+    GOBO_TRY(LoadedFamily loaded, load_family(world, options.family));
+    GOBO_TRY_DO(narrow_domains(world, loaded, options.domain));
+    const Family& family = loaded.family;
+    GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
+    GOBO_TRY(const std::vector<Key> keys, effects_to_search(options, family, plan));
+    const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
+    std::string text = fmt::format("{:<40} {:<20} {:>9} {:>9}\n", "effects", "mediump", "worst", "rounding");
+    for (const std::string& name : split(join(options.mediump, ","), ',')) {
+        GOBO_TRY(const auto cases,
+                 study::find_worst_cases(subject, keys, {.points = options.worst, .mediump = name}));
+        for (const study::WorstCase& worst : cases)
+            text += fmt::format("{:<40} {:<20} {:>9.2g} {:>9.2g}\n", key_text(family, worst.effects), name,
+                                worst.error, worst.rounding);
+    }
+    return Outcome{text};
+}
+
 /// This program again, drawing a key once.
 study::DrawCommand draw_command(const StudyCommandOptions& options, const World& world) {
     std::error_code error;
@@ -404,6 +424,7 @@ std::string study_summary(const Family& family, const study::Study& study, const
 
 Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     if (!options.front.empty()) return show_front(options, world);
+    if (!options.mediump.empty()) return search_mediump(options, world);
     if (options.worst > 0) return search_worst(options, world);
     if (!options.fronts.empty()) return show_fronts(options, world);
     if (options.folder.empty())
@@ -489,6 +510,12 @@ Command study_command() {
           "rounding, "
           "beside that on the study's scenes; with -o its input, for gobo eval",
           &options->worst, between(1, 1e12)},
+         {"--mediump",
+          "NAME,...",
+          "With --worst: instead of qualities, each of these varyings and variables of pieces alone declared "
+          "mediump, in GLSL ES 3.00 with 16-bit floats",
+          &options->mediump,
+          {.needs = "--worst"}},
          {"--promises", "FILE",
           "With --worst: a manifest that gobo build --max-error wrote, or a CSV table of quality and error; "
           "promises that the search breaks are errors",

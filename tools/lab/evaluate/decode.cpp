@@ -43,19 +43,19 @@ void state_sizes(spirv::Module& module, std::uint32_t length) {
 
 }  // namespace
 
-Result<Program> decode(std::span<const std::uint32_t> words, std::uint32_t unstated_length) {
+Result<Program> decode(std::span<const std::uint32_t> words, const DecodeOptions& options) {
     GOBO_TRY(spirv::Module module, spirv::read_module(words));
     const bool computes_specially = std::ranges::any_of(
         module.instructions, [](const Instruction& one) { return one.opcode == spv::OpSpecConstantOp; });
     if (!computes_specially) {
-        state_sizes(module, unstated_length);
-        return Decoder(module).decode();
+        state_sizes(module, options.unstated_length);
+        return Decoder(module, options.widths).decode();
     }
     // Specialisation constants stand at their defaults, and what is computed from them too.
     GOBO_TRY(const spirv::Words fixed, spirv::specialized({words.begin(), words.end()}, {}));
     GOBO_TRY(spirv::Module special, spirv::read_module(fixed));
-    state_sizes(special, unstated_length);
-    return Decoder(special).decode();
+    state_sizes(special, options.unstated_length);
+    return Decoder(special, options.widths).decode();
 }
 
 Result<Program> Decoder::decode() {
@@ -118,6 +118,19 @@ void Decoder::report_type(const Instruction& type, std::string message) {
     report(type, std::move(message));
 }
 
+void Decoder::check_width(const Instruction& number) {
+    const Scalar scalar = type(number.result).value.scalar;
+    program_.has_narrow = program_.has_narrow || is_narrow(scalar);
+    program_.has_wide = program_.has_wide || is_wide(scalar);
+    const bool is_known = is_wide(scalar)     ? widths_ == Widths::up_to_64
+                          : is_narrow(scalar) ? widths_ != Widths::of_32
+                                              : true;
+    if (!is_known)
+        report_type(number, fmt::format("{}-bit {} are evaluated by gobo eval{} alone", number.word(2),
+                                        is_float(scalar) ? "floating-point numbers" : "integers",
+                                        is_wide(scalar) ? "" : ", gobo sanitize and gobo test"));
+}
+
 /// Types that evaluation does not know are errors, used or not.
 void Decoder::check_types() {
     for (const Instruction& instruction : module_.instructions) {
@@ -125,10 +138,7 @@ void Decoder::check_types() {
             return is_one_of(instruction.opcode, list);
         };
         if (is({spv::OpTypeOpaque})) report_type(instruction, "opaque types are not evaluated");
-        if (is({spv::OpTypeInt, spv::OpTypeFloat}) && instruction.word(2) != 32)
-            report_type(instruction,
-                        fmt::format("{}-bit {} are not supported", instruction.word(2),
-                                    is({spv::OpTypeInt}) ? "integers" : "floating-point numbers"));
+        if (is({spv::OpTypeInt, spv::OpTypeFloat})) check_width(instruction);
         if (!is({spv::OpTypeArray, spv::OpTypeRuntimeArray, spv::OpTypeStruct})) continue;
         const Type& found = type(instruction.result);
         const auto is_empty = [&](Id part) { return type(part).scalars == 0; };
@@ -310,7 +320,7 @@ void Decoder::decode_branch(const BasicBlock& basic, const Instruction& instruct
 
 void Decoder::decode_switch(const BasicBlock& basic, const Instruction& instruction) {
     const Value selector = value(instruction, 1);
-    if (!is_one(selector, is_integer))
+    if (!is_one(selector, is_index))
         return report(instruction, "a switch has a selector that is not an integer");
     block().condition = selector.slot;
     block().labels = length_of(program_.words);

@@ -17,8 +17,14 @@ bool holds(Scalar scalar, char wanted) {
     switch (std::tolower(wanted)) {
         case 'f':
             return is_float(scalar);
+        case 'd':
+            return scalar == Scalar::float64;
+        case 'h':
+            return scalar == Scalar::float16;
         case 'i':
-            return is_integer(scalar);
+            return is_index(scalar);
+        case 'l':
+            return is_wide(scalar) && !is_float(scalar);
         default:
             return is_boolean(scalar);
     }
@@ -324,15 +330,16 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
             if (is_unstated && constant->second.front() >= type(at).count)
                 return report(instruction, fmt::format("'{}' has no size, and is evaluated with {} elements",
                                                        path, type(at).count));
-            path = part_name(path, at.type, constant->second.front());
-            if (!step_into(instruction, at.type, at.slot, constant->second.front())) return;
+            const auto index = static_cast<std::uint32_t>(constant->second.front());
+            path = part_name(path, at.type, index);
+            if (!step_into(instruction, at.type, at.slot, index)) return;
             continue;
         }
         const Type& whole = type(at);
         if (whole.opcode == spv::OpTypeStruct)
             return report(instruction, "a member of a structure is chosen by a variable");
         const Value dynamic = value(instruction, word);
-        if (!is_one(dynamic, is_integer)) return report(instruction, "an index is not an integer");
+        if (!is_one(dynamic, is_index)) return report(instruction, "an index is not an integer");
         const std::string& name = program_.names[dynamic.name];
         path += fmt::format("[{}]", name.empty() ? "..." : name);
         std::uint32_t first = 0;
@@ -422,7 +429,7 @@ void Decoder::decode_dynamic_component(const Instruction& instruction) {
     const Values operands = values(instruction, 3);
     const bool is_extract = instruction.opcode == spv::OpVectorExtractDynamic;
     if (operands.size() != (is_extract ? 2U : 3U) || type(operands[0]).opcode != spv::OpTypeVector ||
-        !is_integer(type(operands.back()).value.scalar))
+        !is_index(type(operands.back()).value.scalar))
         return report_types(instruction);
     const std::uint32_t extent = type(operands[0]).count;
     const std::uint32_t count = is_extract ? 1 : extent;

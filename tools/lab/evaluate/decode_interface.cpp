@@ -23,15 +23,16 @@ void Decoder::decode_globals() {
     }
 }
 
-/// The 32 bits of each slot of a constant; nothing where it is malformed. What is undefined is 0.
-std::optional<Words> Decoder::constant_bits(const Instruction& instruction) const {
+/// The bits of each slot of a constant; nothing where it is malformed. What is undefined is 0.
+std::optional<Bits> Decoder::constant_bits(const Instruction& instruction) const {
     const std::uint32_t slots = type(instruction.type).scalars;
     const auto is = [&](std::initializer_list<spv::Op> list) { return is_one_of(instruction.opcode, list); };
-    if (is({spv::OpConstant, spv::OpSpecConstant})) return std::vector{instruction.word(3)};
-    if (is({spv::OpConstantTrue, spv::OpSpecConstantTrue})) return std::vector{1U};
-    if (is({spv::OpConstantFalse, spv::OpSpecConstantFalse})) return std::vector{0U};
-    if (is({spv::OpConstantNull, spv::OpUndef})) return Words(slots, 0);
-    Words bits;
+    if (is({spv::OpConstant, spv::OpSpecConstant}))
+        return Bits{instruction.word(3) | std::uint64_t{instruction.word(4)} << 32U};
+    if (is({spv::OpConstantTrue, spv::OpSpecConstantTrue})) return Bits{1};
+    if (is({spv::OpConstantFalse, spv::OpSpecConstantFalse})) return Bits{0};
+    if (is({spv::OpConstantNull, spv::OpUndef})) return Bits(slots, 0);
+    Bits bits;
     for (std::size_t word = 3; word < instruction.words.size() && bits.size() <= slots; ++word) {
         const auto part = constant_bits_.find(instruction.id(word));
         if (part == constant_bits_.end()) return std::nullopt;
@@ -42,7 +43,7 @@ std::optional<Words> Decoder::constant_bits(const Instruction& instruction) cons
 
 void Decoder::decode_constant(const Instruction& instruction) {
     const std::uint32_t slots = type(instruction.type).scalars;
-    std::optional<Words> bits = constant_bits(instruction);
+    std::optional<Bits> bits = constant_bits(instruction);
     if (!bits || slots == 0 || bits->size() != slots) return report(instruction, "a constant is malformed");
     const std::uint32_t slot = permanent(slots);
     add_constants(instruction.type, slot, *bits);
@@ -51,10 +52,12 @@ void Decoder::decode_constant(const Instruction& instruction) {
 }
 
 /// Fills the slots of a value of that type.
-void Decoder::add_constants(Id id, std::uint32_t slot, std::span<const std::uint32_t> bits) {
+void Decoder::add_constants(Id id, std::uint32_t slot, std::span<const std::uint64_t> bits) {
     const Type& of = type(id);
     if (!of.is_array() && of.opcode != spv::OpTypeStruct) {
-        for (const std::uint32_t value : bits) program_.constants.push_back({slot++, of.value.scalar, value});
+        for (const std::uint64_t value : bits)
+            program_.constants.push_back({slot++, of.value.scalar, static_cast<std::uint32_t>(value),
+                                          static_cast<std::uint32_t>(value >> 32U)});
         return;
     }
     for (std::uint32_t index = 0; index < of.count; ++index) {
@@ -184,14 +187,15 @@ void Decoder::add_leaf(std::vector<Port>& ports, const std::string& name, Id id,
     Port port{name, of.value.name(), number, at.slot, of.scalars, of.value.scalar, at.block,
               {},   at.is_written};
     const auto rows = static_cast<std::uint32_t>(of.value.rows);
+    const auto size = static_cast<std::uint32_t>(of.value.scalar_size());
     for (std::uint32_t component = 0; component < of.scalars && at.block >= 0; ++component) {
         const std::uint32_t column = component / rows;
         const std::uint32_t row = component % rows;
-        const std::uint32_t offset = at.offset + (at.is_row_major ? row * at.matrix_stride + column * 4
-                                                                  : column * at.matrix_stride + row * 4);
+        const std::uint32_t offset = at.offset + (at.is_row_major ? row * at.matrix_stride + column * size
+                                                                  : column * at.matrix_stride + row * size);
         port.offsets.push_back(offset);
         UniformBlock& block = program_.uniform_blocks[static_cast<std::size_t>(at.block)];
-        block.size = std::max(block.size, offset + 4);
+        block.size = std::max(block.size, offset + size);
     }
     if (number >= 0) number += of.value.columns;
     ports.push_back(std::move(port));

@@ -42,7 +42,7 @@ std::uint32_t operation_of(spv::Op atomic) {
 }
 
 bool is_number(Scalar scalar) {
-    return is_integer(scalar) || is_float(scalar);
+    return is_integer(scalar) || scalar == Scalar::float32;
 }
 
 }  // namespace

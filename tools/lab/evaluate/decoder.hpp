@@ -33,10 +33,12 @@ struct Value {
 
 using Values = std::vector<Value>;
 using Words = std::vector<std::uint32_t>;
+/// Of each scalar of a constant.
+using Bits = std::vector<std::uint64_t>;
 
 class Decoder {
   public:
-    explicit Decoder(const spirv::Module& module) : module_(module) {}
+    Decoder(const spirv::Module& module, Widths widths) : module_(module), widths_(widths) {}
 
     Result<Program> decode();
 
@@ -78,6 +80,7 @@ class Decoder {
     void report_types(const Instruction& instruction);
     void report_type(const Instruction& type, std::string message);
     [[nodiscard]] bool contains(Id whole, Id part) const;
+    void check_width(const Instruction& type);
     void check_types();
     void finish_program();
     void inline_function(const Function& function, Frame new_frame);
@@ -99,8 +102,8 @@ class Decoder {
     // decode_interface.cpp: constants, variables outside functions, ports.
     void decode_globals();
     void decode_constant(const Instruction& instruction);
-    [[nodiscard]] std::optional<Words> constant_bits(const Instruction& instruction) const;
-    void add_constants(Id type, std::uint32_t slot, std::span<const std::uint32_t> bits);
+    [[nodiscard]] std::optional<Bits> constant_bits(const Instruction& instruction) const;
+    void add_constants(Id type, std::uint32_t slot, std::span<const std::uint64_t> bits);
     std::optional<Value> new_variable(const Instruction& instruction, const std::string& name,
                                       bool is_read_only);
     void decode_variable(const Instruction& instruction);
@@ -190,13 +193,14 @@ class Decoder {
     Value constant(Id type, std::uint32_t bits);
 
     const spirv::Module& module_;
+    Widths widths_;
     Functions functions_;
     Id std450_ = Id::none;  ///< the GLSL.std.450 instruction set
     Program program_;
     std::optional<Diagnostic> error_;
     std::vector<Frame*> frames_;
     std::unordered_map<Id, Value> globals_;  ///< constants, and pointers to variables outside functions
-    std::unordered_map<Id, Words> constant_bits_;
+    std::unordered_map<Id, Bits> constant_bits_;
     std::vector<bool> is_read_only_;  ///< of each variable
     std::vector<Allocation> allocations_;
     std::map<std::uint32_t, Words> free_slots_;  ///< by count: first slots
@@ -211,8 +215,9 @@ class Decoder {
 /// Programs beyond this many slots, operations or blocks are refused.
 inline constexpr std::uint32_t kLargestProgram = 1U << 19U;
 
-[[nodiscard]] inline bool is_float(Scalar scalar) {
-    return scalar == Scalar::float32;
+/// What arrays are indexed by.
+[[nodiscard]] inline bool is_index(Scalar scalar) {
+    return !is_float(scalar) && !is_wide(scalar) && scalar != Scalar::boolean;
 }
 [[nodiscard]] inline bool is_boolean(Scalar scalar) {
     return scalar == Scalar::boolean;

@@ -308,13 +308,6 @@ Numbers values_of_quad(const std::vector<Port>& ports, const Invocations& invoca
     return result;
 }
 
-/// The shortest decimal that reads back the same, as TOML writes it; infinities and NaN by name.
-std::string number_text(double number, Digits digits) {
-    const auto as_float = static_cast<float>(number);
-    const bool is_float = digits == Digits::of_float && static_cast<double>(as_float) == number;
-    return is_float ? fmt::format("{}", as_float) : fmt::format("{}", number);
-}
-
 std::string table_text(std::string_view name, const Numbers& values, Digits digits) {
     if (values.empty()) return {};
     std::string text = fmt::format("\n[{}]\n", name);
@@ -329,6 +322,15 @@ std::string table_text(std::string_view name, const Numbers& values, Digits digi
 }
 
 }  // namespace
+
+std::string number_text(double number, Digits digits) {
+    // The shortest decimal of a float need not be the whole number that an integer is.
+    const bool is_whole = number == std::trunc(number) && std::abs(number) <= 0x1p32 && number != 0;
+    if (is_whole) return fmt::format("{:.0f}", number);
+    const auto as_float = static_cast<float>(number);
+    const bool is_float = digits == Digits::of_float && static_cast<double>(as_float) == number;
+    return is_float ? fmt::format("{}", as_float) : fmt::format("{}", number);
+}
 
 Result<EvalInputs> read_eval_inputs(std::string_view text, const std::string& path) {
     return FileReader(text, path).read();

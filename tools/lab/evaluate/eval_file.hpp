@@ -74,6 +74,10 @@ enum class Digits {
     of_float,  ///< so that they read back as the same floats, where they are floats
 };
 
+/// The shortest decimal that reads back the same; whole numbers of 32 bits with all their digits. Infinities
+/// and NaN by name.
+[[nodiscard]] std::string number_text(double number, Digits digits);
+
 /// The point as an input file: the lines of `comment`, `stage`, `[inputs]`, `[uniforms]` and `[samplers]`.
 [[nodiscard]] std::string eval_file(std::string_view stage, const EvalPoint& point,
                                     const std::vector<std::string>& comment, Digits digits);

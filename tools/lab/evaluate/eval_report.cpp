@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 
@@ -53,7 +54,7 @@ std::string outputs_text(const EvalReport& report) {
     for (const EvalOutput& output : report.outputs) {
         text += fmt::format("{} ({}){}\n", output.name, output.type, output.is_written ? ", written" : "");
         // Nine digits tell every fp32 number from its neighbours, seventeen every fp64 number.
-        text += columns("fp32", output.in_float, "{:.9g}");
+        text += columns("fp32", output.in_float, output.is_wide ? "{:.17g}" : "{:.9g}");
         text += columns("fp64", output.in_double, "{:.17g}");
         text += columns("difference", differences(output), "{:.2g}");
     }
@@ -132,11 +133,7 @@ template class Trace<double>;
 
 std::string to_text(const std::vector<double>& components) {
     std::vector<std::string> numbers;
-    for (const double component : components) {
-        const auto rounded = static_cast<float>(component);
-        const bool is_float = static_cast<double>(rounded) == component;
-        numbers.push_back(is_float ? fmt::format("{}", rounded) : fmt::format("{}", component));
-    }
+    for (const double component : components) numbers.push_back(number_text(component, Digits::of_float));
     if (numbers.size() == 1) return numbers.front();
     return fmt::format("({})", fmt::join(numbers, ", "));
 }
@@ -181,8 +178,9 @@ void add_written_ports(const Program& program, const Invocations& invocations, c
         const auto given = invocations.values.find(port.name);
         const std::vector<double> before =
             given == invocations.values.end() ? std::vector<double>(port.components) : given->second;
-        EvalOutput output{port.name, port.type, numbers_of(in_float, port, at),
-                          numbers_of(in_double, port, at), true};
+        EvalOutput output{
+            port.name, port.type,           numbers_of(in_float, port, at), numbers_of(in_double, port, at),
+            true,      is_wide(port.scalar)};
         if (output.in_float != before || output.in_double != before)
             report.outputs.push_back(std::move(output));
     }
@@ -217,27 +215,39 @@ void add_written_texels(const Program& program, const Outputs& in_float, const O
     for (auto& [name, texel] : texels) report.outputs.push_back(std::move(texel));
 }
 
+template <class T>
+Result<Outputs> traced(const Program& program, const Invocations& invocations, const Options& arithmetic,
+                       const EvalOptions& options, std::vector<TraceStep>& steps) {
+    Trace<T> trace(options.invocation);
+    GOBO_TRY(Outputs outputs,
+             run<T>(program, invocations, arithmetic, options.with_trace ? &trace : nullptr));
+    steps = trace.steps();
+    return outputs;
+}
+
 }  // namespace
 
 Result<EvalReport> evaluate_once(const Program& program, const Invocations& invocations,
                                  const EvalOptions& options) {
-    Trace<float> trace(options.invocation);
+    std::vector<TraceStep> trace;
     Options in_floats = options.arithmetic;
     in_floats.count = true;
-    GOBO_TRY(const Outputs in_float,
-             run<float>(program, invocations, in_floats, options.with_trace ? &trace : nullptr));
+    in_floats.is_single = program.has_wide;
+    GOBO_TRY(const Outputs in_float, program.has_wide
+                                         ? traced<double>(program, invocations, in_floats, options, trace)
+                                         : traced<float>(program, invocations, in_floats, options, trace));
     GOBO_TRY(const Outputs in_double, run<double>(program, invocations));
     EvalReport report;
     const std::size_t at = std::min(options.invocation, invocations.count - 1);
     for (const Port& port : program.outputs)
-        report.outputs.push_back(
-            {port.name, port.type, numbers_of(in_float, port, at), numbers_of(in_double, port, at)});
+        report.outputs.push_back({port.name, port.type, numbers_of(in_float, port, at),
+                                  numbers_of(in_double, port, at), false, is_wide(port.scalar)});
     add_written_ports(program, invocations, in_float, in_double, at, report);
     add_written_texels(program, in_float, in_double, at, report);
     report.is_discarded_in_float = in_float.discarded[at];
     report.is_discarded_in_double = in_double.discarded[at];
     report.counts = in_float.counts[at];
-    report.trace = trace.steps();
+    report.trace = std::move(trace);
     return report;
 }
 

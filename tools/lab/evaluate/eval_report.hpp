@@ -61,6 +61,7 @@ struct EvalOutput {
     std::vector<double> in_float;
     std::vector<double> in_double;
     bool is_written = false;  ///< a texel, or what a storage block or counter holds in the end
+    bool is_wide = false;     ///< of 64 bits
 };
 
 struct EvalReport {

@@ -13,6 +13,7 @@
 
 #include "core/text.hpp"
 #include "lab/evaluate/functions.hpp"
+#include "lab/evaluate/half.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/evaluate/scheduler.hpp"
 
@@ -113,10 +114,46 @@ double shortest_decimal(float value) {
 /// What the lane of a row holds.
 template <class T>
 double number_in(const T* row, Scalar scalar, std::size_t lane) {
-    if (scalar == Scalar::float32) return static_cast<double>(row[lane]);
+    if (is_float(scalar)) return static_cast<double>(row[lane]);
     const Int<T> integer = reinterpret_cast<const Int<T>*>(row)[lane];
-    if (scalar == Scalar::uint32) return to_unsigned(integer);
-    return to_signed(integer);
+    switch (scalar) {
+        case Scalar::uint32:
+            return to_unsigned(integer);
+        case Scalar::int64:
+            return static_cast<double>(integer);
+        case Scalar::uint64:
+            return static_cast<double>(static_cast<std::uint64_t>(integer));
+        default:
+            return to_signed(integer);
+    }
+}
+
+/// A whole number as rows hold it. Clamped before it is converted: what does not fit would be undefined.
+template <class I>
+I integer_of(double value, Scalar scalar) {
+    if (scalar == Scalar::uint64)
+        return static_cast<I>(static_cast<std::uint64_t>(std::clamp(value, 0.0, 18446744073709549568.0)));
+    if (scalar == Scalar::int64)
+        return static_cast<I>(std::clamp(value, -9223372036854775808.0, 9223372036854774784.0));
+    const auto whole = static_cast<std::int64_t>(std::clamp(value, -2147483648.0, 4294967295.0));
+    return wrapped(static_cast<I>(to_signed(whole)), scalar);
+}
+
+double number_of_bits(std::uint64_t bits, Scalar scalar) {
+    switch (scalar) {
+        case Scalar::float32:
+            return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        case Scalar::float64:
+            return std::bit_cast<double>(bits);
+        case Scalar::float16:
+            return Half::unpack(static_cast<std::uint32_t>(bits));
+        case Scalar::int32:
+            return to_signed(bits);
+        case Scalar::int64:
+            return static_cast<double>(static_cast<std::int64_t>(bits));
+        default:
+            return static_cast<double>(wrapped(static_cast<std::int64_t>(bits), scalar));
+    }
 }
 
 /// One call of run(): fills rows from values, runs batch after batch, reads rows back.
@@ -162,15 +199,25 @@ class Evaluation {
 
     void fill_constants() {
         for (const ConstantSlot& constant : program_.constants) {
-            if (constant.scalar != Scalar::float32) {
-                std::fill_n(registers_.ints(constant.slot), kLanes, to_signed(constant.bits));
-                continue;
-            }
-            const float value = std::bit_cast<float>(constant.bits);
-            const T in_arithmetic =
-                sizeof(T) == 4 ? static_cast<T>(value) : static_cast<T>(shortest_decimal(value));
-            std::fill_n(registers_.floats(constant.slot), kLanes, in_arithmetic);
+            if (is_float(constant.scalar))
+                std::fill_n(registers_.floats(constant.slot), kLanes, float_constant(constant));
+            else
+                std::fill_n(registers_.ints(constant.slot), kLanes, integer_constant(constant));
         }
+    }
+
+    [[nodiscard]] T float_constant(const ConstantSlot& constant) const {
+        if (constant.scalar == Scalar::float64)
+            return static_cast<T>(std::bit_cast<double>(std::uint64_t{constant.high} << 32U | constant.bits));
+        if (constant.scalar == Scalar::float16) return static_cast<T>(Half::unpack(constant.bits & 0xffffU));
+        const float value = std::bit_cast<float>(constant.bits);
+        const bool is_exact = sizeof(T) == 4 || options_.is_single;
+        return is_exact ? static_cast<T>(value) : static_cast<T>(shortest_decimal(value));
+    }
+    [[nodiscard]] static Int<T> integer_constant(const ConstantSlot& constant) {
+        if (is_wide(constant.scalar))
+            return static_cast<Int<T>>(std::uint64_t{constant.high} << 32U | constant.bits);
+        return wrapped(static_cast<Int<T>>(to_signed(constant.bits)), constant.scalar);
     }
 
     void begin_batch(std::size_t first) {
@@ -198,16 +245,22 @@ class Evaluation {
             Int<T>* ints = registers_.ints(binding.port->slot + component);
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const double value = values[std::min(first + lane, last)];
-                // Clamped before it is converted: what does not fit would be undefined.
-                if (scalar == Scalar::float32)
-                    floats[lane] = static_cast<T>(value);
+                if (is_float(scalar))
+                    floats[lane] = fitted(value, scalar);
                 else if (scalar == Scalar::boolean)
                     ints[lane] = value != 0 ? 1 : 0;
                 else
-                    ints[lane] =
-                        to_signed(static_cast<std::int64_t>(std::clamp(value, -2147483648.0, 4294967295.0)));
+                    ints[lane] = integer_of<Int<T>>(value, scalar);
             }
         }
+    }
+
+    /// A number as the type and the arithmetic hold it.
+    [[nodiscard]] T fitted(double value, Scalar scalar) const {
+        const bool is_single = sizeof(T) == 4 || options_.is_single;
+        if (scalar == Scalar::float64 || !is_single) return static_cast<T>(value);
+        const auto single = static_cast<float>(value);
+        return static_cast<T>(scalar == Scalar::float16 ? rounded_to_half(single) : single);
     }
 
     void read_batch(std::size_t first) {
@@ -250,15 +303,12 @@ class Evaluation {
 }  // namespace
 
 std::vector<double> numbers_in_block(const Port& port, const std::vector<std::byte>& bytes) {
+    const std::size_t size = GlslType{port.scalar}.scalar_size();
     std::vector<double> numbers;
     for (const std::uint32_t offset : port.offsets) {
-        std::uint32_t bits = 0;
-        if (offset + sizeof bits <= bytes.size()) std::memcpy(&bits, bytes.data() + offset, sizeof bits);
-        if (port.scalar == Scalar::float32)
-            numbers.push_back(static_cast<double>(std::bit_cast<float>(bits)));
-        else
-            numbers.push_back(port.scalar == Scalar::int32 ? static_cast<double>(to_signed(bits))
-                                                           : static_cast<double>(bits));
+        std::uint64_t bits = 0;
+        if (offset + size <= bytes.size()) std::memcpy(&bits, bytes.data() + offset, size);
+        numbers.push_back(number_of_bits(bits, port.scalar));
     }
     return numbers;
 }
@@ -268,6 +318,8 @@ Result<Outputs> run(const Program& program, const Invocations& invocations, cons
                     Observer<T>* observer) {
     if (options.flush_denormals && !kCanFlush)
         return fail(Fault::usage, "this processor cannot flush denormal numbers");
+    if (program.has_wide && sizeof(T) == 4)
+        return fail(Fault::internal, "numbers of 64 bits were evaluated in single precision");
     GOBO_TRY(const std::vector<Binding> bindings, bind(program, invocations));
     const DenormalMode mode(options.flush_denormals && sizeof(T) == 4);
     return Evaluation<T>(program, invocations, options, observer).run(bindings);

@@ -105,7 +105,8 @@ struct Options {
     Errors errors = Errors::none;
     Sums sums = Sums::as_written;
     NaNs nans = NaNs::by_comparison;
-    bool is_half = false;  ///< fp32 only: what is mediump or lowp is a 16-bit float after each operation
+    bool is_half = false;    ///< fp32 only: what is mediump or lowp is a 16-bit float after each operation
+    bool is_single = false;  ///< fp64 only: what is a 32-bit float is one after each operation
     /// fp64 only: of each operation, the one invocation in which its results are rounded to floats, or -1.
     const std::vector<std::int64_t>* rounded_in = nullptr;
     bool count = false;  ///< fill Outputs::counts
@@ -190,7 +191,8 @@ class Observer {
 };
 
 /// Runs the stage for each invocation, in arithmetic of T: float (IEEE, round to nearest) or double, where
-/// each constant is the double of its shortest decimal (0.1f is 0.1). Errors: a name that the stage does not
+/// each constant is the double of its shortest decimal (0.1f is 0.1). Numbers of 64 bits, of which run<float>
+/// knows none, are what they are. Errors: a name that the stage does not
 /// have, a wrong number of values, an image that is used but not given, a loop without end.
 template <class T>
 [[nodiscard]] Result<Outputs> run(const Program& program, const Invocations& invocations,

@@ -9,7 +9,7 @@ std::span<const Row> instruction_table() {
     static const std::vector<Row> rows = [] {
         std::vector<Row> all;
         for (const auto part :
-             {kFloatRows, kIntegerRows, kComparisonRows, kVectorRows, kMemoryRows, kImageRows})
+             {kFloatRows, kIntegerRows, kComparisonRows, kVectorRows, kMemoryRows, kImageRows, kWideRows})
             all.insert(all.end(), part.begin(), part.end());
         // Rows of the same code stay in order.
         std::ranges::stable_sort(all, {}, &Row::code);

@@ -39,11 +39,12 @@ struct Liberties {
     double (*largest_error)(double x, double y, double result) = nullptr;
 };
 
-/// One instruction. `signature` is what it gives and takes, as "f:ff": f float, i integer, b boolean; lower
-/// case for values of n components (any n, the same throughout; n as a last digit demands it), upper case for
-/// scalars, * for anything of the result's type, m for a matrix of it, s for a structure of two values like
-/// the operand. Rows with an empty signature are placed by the decoder's own functions. A code may have
-/// several rows: the first whose signature fits is taken.
+/// One instruction. `signature` is what it gives and takes, as "f:ff": f float of any width, d of 64 bits, h
+/// of 16, i integer of up to 32 bits, l of 64, b boolean; lower case for values of n components (any n, the
+/// same throughout; n as a last digit demands it), upper case for scalars, * for anything of the result's
+/// type, m for a matrix of it, s for a structure of two values like the operand. Rows with an empty signature
+/// are placed by the decoder's own functions. A code may have several rows: the first whose signature fits is
+/// taken.
 struct Row {
     std::uint32_t code;     ///< spv::Op, or kExtended + the number in GLSL.std.450, or one of Internal
     std::string_view name;  ///< "FMul", "Pow"; a load or store has that name through an address too
@@ -78,5 +79,6 @@ extern const std::span<const Row> kComparisonRows;
 extern const std::span<const Row> kVectorRows;
 extern const std::span<const Row> kMemoryRows;
 extern const std::span<const Row> kImageRows;
+extern const std::span<const Row> kWideRows;
 
 }  // namespace gobo::evaluate

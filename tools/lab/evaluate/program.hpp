@@ -20,6 +20,23 @@ namespace gobo::evaluate {
 using gobo::is_integer;
 using gobo::Scalar;
 
+[[nodiscard]] constexpr bool is_float(Scalar scalar) {
+    return scalar == Scalar::float32 || scalar == Scalar::float64 || scalar == Scalar::float16;
+}
+/// Of 64 bits.
+[[nodiscard]] constexpr bool is_wide(Scalar scalar) {
+    return scalar == Scalar::float64 || scalar == Scalar::int64 || scalar == Scalar::uint64;
+}
+/// Of 8 or 16 bits.
+[[nodiscard]] constexpr bool is_narrow(Scalar scalar) {
+    return scalar == Scalar::float16 || scalar == Scalar::int8 || scalar == Scalar::uint8 ||
+           scalar == Scalar::int16 || scalar == Scalar::uint16;
+}
+[[nodiscard]] constexpr bool is_unsigned(Scalar scalar) {
+    return scalar == Scalar::uint32 || scalar == Scalar::uint64 || scalar == Scalar::uint16 ||
+           scalar == Scalar::uint8;
+}
+
 /// What an executed operation counts as. Each component counts as one; a matrix product counts the
 /// multiplications and additions it consists of.
 enum class Kind : std::uint8_t {
@@ -119,7 +136,8 @@ struct Block {
 struct ConstantSlot {
     std::uint32_t slot = 0;
     Scalar scalar = Scalar::float32;
-    std::uint32_t bits = 0;  ///< of the 32-bit value
+    std::uint32_t bits = 0;  ///< of the value, of one of 64 bits the low ones
+    std::uint32_t high = 0;  ///< and the high ones
 };
 
 /// Slots whose value nobody gives: what a function returns that ends without a return.
@@ -163,6 +181,8 @@ struct Program {
     static constexpr std::uint32_t kEnd = 0x7fffffff;  ///< target of an edge that ends the invocation
 
     bool is_fragment = false;
+    bool has_narrow = false;  ///< it computes with numbers of 8 or 16 bits
+    bool has_wide = false;    ///< it computes with numbers of 64 bits: run<double>() alone holds them
     std::vector<Operation> operations;
     std::vector<OperationInfo> infos;  ///< of each operation
     std::vector<Operation> quick;      ///< the operations without those that do nothing but be observed
@@ -204,11 +224,17 @@ template <class... List>
 /// Elements of an array without a size, unless more are asked for.
 inline constexpr std::uint32_t kUnstatedLength = 16;
 
+/// Which widths of numbers a caller knows; others are errors.
+enum class Widths { of_32, up_to_32, up_to_64 };
+
+struct DecodeOptions {
+    std::uint32_t unstated_length = kUnstatedLength;  ///< of arrays without a size, as storage blocks have
+    Widths widths = Widths::up_to_32;
+};
+
 /// Reads a vertex or fragment stage from the SPIR-V that glslang makes, with or without debug information.
 /// Anything that evaluation does not know is an error that names the instruction and the line it comes from;
-/// truncated or malformed modules are errors too. Arrays without a size, as storage blocks have, get
-/// `unstated_length` elements.
-[[nodiscard]] Result<Program> decode(std::span<const std::uint32_t> words,
-                                     std::uint32_t unstated_length = kUnstatedLength);
+/// truncated or malformed modules are errors too.
+[[nodiscard]] Result<Program> decode(std::span<const std::uint32_t> words, const DecodeOptions& options = {});
 
 }  // namespace gobo::evaluate

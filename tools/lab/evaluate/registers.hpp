@@ -28,6 +28,23 @@ template <class I>
     return static_cast<std::uint32_t>(cell);
 }
 
+/// An integer as one of 8 or 16 bits holds it.
+template <class I>
+[[nodiscard]] I wrapped(I cell, Scalar scalar) {
+    switch (scalar) {
+        case Scalar::int8:
+            return static_cast<std::int8_t>(cell);
+        case Scalar::uint8:
+            return static_cast<std::uint8_t>(cell);
+        case Scalar::int16:
+            return static_cast<std::int16_t>(cell);
+        case Scalar::uint16:
+            return static_cast<std::uint16_t>(cell);
+        default:
+            return cell;
+    }
+}
+
 /// Lanes, as bits.
 using LaneMask = std::uint64_t;
 inline constexpr LaneMask kAllLanes = ~LaneMask{0};

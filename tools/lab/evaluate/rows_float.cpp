@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lab/evaluate/half.hpp"
 #include "lab/evaluate/rows.hpp"
 
 namespace gobo::evaluate {
@@ -71,6 +72,8 @@ constexpr auto kSaturate = [](auto value) {
 // Floats have the bits of the nearest fp32 value, in either arithmetic.
 constexpr auto kBitsOf = [](auto value) { return std::bit_cast<std::int32_t>(static_cast<float>(value)); };
 constexpr auto kFloatOf = [](auto bits) { return std::bit_cast<float>(to_signed(bits)); };
+constexpr auto kBitsOfHalf = [](auto value) { return to_signed(Half::pack(static_cast<double>(value))); };
+constexpr auto kHalfOf = [](auto bits) { return Half::unpack(to_unsigned(bits)); };
 constexpr auto kSame = [](auto a) { return a; };
 
 // The largest errors allowed, by Vulkan 1.3, Precision of Individual Operations, which OpenGL's drivers
@@ -157,6 +160,8 @@ constexpr Row kRows[] = {
     {GOBO_CORE(ConvertFToU), Kind::convert, "i:f", kTest<kSaturate<std::uint32_t>>},
     {GOBO_CORE(ConvertSToF), Kind::convert, "f:i", kMap<[](auto a) { return to_signed(a); }, Floats, Ints>},
     {GOBO_CORE(ConvertUToF), Kind::convert, "f:i", kMap<[](auto a) { return to_unsigned(a); }, Floats, Ints>},
+    {GOBO_CORE(Bitcast), Kind::convert, "i:h", kTest<kBitsOfHalf>},
+    {GOBO_CORE(Bitcast), Kind::convert, "h:i", kMap<kHalfOf, Floats, Ints>},
     {GOBO_CORE(Bitcast), Kind::convert, "i:f", kTest<kBitsOf>},
     {GOBO_CORE(Bitcast), Kind::convert, "f:i", kMap<kFloatOf, Floats, Ints>},
     {GOBO_CORE(Bitcast), Kind::convert, "i:i", kInts<kSame>},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/evaluate/half.hpp"
 #include "lab/evaluate/rows.hpp"
 
 namespace gobo::evaluate {
@@ -127,38 +128,6 @@ using Unorm8 = Normalized<8, std::uint8_t>;
 using Snorm8 = Normalized<8, std::int8_t>;
 using Unorm16 = Normalized<16, std::uint16_t>;
 using Snorm16 = Normalized<16, std::int16_t>;
-
-struct Half {
-    static constexpr std::uint32_t kBits = 16;
-
-    /// The nearest number of half precision, ties to even; too large ones become infinity.
-    static std::uint32_t pack(double value) {
-        const std::uint32_t sign = std::signbit(value) ? 0x8000U : 0U;
-        const double size = std::fabs(value);
-        if (std::isnan(value)) return sign | 0x7e00U;
-        if (size >= 65520.0) return sign | 0x7c00U;
-        // Below 2^-14 the spacing stays at 2^-24. A carry out of the significand raises the exponent by
-        // itself.
-        if (size < std::ldexp(1.0, -14))
-            return sign | static_cast<std::uint32_t>(std::nearbyint(std::ldexp(size, 24)));
-        const int exponent = std::ilogb(size);
-        const auto significand = static_cast<std::uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));
-        return sign | ((static_cast<std::uint32_t>(exponent + 15) << 10U) + significand - 1024U);
-    }
-
-    static double unpack(std::uint32_t half) {
-        const int exponent = static_cast<int>(half >> 10U & 31U);
-        const double significand = half & 1023U;
-        double size = 0;
-        if (exponent == 31)
-            size = significand == 0 ? std::numeric_limits<double>::infinity() : std::nan("");
-        else if (exponent == 0)
-            size = std::ldexp(significand, -24);
-        else
-            size = std::ldexp(significand + 1024.0, exponent - 25);
-        return (half & 0x8000U) != 0 ? -size : size;
-    }
-};
 
 template <class Format>
 constexpr std::uint32_t kMask = (1U << Format::kBits) - 1U;

@@ -15,6 +15,7 @@
 #include <spirv/unified1/GLSL.std.450.h>
 
 #include "lab/evaluate/functions.hpp"
+#include "lab/evaluate/half.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/evaluate/registers.hpp"
 
@@ -211,17 +212,6 @@ inline const Execution& execution_of(const Row& row, const Options& options) {
     return *chosen;
 }
 
-/// The nearest 16-bit float; beyond 65,504 an infinity.
-inline float rounded_to_half(float number) {
-    const float size = std::fabs(number);
-    if (!(size > 0) || std::isinf(size)) return number;
-    if (size >= 65520.0F) return std::copysign(std::numeric_limits<float>::infinity(), number);
-    // Numbers are spaced by 2^-10 of the power of two below them, the smallest by 2^-24.
-    const int exponent = std::max(static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U) - 127, -14);
-    const float spacing = std::bit_cast<float>(static_cast<std::uint32_t>(exponent - 10 + 127) << 23U);
-    return std::nearbyint(number / spacing) * spacing;
-}
-
 /// Moves the operation's result, of so many components, by the largest error allowed, up or down.
 template <class T>
 void add_largest_error(const Row& row, const Operation& operation, std::uint32_t components,
@@ -282,7 +272,8 @@ class Scheduler {
             if (!lane_visits_.empty()) count_visit(current_);
             if (observer_ != nullptr || options_.rounded_in != nullptr)
                 run_observed(block);
-            else if (regrouping_ || options_.errors != Errors::none || options_.is_half)
+            else if (regrouping_ || options_.errors != Errors::none || options_.is_half ||
+                     program_.has_narrow || options_.is_single)
                 for (std::uint32_t at = block.first; at < block.first + block.count; ++at) execute_at(at);
             else
                 for (const Operation& operation :
@@ -304,9 +295,10 @@ class Scheduler {
 
   private:
     void execute_at(std::uint32_t at) {
-        if (regrouping_ && regrouping_->takes_over(at)) return;
+        if (regrouping_ && regrouping_->takes_over(at)) return fit(at);
         const Operation& operation = program_.operations[at];
         execute(operation);
+        fit(at);
         if (regrouping_) regrouping_->after(at);
         if (options_.errors != Errors::none)
             if (const Row& row = row_of(operation); row.liberties.largest_error != nullptr)
@@ -323,6 +315,31 @@ class Scheduler {
         for (std::size_t i = 0; i < result.count * kLanes; ++i)
             if (registers_.is_active(i % kLanes))
                 row[i] = static_cast<T>(rounded_to_half(static_cast<float>(row[i])));
+    }
+
+    /// Brings the operation's result to the width of its type, where rows are wider than that.
+    void fit(std::uint32_t at) {
+        if (!program_.has_narrow && !options_.is_single) return;
+        const Row& row = row_of(program_.operations[at]);
+        // What is only passed on fits already.
+        if (row.kind == Kind::move || row.kind == Kind::load || row.kind == Kind::store ||
+            row.kind == Kind::select)
+            return;
+        Slice result = program_.infos[at].result;
+        // The second half of what frexp() gives are integers.
+        if (row.code == kExtended + GLSLstd450FrexpStruct) result.count = program_.operations[at].count;
+        if (result.scalar == Scalar::float16 && (sizeof(T) == 4 || options_.is_single)) {
+            result.scalar = Scalar::float32;
+            return make_half(result);
+        }
+        if (result.scalar == Scalar::float32 && options_.is_single)
+            for (T* cell = registers_.floats(result.slot);
+                 cell < registers_.floats(result.slot + result.count); ++cell)
+                *cell = static_cast<T>(static_cast<float>(*cell));
+        if (is_narrow(result.scalar) && !is_float(result.scalar))
+            for (Int<T>* cell = registers_.ints(result.slot);
+                 cell < registers_.ints(result.slot + result.count); ++cell)
+                *cell = wrapped(*cell, result.scalar);
     }
 
     void run_observed(const Block& block) {

@@ -125,7 +125,7 @@ void restore(Proven& proven, const KeptProof& kept) {
 Proven prove_stage(const SpirvModule& spirv, const std::vector<Domain>& domains, std::size_t splits,
                    Remembered& remembered) {
     Proven proven;
-    auto program = evaluate::decode(spirv);
+    auto program = evaluate::decode(spirv, {.widths = evaluate::Widths::of_32});
     if (!program) {
         proven.diagnostics = program.error();
         return proven;

@@ -10,6 +10,7 @@
 #include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
+#include "lab/evaluate/eval_report.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/rules.hpp"
@@ -38,14 +39,13 @@ Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
 
 /// "depth = 0", "(1, 0.5, 0.25)".
 std::string value_text(const Step& step, const Slice& slice, std::size_t lane) {
-    std::vector<float> components;
+    std::vector<double> components;
     for (std::uint32_t component = 0; component < slice.count; ++component) {
-        const auto value = static_cast<float>(step.value(slice, component, lane));
+        const double value = step.value(slice, component, lane);
         // The sign of a NaN means nothing, and is not the same on every machine.
-        components.push_back(std::isnan(value) ? std::numeric_limits<float>::quiet_NaN() : value);
+        components.push_back(std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value);
     }
-    const std::string numbers = components.size() == 1 ? fmt::format("{}", components.front())
-                                                       : fmt::format("({})", fmt::join(components, ", "));
+    const std::string numbers = evaluate::to_text(components);
     const std::string& name = step.program.names[slice.name];
     return name.empty() ? numbers : fmt::format("{} = {}", name, numbers);
 }
@@ -135,7 +135,7 @@ class TrapObserver final : public evaluate::Observer<float> {
                                            [](const TrapRule& rule) { return rule.is_silent; });
             // The other operations pass on what these made.
             watch.makes_floats =
-                row.kind <= Kind::matrix && run.program.infos[at].result.scalar == evaluate::Scalar::float32;
+                row.kind <= Kind::matrix && evaluate::is_float(run.program.infos[at].result.scalar);
             watch.first_decider = first_decider(row);
             watch.is_of_image = row.kind == Kind::image || row.kind == Kind::derivative;
         }
@@ -278,8 +278,7 @@ class TrapObserver final : public evaluate::Observer<float> {
             result.count = step.program.operations[step.operation].count;
         lanes &= not_finite(step, result);
         for (const Slice& operand : step.info().operands)
-            if (lanes != 0 && operand.scalar == evaluate::Scalar::float32)
-                lanes &= ~not_finite(step, operand);
+            if (lanes != 0 && evaluate::is_float(operand.scalar)) lanes &= ~not_finite(step, operand);
         if (lanes == 0) return;
         for (const TrapRule& rule : watch.rules) {
             if (rule.is_silent) continue;

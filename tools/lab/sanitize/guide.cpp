@@ -28,7 +28,7 @@ Guide::Guide(const evaluate::Program& program, const InputSpace& space, std::uin
     for (std::size_t at = 0; at < program.operations.size(); ++at) {
         const evaluate::Row& row = evaluate::instruction_table()[program.operations[at].row];
         const bool may_overflow =
-            can_overflow(row.kind) && program.infos[at].result.scalar == evaluate::Scalar::float32;
+            can_overflow(row.kind) && evaluate::is_float(program.infos[at].result.scalar);
         watches_.push_back({rules_of(goal_rules(), row.code), may_overflow, goals});
         goals += watches_.back().rules.size() + (may_overflow ? 1 : 0);
     }

@@ -25,7 +25,7 @@ Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) 
     const std::string name = verify::without_subscripts(port.name);
     if (const Domain* declared = verify::domain_of(domains, port.name)) return *declared;
     if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
-    if (port.scalar == evaluate::Scalar::uint32) return plain_domain(name, 0, 100);
+    if (evaluate::is_unsigned(port.scalar)) return plain_domain(name, 0, 100);
     if (name == "gl_FragCoord" || name == "gl_PointCoord" || name == "gl_SamplePosition")
         return plain_domain(name, 0, 1);
     if (name.starts_with("gl_")) return plain_domain(name, 0, 100);

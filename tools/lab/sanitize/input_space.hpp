@@ -58,7 +58,7 @@ struct InputField {
     std::size_t first = 0;     ///< of its numbers in a point
     std::size_t components = 1;
 
-    [[nodiscard]] bool is_float() const { return scalar == evaluate::Scalar::float32; }
+    [[nodiscard]] bool is_float() const { return evaluate::is_float(scalar); }
     [[nodiscard]] bool is_vector() const;
     /// Components that the domain's range is of: all but a last one that is a quantity of its own.
     [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }

@@ -185,11 +185,11 @@ void count(ScenePoints& points) {
 
 }  // namespace
 
-Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys) {
+Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys, Dialect dialect) {
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     Variants variants;
-    GOBO_TRY(variants.composition, compose(subject.family, keys, subject.search, Dialect::own));
+    GOBO_TRY(variants.composition, compose(subject.family, keys, subject.search, dialect));
     const Validated validated = validate(subject.family, variants.composition,
                                          {.jobs = subject.jobs, .keep_spirv = true, .child_processes = true});
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(validated.diagnostics);

@@ -42,7 +42,8 @@ struct Variants {
 };
 
 /// Composes, validates and decodes; each key once. Errors of any of them.
-[[nodiscard]] Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys);
+[[nodiscard]] Result<Variants> load_variants(const Subject& subject, std::vector<Key> keys,
+                                             Dialect dialect = Dialect::own);
 
 using Color = std::array<double, 3>;
 

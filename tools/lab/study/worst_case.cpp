@@ -207,7 +207,8 @@ class Search {
     Result<void> judge(const std::vector<Sample>& samples) {
         const evaluate::Program& program = variant_.program.fragment;
         GOBO_TRY(const auto invocations, verify::bind_inputs(program, samples));
-        GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations));
+        GOBO_TRY(const auto outputs,
+                 evaluate::run<float>(program, invocations, {.is_half = !options_.mediump.empty()}));
         for (std::size_t i = 0; i < samples.size(); ++i) {
             ++worst_.points;
             oracle::Decisions decisions;
@@ -261,6 +262,33 @@ class Search {
     WorstCase worst_;
 };
 
+/// The family with what has that name declared mediump.
+Family declared_mediump(Family family, const std::string& name) {
+    const auto varying = std::ranges::find(family.varyings, name, &Varying::name);
+    if (varying != family.varyings.end()) {
+        varying->type = "mediump " + varying->type;
+        return family;
+    }
+    for (const char* const type : {"float", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4"})
+        family.substitutions.emplace(fmt::format("{} {}", type, name),
+                                     fmt::format("mediump {} {}", type, name));
+    return family;
+}
+
+/// The keys with one name declared mediump.
+Result<Variants> mediump_variants(const Subject& subject, std::vector<Key> keys, const std::string& mediump) {
+    const Family family = declared_mediump(subject.family, mediump);
+    GOBO_TRY(Variants variants, load_variants({subject.shipped, family, subject.search, subject.jobs},
+                                              std::move(keys), Dialect::es300));
+    const auto has_name = [](const Variant& variant) {
+        return std::ranges::any_of(variant.program.fragment.infos, &evaluate::OperationInfo::is_relaxed);
+    };
+    if (std::ranges::none_of(variants.all, has_name))
+        return fail(Fault::usage, fmt::format("no fragment stage has a float '{}'", mediump),
+                    "name a varying, or a variable as its piece declares it: vec3 litNormal");
+    return variants;
+}
+
 /// Whether the fragments are handed nothing that the most accurate key computes for each of them.
 bool is_per_fragment(const Variant& variant, const Variant& accurate) {
     const auto& known = accurate.program.fragment.inputs;
@@ -282,6 +310,10 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
     GOBO_TRY(const Variants variants, load_variants(subject, std::move(needed)));
+    std::optional<Variants> declared;
+    if (!options.mediump.empty()) {
+        GOBO_TRY(declared, mediump_variants(subject, keys, options.mediump));
+    }
     std::vector<Key> searched;
     std::vector<std::pair<oracle::Model, oracle::Model>> models;  // the most accurate one, the key's own
     for (const Key& key : keys) {
@@ -293,7 +325,8 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
         models.emplace_back(*model, *own);
     }
     return parallel_results(subject.jobs, searched.size(), [&](std::size_t i) -> Result<WorstCase> {
-        Search search(family, variants.at(searched[i]), models[i].first, models[i].second, options);
+        const Variant& variant = (declared ? *declared : variants).at(searched[i]);
+        Search search(family, variant, models[i].first, models[i].second, options);
         GOBO_TRY(WorstCase worst, search.run());
         worst.effects = effects_of(family, searched[i]);
         worst.key = searched[i];

@@ -31,6 +31,9 @@ struct WorstCaseOptions {
     std::uint64_t seed = 1;
     double enough =
         std::numeric_limits<double>::infinity();  ///< a key that errs by more is searched no further
+    /// The varying, or variable of the pieces, that alone is declared mediump, in GLSL ES 3.00 evaluated with
+    /// 16-bit floats; empty: none is. Fault::usage where no key's fragment stage has such a float.
+    std::string mediump = {};
 };
 
 /// For each key, searched where its fragment stage may err most within the family's domains: inputs are those

@@ -33,7 +33,7 @@ std::vector<double> draw(const evaluate::Port& port, const Domain* domain, std::
             double value = domain != nullptr && !is_length ? component(domain->low, domain->high, random)
                                                            : scale * component(-1, 1, random);
             if (port.name == "gl_FragCoord") value = c < 2 ? random.whole(0, 63) + 0.5 : random.unit();
-            if (port.scalar != evaluate::Scalar::float32) value = std::floor(value);
+            if (!evaluate::is_float(port.scalar)) value = std::floor(value);
             if (port.scalar == evaluate::Scalar::boolean) value = random.whole(0, 1);
             values[c * count + i] = static_cast<float>(value);
         }
@@ -47,7 +47,7 @@ evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const eval
     Random random(seed);
     evaluate::Invocations result = base;
     for (const evaluate::Port& port : ports) {
-        if (port.scalar != evaluate::Scalar::float32) continue;
+        if (!evaluate::is_float(port.scalar)) continue;
         const auto values = result.values.find(port.name);
         if (values == result.values.end()) continue;
         for (double& value : values->second) value *= random.one_in(2) ? 1 + step : 1 - step;
