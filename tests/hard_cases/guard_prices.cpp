@@ -12,6 +12,7 @@
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/stage_cost.hpp"
 #include "lit_drawing.hpp"
+#include "pbr_guards.hpp"
 
 namespace gobo {
 namespace {
@@ -63,8 +64,10 @@ Pair pair_of(const Guard& guard) {
     EXPECT_NE(tested, nullptr) << guard.needed_by;
     static const Case none{};
     const Case& concerned = tested == nullptr ? none : *tested;
-    Pair pair{LitUnderTest(concerned.where, concerned.features, {}),
-              LitUnderTest(concerned.where, concerned.features, {{guard.piece, without_guard(guard)}})};
+    const auto with = [&](const Overlay& overlay) {
+        return LitUnderTest(concerned.where, concerned.features, overlay, 0, concerned.family);
+    };
+    Pair pair{with({}), with({{guard.piece, without_guard(guard)}})};
     find_permutation(pair, guard.piece);
     return pair;
 }
@@ -165,7 +168,8 @@ Result<std::map<std::string, std::vector<GuardCycles>>> measure_cycles(const std
                                                                        const std::string& lab) {
     std::vector<cost::Pipeline> pipelines;
     std::vector<std::string> stages;
-    for (const Guard& guard : lit_guards()) {
+    const std::vector<Guard> guards = all_guards();
+    for (const Guard& guard : guards) {
         const Pair pair = pair_of(guard);
         stages.emplace_back(pair.is_in_fragment ? "fragment" : "vertex");
         for (const LitUnderTest* lit : {&pair.guarded, &pair.plain}) {
@@ -181,7 +185,7 @@ Result<std::map<std::string, std::vector<GuardCycles>>> measure_cycles(const std
     for (std::size_t chip = 0; chip < chips.size(); ++chip) {
         GOBO_TRY(const auto answer, answers[chip]);
         for (std::size_t i = 0; i < stages.size(); ++i) {
-            GuardCycles& cycles = all[lit_guards()[i].name].emplace_back();
+            GuardCycles& cycles = all[guards[i].name].emplace_back();
             cycles.gpu = chips[chip].name;
             cycles.driver = answer.driver;
             for (const bool guarded : {true, false}) {
@@ -215,7 +219,7 @@ std::string to_csv(const GuardTimes& times) {
     for (const char* gpu : kGuardChips)
         for (const char* column : {"cycles_{}_guarded", "cycles_{}_plain", "driver_{}"})
             table.columns.push_back(fmt::format(fmt::runtime(column), gpu));
-    for (const Guard& guard : lit_guards()) {
+    for (const Guard& guard : all_guards()) {
         const auto found = times.find(guard.name);
         if (found == times.end()) continue;
         const GuardTime& time = found->second;

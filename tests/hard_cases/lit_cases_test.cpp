@@ -48,10 +48,8 @@ class PbrGuard : public testing::TestWithParam<Guard> {};
 
 TEST_P(PbrGuard, IsNeeded) {
     const Guard& guard = GetParam();
-    const auto& cases = pbr_cases();
-    const auto tested = std::find_if(cases.begin(), cases.end(),
-                                     [&](const Case& each) { return each.name == guard.needed_by; });
-    ASSERT_NE(tested, cases.end()) << guard.needed_by;
+    const Case* tested = case_named(guard.needed_by);
+    ASSERT_NE(tested, nullptr) << guard.needed_by;
     EXPECT_THAT(faults_of(*tested, {{guard.piece, without_guard(guard)}}, 1),
                 testing::Not(testing::IsEmpty()));
 }

@@ -6,6 +6,7 @@
 
 #include "../shipped_pieces.hpp"
 #include "core/text.hpp"
+#include "pbr_guards.hpp"
 
 namespace gobo {
 namespace {
@@ -153,10 +154,10 @@ std::string without_guard(const Guard& guard) {
 }
 
 const Case* case_named(const std::string& name) {
-    const auto& cases = lit_cases();
-    const auto found =
-        std::find_if(cases.begin(), cases.end(), [&](const Case& tested) { return tested.name == name; });
-    return found == cases.end() ? nullptr : &*found;
+    for (const std::vector<Case>* cases : {&lit_cases(), &pbr_cases()})
+        for (const Case& tested : *cases)
+            if (tested.name == name) return &tested;
+    return nullptr;
 }
 
 }  // namespace gobo

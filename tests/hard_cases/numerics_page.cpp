@@ -12,6 +12,7 @@
 #include "core/text_template.hpp"
 #include "hard_case_index.hpp"
 #include "normal_errors.hpp"
+#include "pbr_guards.hpp"
 #include "plain_shaders.hpp"
 
 namespace gobo {
@@ -96,9 +97,13 @@ std::string drivers_of(const GuardTimes& times) {
     return drivers.empty() ? "no driver" : join(drivers, " and ");
 }
 
+std::string name_in_words(const Case& tested) {
+    return join(split(tested.name, '_'), " ");
+}
+
 /// "| tiny vector, huge vector | ordinary lengths".
 std::string case_cells(const Case& tested) {
-    return fmt::format("| {} | {}", fmt::join(tested.about, ", "), join(split(tested.name, '_'), " "));
+    return fmt::format("| {} | {}", fmt::join(tested.about, ", "), name_in_words(tested));
 }
 
 std::string guard_row(const Guard& guard, const GuardTimes& times) {
@@ -111,23 +116,26 @@ std::string guard_row(const Guard& guard, const GuardTimes& times) {
     if (faults.empty()) return {};
     const CaseFault& fault = faults.front();
     const Inputs& point = tested->points[fault.point];
-    const LitUnderTest plain(tested->where, tested->features, overlay);
-    const LitUnderTest guarded(tested->where, tested->features, {});
+    const LitUnderTest plain(tested->where, tested->features, overlay, 0, tested->family);
+    const LitUnderTest guarded(tested->where, tested->features, {}, 0, tested->family);
     const Shaded without = plain.shade(fault.permutation, point, fault.machine);
     const Shaded with = guarded.shade(fault.permutation, point, fault.machine);
-    const bool is_of_depth = tested->about.front().starts_with("depth");
+    const bool is_physical = tested->about.empty();  // of pbr, whose cases have no catalogue
+    const bool is_of_depth = !is_physical && tested->about.front().starts_with("depth");
     const std::string trap = without.traps.empty() ? "" : ": " + trap_text(without.traps.front());
     const Outcomes seen = outcomes(without, with, is_of_depth);
-    return fmt::format("{} | {} | {}{} | {} | {} | {} | {} | {} |\n", case_cells(*tested),
-                       code(guard.guarded), seen.plain, trap, seen.ours, cell(tested->check.tolerance),
-                       added_text(operations_of(guard)), time_text(times, guard.name),
-                       cycles_text(times, guard.name));
+    const std::string common = fmt::format("{} | {}{} | {} | {} | {} | {} |", code(guard.guarded), seen.plain,
+                                           trap, seen.ours, cell(tested->check.tolerance),
+                                           added_text(operations_of(guard)), time_text(times, guard.name));
+    if (is_physical) return fmt::format("| {} | {}\n", name_in_words(*tested), common);
+    return fmt::format("{} | {} {} |\n", case_cells(*tested), common, cycles_text(times, guard.name));
 }
 
-std::string guard_rows(const GuardTimes& times) {
+std::string guard_rows(const std::vector<Case>& cases, const std::vector<Guard>& guards,
+                       const GuardTimes& times) {
     std::string rows;
-    for (const Case& tested : lit_cases())
-        for (const Guard& guard : lit_guards())
+    for (const Case& tested : cases)
+        for (const Guard& guard : guards)
             if (guard.needed_by == tested.name) rows += guard_row(guard, times);
     return rows;
 }
@@ -246,7 +254,9 @@ std::string numerics_page(const GuardTimes& times) {
     if (!page) return {};
     const Result<std::string> text =
         fill({"numerics.md.in", *page}, {{"index", index_rows()},
-                                         {"guards", guard_rows(times)},
+                                         {"guards", guard_rows(lit_cases(), lit_guards(), times)},
+                                         {"pbr_guards", guard_rows(pbr_cases(), pbr_guards(), times)},
+                                         {"pbr_guard_count", std::to_string(pbr_guards().size())},
                                          {"guard_count", std::to_string(lit_guards().size())},
                                          {"cases", case_rows()},
                                          {"traps", trap_rows()},

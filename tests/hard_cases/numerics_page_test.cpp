@@ -8,6 +8,7 @@
 #include "core/file_system.hpp"
 #include "hard_case_index.hpp"
 #include "normal_errors.hpp"
+#include "pbr_guards.hpp"
 #include "plain_shaders.hpp"
 
 namespace gobo {
@@ -30,7 +31,7 @@ TEST(NumericsPage, HasATimeForEachGuard) {
     const Result<std::string> csv = DiskFileSystem().read(GOBO_SOURCE_DIR "/docs/data/guard_prices.csv");
     ASSERT_TRUE(csv);
     const GuardTimes times = times_of_csv(*csv);
-    for (const Guard& guard : lit_guards()) EXPECT_TRUE(times.contains(guard.name)) << guard.name << kHelp;
+    for (const Guard& guard : all_guards()) EXPECT_TRUE(times.contains(guard.name)) << guard.name << kHelp;
 }
 
 bool has_case(const HardCase& hard) {

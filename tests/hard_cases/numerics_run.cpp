@@ -8,6 +8,7 @@
 
 #include "core/file_system.hpp"
 #include "numerics_page.hpp"
+#include "pbr_guards.hpp"
 
 namespace {
 
@@ -23,7 +24,7 @@ int run(bool measures_all) {
         std::fputs(to_text(context.error().front()).c_str(), stderr);
         return 3;
     }
-    for (const Guard& guard : lit_guards())
+    for (const Guard& guard : all_guards())
         if (!times.contains(guard.name)) times[guard.name] = measure(guard, *context);
     if (const char* folder = std::getenv("GOBO_MESA")) {
         const auto cycles = measure_cycles(folder, GOBO_LAB);

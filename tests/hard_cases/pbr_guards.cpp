@@ -230,8 +230,8 @@ const std::vector<Guard> kGuards = {
      "1.0 - max(mirrored.r, max(mirrored.g, mirrored.b))", "film_over_what_is_brighter_than_white"},
     {"no_half_vector", "lighting/response/metallic_roughness.glsl",
      "if (square < 1e-12) return underCoat(underSheen(diffuse, nl));", "", "light_behind_the_ray"},
-    {"light_from_behind", "lighting/response/metallic_roughness.glsl", "if (nl > 0.0)", "if (true)",
-     "light_from_behind_a_surface"},
+    {"metallic_roughness_from_behind", "lighting/response/metallic_roughness.glsl", "if (nl > 0.0)",
+     "if (true)", "light_from_behind_a_surface"},
     {"returned_not_negative", "multiple_scattering/returned.glsl", "max(1.0 - brdf.x - brdf.y, 0.0)",
      "1.0 - brdf.x - brdf.y", "more_than_all_mirrored"},
     {"returned_of_nothing", "multiple_scattering/returned.glsl", "max(1.0 - mean * lost, 1e-3)",
@@ -259,6 +259,12 @@ const std::vector<Case>& pbr_cases() {
 
 const std::vector<Guard>& pbr_guards() {
     return kGuards;
+}
+
+std::vector<Guard> all_guards() {
+    std::vector<Guard> guards = lit_guards();
+    guards.insert(guards.end(), kGuards.begin(), kGuards.end());
+    return guards;
 }
 
 }  // namespace gobo

@@ -13,4 +13,7 @@ namespace gobo {
 /// Each is needed by one of pbr_cases().
 [[nodiscard]] const std::vector<Guard>& pbr_guards();
 
+/// Those of `lit`, then those of `pbr`; each has a name of its own.
+[[nodiscard]] std::vector<Guard> all_guards();
+
 }  // namespace gobo
