@@ -16,7 +16,7 @@ namespace {
 
 /// The most accurate key and every single choice of some effects, over a domain.
 std::vector<WorstCase> searched(const std::vector<std::string>& effects,
-                                const std::vector<Domain>& narrower = {}) {
+                                const std::vector<Domain>& narrower = {}, std::size_t points = 4096) {
     Family family = lit_under_study().family;
     EXPECT_TRUE(narrow_domains(family, narrower));
     std::vector<Key> keys;
@@ -26,7 +26,7 @@ std::vector<WorstCase> searched(const std::vector<std::string>& effects,
         for (const Choice& choice : single_choices(family, of)) keys.push_back(choice.key);
     }
     const Subject subject = lit_subject();
-    return find_worst_cases({subject.shipped, family, subject.search, subject.jobs}, keys, {4096}).value();
+    return find_worst_cases({subject.shipped, family, subject.search, subject.jobs}, keys, {points}).value();
 }
 
 double worst_of(const std::vector<WorstCase>& cases, const std::string& quality) {
@@ -65,6 +65,15 @@ TEST(WorstCase, FindsWhatATableOfTheEnvironmentBrdfGivesBack) {
     const auto found = find_worst_cases(of_pbr, {once}, {2048}).value();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_GT(found[0].error, 0.1);
+}
+
+/// A light's error shows whole where the others are dark.
+TEST(WorstCase, IsNoLessAmongMoreLights) {
+    const auto many =
+        searched({"directional=1 fog=exponential point=1 specular=blinn spot=1"}, {}, 16384);
+    for (const char* quality : {"power=near_exact", "power=gaussian_fitted", "power=gaussian", "power=lyon",
+                                "power=schlick"})
+        EXPECT_GT(worst_of(many, quality), 0.6 * worst_of(all_cases(), quality)) << quality;
 }
 
 TEST(WorstCase, IsNoneWhereVerticesComputeTheLight) {

@@ -164,12 +164,7 @@ Result<Outcome> weigh(const StudyCommandOptions& options, const World& world) {
     return Outcome{text, {}, path};
 }
 
-/// The effects that are asked for, by default the plan's.
-Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, const Family& family,
-                                           const study::StudyPlan& plan) {
-    const std::vector<std::string>& texts = options.study.effects.empty()
-                                                ? (options.study.quick ? plan.quick : plan.effects)
-                                                : options.study.effects;
+Result<std::vector<Key>> effects_named(const Family& family, const std::vector<std::string>& texts) {
     std::vector<Key> effects;
     for (const std::string& text : texts) {
         GOBO_TRY(const Key key, parse_key(family, text));
@@ -218,13 +213,39 @@ Result<PromisesToTry> promises_of_manifest(const Family& family, const std::stri
     return all;
 }
 
-/// The columns quality and error of a table, or what a manifest promises.
-Result<PromisesToTry> read_promises(const World& world, const Family& family, const std::string& path) {
+/// What budgets promise by a study of the keys with those effects; of all of them where none are named.
+Result<PromisesToTry> promises_of_study(const Family& family, const std::string& text,
+                                        const std::string& path, const std::vector<Key>& effects) {
+    GOBO_TRY(const StudiedEffects studied, read_studied(text, path, family));
+    PromisesToTry all;
+    for (const auto& [of, keys] : studied) {
+        if (!effects.empty() && std::ranges::find(effects, of) == effects.end()) continue;
+        for (const StudiedKey& key : keys) {
+            const auto promised = promised_error(key);
+            if (!promised) continue;
+            all.keys.push_back(key.key);
+            all.promises.push_back({key_text(family, key.key), *promised});
+        }
+    }
+    if (all.keys.empty())
+        return fail({path, 1, 0}, "", "promises nothing of these effects",
+                    "name effects that it has, or search it first: gobo study --worst N --study");
+    return all;
+}
+
+/// The columns quality and error of a table, or what a manifest or a study promises.
+Result<PromisesToTry> read_promises(const StudyCommandOptions& options, const World& world,
+                                    const Family& family) {
+    const std::string& path = options.promises;
     PromisesToTry all;
     if (path.empty()) return all;
     GOBO_TRY(const std::string text, read_input(world, path));
     if (path.ends_with(".json")) return promises_of_manifest(family, text, path);
     const CsvTable table = read_csv(text);
+    if (table.column("error_worst")) {
+        GOBO_TRY(const std::vector<Key> effects, effects_named(family, options.study.effects));
+        return promises_of_study(family, text, path, effects);
+    }
     const auto quality = table.column("quality");
     const auto error = table.column("error");
     if (!quality || !error)
@@ -260,7 +281,9 @@ Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, cons
         return keys;
     }
     GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
-    GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
+    const auto& planned = options.study.quick ? plan.quick : plan.effects;
+    GOBO_TRY(const std::vector<Key> effects,
+             effects_named(family, options.study.effects.empty() ? planned : options.study.effects));
     for (const Key& of : effects) {
         keys.push_back(study::most_accurate(family, of));
         for (const study::Choice& choice : study::single_choices(family, of)) keys.push_back(choice.key);
@@ -270,7 +293,7 @@ Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, cons
 
 Result<Outcome> search_worst(const StudyCommandOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family));
-    GOBO_TRY(const PromisesToTry promised, read_promises(world, loaded.family, options.promises));
+    GOBO_TRY(const PromisesToTry promised, read_promises(options, world, loaded.family));
     GOBO_TRY_DO(narrow_domains(loaded.family, promised.domains));
     GOBO_TRY_DO(narrow_domains(world, loaded, options.domain));
     const Family& family = loaded.family;
@@ -297,10 +320,10 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
                keep_file(world, path,
                          evaluate::eval_file("fragment", worst.input, {follow}, evaluate::Digits::of_float)));
     }
-    for (const study::Promise& promise : study::broken_promises(family, promised.promises, cases))
+    for (const auto& [promise, error] : study::broken_promises(family, promised.promises, cases))
         diagnostics.push_back(
-            {.message = fmt::format("{} is promised to err by at most {:.3g}, and errs by more",
-                                    promise.quality, promise.error),
+            {.message = fmt::format("{} is promised to err by at most {:.3g}, and errs by {:.3g}",
+                                    promise.quality, promise.error, error),
              .help = "promise more, or narrow the domain: --domain FILE"});
     if (!options.folder.empty()) {
         append(diagnostics,
@@ -517,8 +540,8 @@ Command study_command() {
           &options->mediump,
           {.needs = "--worst"}},
          {"--promises", "FILE",
-          "With --worst: a manifest that gobo build --max-error wrote, or a CSV table of quality and error; "
-          "promises that the search breaks are errors",
+          "With --worst: a manifest that gobo build --max-error wrote, a study, or a CSV table of quality and "
+          "error; promises that the search breaks are errors",
           &options->promises},
          {"--domain", "FILE", "With --worst: a file whose [domain] is narrower than the family's",
           &options->domain},

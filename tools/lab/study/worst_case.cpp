@@ -28,7 +28,7 @@ namespace {
 using verify::Sample;
 
 constexpr std::size_t kPortion = 512;
-constexpr std::size_t kKept = 24;  ///< worst inputs that are varied
+constexpr std::size_t kKept = 24;  ///< worst inputs that are varied, with one lamp and with all
 
 class Random : public RandomNumbers<Xoshiro256> {
   public:
@@ -70,6 +70,22 @@ void look_up_table(const oracle::Model& model, Sample& sample) {
     };
     const std::size_t texel = kSize * place(sample.scene.material.roughness) + place(std::abs(nv));
     sample.scene.environment_brdf = {kTexels[2 * texel], kTexels[2 * texel + 1]};
+}
+
+/// Puts out all light but that of one lamp, and fog that thins to nothing: alone a light's error shows whole.
+void leave_one_light(oracle::Scene& scene, Random& random) {
+    std::vector<glm::dvec3*> colors;
+    for (oracle::DirectionalLight& light : scene.directional) colors.push_back(&light.color);
+    for (oracle::PointLight& light : scene.point) colors.push_back(&light.color);
+    for (oracle::SpotLight& light : scene.spot) colors.push_back(&light.color);
+    for (oracle::DirectionalOrPointLight& light : scene.directional_or_point) colors.push_back(&light.color);
+    if (colors.empty()) return;
+    const std::size_t lit = random.index(colors.size());
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        if (i != lit) *colors[i] = glm::dvec3(0);
+    scene.ambient = scene.material.emission = glm::dvec3(0);
+    std::ranges::fill(scene.light_ambients, glm::dvec3(0));
+    scene.fog.density = 0;
 }
 
 /// A number, vector or matrix that the stage reads.
@@ -150,13 +166,17 @@ class Search {
         for (std::size_t done = 0; done < options_.points && worst_.error <= options_.enough;
              done += kPortion) {
             const std::size_t count = std::min(kPortion, options_.points - done);
-            const bool is_fresh = kept_.empty() || done / kPortion % 2 == 0;
-            std::vector<Sample> samples = is_fresh ? drawn(count) : varied(count);
+            const std::size_t portion = done / kPortion;
+            // Each second pair of portions has one lamp only: what is worst there must not be crowded out.
+            const bool is_alone = portion / 2 % 2 == 1;
+            std::vector<Kept>& kept = is_alone ? kept_alone_ : kept_;
+            const bool is_fresh = kept.empty() || portion % 2 == 0;
+            std::vector<Sample> samples = is_fresh ? drawn(count, is_alone) : varied(count, kept);
             for (Sample& sample : samples) {
                 for (const SearchedField& field : fields_) bring_into_domain(field, sample);
                 if (model_.environment_brdf == oracle::EnvironmentBrdf::table) look_up_table(model_, sample);
             }
-            GOBO_TRY_DO(judge(verify::rounded_to_float(std::move(samples))));
+            GOBO_TRY_DO(judge(verify::rounded_to_float(std::move(samples)), kept));
         }
         return std::move(worst_);
     }
@@ -168,21 +188,22 @@ class Search {
         Sample sample;
     };
 
-    std::vector<Sample> drawn(std::size_t count) {
+    std::vector<Sample> drawn(std::size_t count, bool is_alone) {
         std::vector<Sample> samples = verify::make_samples(own_model_, StageKind::fragment,
                                                            static_cast<int>(count), ++draws_ + options_.seed);
         for (Sample& sample : samples) {
             if (!random_.one_in(4)) bring_to_edges(sample, random_);
             while (!fields_.empty() && random_.one_in(3))
                 bring_to_end(random_.pick(fields_), sample, random_);
+            if (is_alone) leave_one_light(sample.scene, random_);
         }
         return samples;
     }
 
-    std::vector<Sample> varied(std::size_t count) {
+    std::vector<Sample> varied(std::size_t count, const std::vector<Kept>& kept) {
         std::vector<Sample> samples;
         for (std::size_t i = 0; i < count; ++i) {
-            Sample& sample = samples.emplace_back(random_.pick(kept_).sample);
+            Sample& sample = samples.emplace_back(random_.pick(kept).sample);
             for (std::size_t changes = 1 + random_.index(3); changes > 0; --changes) change(sample);
         }
         return samples;
@@ -204,7 +225,7 @@ class Search {
         field.field.set(sample, numbers);
     }
 
-    Result<void> judge(const std::vector<Sample>& samples) {
+    Result<void> judge(const std::vector<Sample>& samples, std::vector<Kept>& kept) {
         const evaluate::Program& program = variant_.program.fragment;
         GOBO_TRY(const auto invocations, verify::bind_inputs(program, samples));
         GOBO_TRY(const auto outputs,
@@ -216,7 +237,7 @@ class Search {
             const auto expected = std::ranges::find(all, variant_.program.color, &verify::Expected::output);
             if (decisions.open() > 0 || expected == all.end() || outputs.discarded[i]) continue;
             const auto [excess, rounding] = excess_of(outputs, *expected, i);
-            keep(excess, samples[i]);
+            keep(excess, samples[i], kept);
             if (excess <= worst_.error) continue;
             worst_.error = excess;
             worst_.rounding = rounding;
@@ -242,12 +263,12 @@ class Search {
         return worst;
     }
 
-    void keep(double excess, const Sample& sample) {
-        if (kept_.size() < kKept) {
-            kept_.push_back({excess, sample});
+    static void keep(double excess, const Sample& sample, std::vector<Kept>& kept) {
+        if (kept.size() < kKept) {
+            kept.push_back({excess, sample});
             return;
         }
-        const auto least = std::ranges::min_element(kept_, {}, &Kept::excess);
+        const auto least = std::ranges::min_element(kept, {}, &Kept::excess);
         if (excess > least->excess) *least = {excess, sample};
     }
 
@@ -259,6 +280,7 @@ class Search {
     std::uint64_t draws_ = 0;
     std::vector<SearchedField> fields_;
     std::vector<Kept> kept_;
+    std::vector<Kept> kept_alone_;  ///< with one lamp
     WorstCase worst_;
 };
 
@@ -334,16 +356,17 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
     });
 }
 
-std::vector<Promise> broken_promises(const Family& family, const std::vector<Promise>& promises,
-                                     const std::vector<WorstCase>& cases) {
-    std::vector<Promise> broken;
-    for (const Promise& promise : promises)
-        if (std::ranges::any_of(cases, [&](const WorstCase& worst) {
-                return (quality_text(family, worst.key) == promise.quality ||
-                        key_text(family, worst.key) == promise.quality) &&
-                       worst.error > promise.error;
-            }))
-            broken.push_back(promise);
+std::vector<BrokenPromise> broken_promises(const Family& family, const std::vector<Promise>& promises,
+                                           const std::vector<WorstCase>& cases) {
+    std::vector<BrokenPromise> broken;
+    for (const Promise& promise : promises) {
+        double error = promise.error;
+        for (const WorstCase& worst : cases)
+            if (quality_text(family, worst.key) == promise.quality ||
+                key_text(family, worst.key) == promise.quality)
+                error = std::max(error, worst.error);
+        if (error > promise.error) broken.push_back({promise, error});
+    }
     return broken;
 }
 
