@@ -409,8 +409,6 @@ Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::s
     return domains;
 }
 
-namespace {
-
 bool is_within(const Domain& narrower, const Domain& domain) {
     const auto holds = [&](double number) {
         return (domain.low <= number && number <= domain.high) ||
@@ -423,8 +421,6 @@ bool is_within(const Domain& narrower, const Domain& domain) {
            (narrower.last.empty() || (!domain.last.empty() && domain.last[0] <= narrower.last[0] &&
                                       narrower.last[1] <= domain.last[1]));
 }
-
-}  // namespace
 
 Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower) {
     Diagnostics errors;

@@ -29,6 +29,9 @@ using FindFamily = std::function<Result<FamilyText>(const std::string& name)>;
 /// A file of nothing but the section [domain], written as in a family file.
 [[nodiscard]] Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::string& path);
 
+/// Whether a domain holds nothing that another one of the same name does not.
+[[nodiscard]] bool is_within(const Domain& narrower, const Domain& domain);
+
 /// Puts those in the place of the family's own. Errors, at their places: one of a name that the family
 /// declares no domain for, one that holds what the family's does not.
 [[nodiscard]] Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower);

@@ -121,9 +121,9 @@ OptionGroup budget_options(BudgetOptions& options) {
           "input of the domain, in linear radiance",
           &options.max_error, kPositive},
          {"--domain", "FILE",
-          "A file whose [domain] is narrower than the family's: the promise, the manifest and check(block) "
-          "hold "
-          "over it",
+          "A file whose [domain] is narrower than the family's, or a scene (.gltf, .glb) for what it holds: "
+          "the "
+          "promise, the manifest and check(block) hold over it",
           &options.domain},
          {"--typical", "", "The error need only hold on scenes like the study's, not over the whole domain",
           &options.typical},
@@ -142,10 +142,36 @@ OptionGroup budget_options(BudgetOptions& options) {
 
 Result<void> narrow_domains(const World& world, LoadedFamily& family, const std::string& file) {
     if (file.empty()) return {};
-    GOBO_TRY(const std::string text, read_input(world, file));
-    GOBO_TRY(family.narrowed, read_domain_file(text, file));
-    if (file != "-") family.files.push_back(file);
+    if (is_scene_file(file)) {
+        GOBO_TRY(family.narrowed, domains_of_scene(world, family, file));
+    } else {
+        GOBO_TRY(const std::string text, read_input(world, file));
+        GOBO_TRY(family.narrowed, read_domain_file(text, file));
+        if (file != "-") family.files.push_back(file);
+    }
     return narrow_domains(family.family, family.narrowed);
+}
+
+Result<void> refuse_scenes_outside(const World& world, LoadedFamily& family,
+                                   const std::vector<std::string>& scenes, const BudgetOptions& options) {
+    if (options.max_error <= 0 || options.typical) return {};
+    Diagnostics errors;
+    for (const std::string& path : scenes) {
+        GOBO_TRY(const auto held, domains_of_scene(world, family, path));
+        for (const Domain& of_scene : held) {
+            const auto own = std::ranges::find(family.family.domains, of_scene.name, &Domain::name);
+            if (is_within(of_scene, *own)) continue;
+            const std::string what = of_scene.low == of_scene.high ? fmt::format("is {:.6g}", of_scene.low)
+                                                                   : fmt::format("lies in {:.6g} to {:.6g}",
+                                                                                 of_scene.low, of_scene.high);
+            errors.push_back({.place = of_scene.place,
+                              .message = fmt::format("'{}' {}, and errors are promised from {:.6g} to {:.6g}",
+                                                     of_scene.name, what, own->low, own->high),
+                              .help = "widen --domain, or promise for scenes like the study's: --typical"});
+        }
+    }
+    if (!errors.empty()) return tl::unexpected(std::move(errors));
+    return {};
 }
 
 Result<void> refuse_without_budget(const BudgetOptions& options) {

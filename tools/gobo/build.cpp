@@ -88,6 +88,7 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const std::string stem, stem_of(options, family.family));
     GOBO_TRY_DO(narrow_domains(world, family, options.budget.domain));
+    GOBO_TRY_DO(refuse_scenes_outside(world, family, options.scenes, options.budget));
     if (options.comments) family.comments = Comments::keep;
     GOBO_TRY(std::vector<Key> keys, load_keys(world, family, options));
     std::vector<QualityChoice> qualities;

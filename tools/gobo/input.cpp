@@ -18,6 +18,7 @@
 #include "family/read_family.hpp"
 #include "gobo/shader_files.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/scene_domains.hpp"
 #include "scene/scene_keys.hpp"
 
 namespace gobo {
@@ -65,13 +66,18 @@ void add_include_folders(const World& world, SearchPath& search) {
     }
 }
 
+/// A scene for the family, whose files are added to `family.files`.
+Result<scene::Scene> load_scene(const World& world, LoadedFamily& family, const std::string& path) {
+    GOBO_TRY(scene::Scene scene, scene::read_scene(world.disk, path, scene::reading_for(family.family)));
+    family.files.insert(family.files.end(), scene.files.begin(), scene.files.end());
+    return scene;
+}
+
 /// The keys that the draws of a scene need, seen from any of its cameras, as `gobo scene --keys` lists them.
 Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& family, const std::string& path,
                                             const std::string& bucket_lights) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(bucket_lights));
-    GOBO_TRY(const scene::Scene scene,
-             scene::read_scene(world.disk, path, scene::reading_for(family.family)));
-    family.files.insert(family.files.end(), scene.files.begin(), scene.files.end());
+    GOBO_TRY(const scene::Scene scene, load_scene(world, family, path));
     const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
     std::vector<NamedKey> named;
@@ -390,6 +396,17 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, const 
         append(validated.diagnostics, unknown_names(family.family, family.search, composition));
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(std::move(validated.diagnostics));
     return validated;
+}
+
+bool is_scene_file(std::string_view path) {
+    return path.ends_with(".gltf") || path.ends_with(".glb");
+}
+
+Result<std::vector<Domain>> domains_of_scene(const World& world, LoadedFamily& family,
+                                             const std::string& path) {
+    GOBO_TRY(const scene::Scene scene, load_scene(world, family, path));
+    return scene::domains_of_scene(scene, scene::required_effects(scene, scene::eye_of_cameras(scene), {}),
+                                   family.family.domains);
 }
 
 void make_counts_literal(Family& family) {

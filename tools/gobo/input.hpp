@@ -117,7 +117,17 @@ struct BudgetOptions : Budget {
 /// An error where options say how a budget chooses and there is none.
 [[nodiscard]] Result<void> refuse_without_budget(const BudgetOptions& options);
 
-/// Narrows the family's domains by --domain, where it is given.
+/// Whether a path names a scene: .gltf or .glb.
+[[nodiscard]] bool is_scene_file(std::string_view path);
+/// What a scene holds of the family's domains (see scene::domains_of_scene()). Its files are added to
+/// `family.files`.
+[[nodiscard]] Result<std::vector<Domain>> domains_of_scene(const World& world, LoadedFamily& family,
+                                                           const std::string& path);
+/// An error for each domain that a scene leaves, where errors are promised over them.
+[[nodiscard]] Result<void> refuse_scenes_outside(const World& world, LoadedFamily& family,
+                                                 const std::vector<std::string>& scenes,
+                                                 const BudgetOptions& options);
+/// Narrows the family's domains by --domain, where it is given: a TOML file or a scene.
 [[nodiscard]] Result<void> narrow_domains(const World& world, LoadedFamily& family, const std::string& file);
 
 /// For each key the one that the budget chooses for its effects, in the same order, with what it was chosen

@@ -153,6 +153,7 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     GOBO_TRY_DO(refuse_without_budget(options.budget));
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
     GOBO_TRY_DO(narrow_domains(world, loaded, options.budget.domain));
+    GOBO_TRY_DO(refuse_scenes_outside(world, loaded, {options.scene}, options.budget));
     const Family& family = loaded.family;
     const std::string_view dialect = name_of(loaded.dialect);
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));

@@ -540,10 +540,12 @@ Command study_command() {
           &options->mediump,
           {.needs = "--worst"}},
          {"--promises", "FILE",
-          "With --worst: a manifest that gobo build --max-error wrote, a study, or a CSV table of quality and "
+          "With --worst: a manifest that gobo build --max-error wrote, a study, or a CSV table of quality "
+          "and "
           "error; promises that the search breaks are errors",
           &options->promises},
-         {"--domain", "FILE", "With --worst: a file whose [domain] is narrower than the family's",
+         {"--domain", "FILE",
+          "With --worst: a file whose [domain] is narrower than the family's, or a scene for what it holds",
           &options->domain},
          {"--effects", "KEY", "A combination of effects; by default those of the plan",
           &options->study.effects},
