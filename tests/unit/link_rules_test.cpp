@@ -731,6 +731,15 @@ const Row outputs[] = {
 
 constexpr auto name_of_row = [](const auto& row) { return std::string(row.param.name); };
 const Row language[] = {
+    {"member_offset_misaligned",
+     "450",
+     plain,
+     "layout(std140, binding = 0) uniform B { layout(offset = 0) vec3 first;\n"
+     "    layout(offset = 12) vec4 second; } b;\nout vec4 c;\n"
+     "void main() { c = vec4(b.first, 1.0) + b.second; }\n",
+     Mesa::refuses,
+     {"tiny.frag:3: error: 'offset' : must be a multiple of the member's alignment: 12 is not a multiple of "
+      "16, to which a vec4 is aligned"}},
     {"lod_query",
      "330 core",
      plain,

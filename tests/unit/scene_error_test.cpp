@@ -284,6 +284,18 @@ TEST(SceneErrors, MissingBufferFileIsAFaultOfTheFile) {
     EXPECT_EQ(exit_status(scene.error()), 3);
 }
 
+/// Each draw is judged by each light.
+TEST(SceneErrors, DrawsAndLightsHaveABound) {
+    nlohmann::json json = quad_scene();
+    for (int i = 0; i < 2000; ++i) {
+        json["scenes"][0]["nodes"].push_back(json["nodes"].size());
+        json["nodes"].push_back({{"mesh", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    }
+    const std::string text = error_of(read_json(json));
+    EXPECT_NE(text.find("more than 2000000 pairs of them\n  help: split the scene"), std::string::npos)
+        << text;
+}
+
 TEST(SceneErrors, MissingPictureIsAFaultOfTheFile) {
     const Result<Scene> scene = read_json(patched_scene(masked(R"({"uri": "leaf.png"})")));
     EXPECT_EQ(error_of(scene),
