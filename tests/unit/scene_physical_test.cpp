@@ -281,6 +281,39 @@ TEST(PhysicalScene, PutsAnEnvironmentWhereNoLightIsStated) {
     EXPECT_FALSE(read_physical_scene(json)->has_default_light);
 }
 
+/// Of a scene without lights, in the studio, under a sky that nothing mirrors, and in the dark.
+TEST(PhysicalScene, LeavesOutExtensionsThatNoLightShows) {
+    struct Row {
+        const char* effect;
+        const char* studio;
+        const char* sky;
+        const char* dark;
+    };
+    const Row rows[] = {
+        {"clearcoat", "in: clearcoatFactor of 1", "in: clearcoatFactor of 1", "no light is in"},
+        {"sheen", "in: sheenColorFactor of 0.5", "in: sheenColorFactor of 0.5", "no light is in"},
+        {"iridescence", "in: iridescenceFactor of 1", "no light is in", "no light is in"},
+        {"anisotropy", "no light is in", "no light is in", "no light is in"},
+    };
+    nlohmann::json json = scene_with(R"({"extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_sheen": {"sheenColorFactor": [0, 0.5, 0.25]},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1}, "KHR_materials_anisotropy": {"anisotropyStrength": 1}}})",
+                                     png({9, 9, 9, 255}, 1, 1));
+    for (nlohmann::json& node : json["nodes"]) node.erase("extensions");
+    const Result<Scene> studio = read_physical_scene(json);
+    nlohmann::json& of_gobo = json["scenes"][0]["extras"]["gobo"];
+    of_gobo["ambient"] = {0.1, 0.1, 0.1};
+    const Result<Scene> dark = read_physical_scene(json);
+    of_gobo["probe"] = {{"kind", "hemisphere"}, {"sky", {1, 1, 1}}, {"ground", {0, 0, 0}}};
+    const Result<Scene> sky = read_physical_scene(json);
+    ASSERT_TRUE(studio && sky && dark);
+    for (const Row& row : rows) {
+        EXPECT_EQ(verdict(*studio, row.effect), row.studio) << row.effect;
+        EXPECT_EQ(verdict(*sky, row.effect), row.sky) << row.effect;
+        EXPECT_EQ(verdict(*dark, row.effect), row.dark) << row.effect;
+    }
+}
+
 TEST(PhysicalScene, RefusesAPictureThatIsCutShort) {
     const std::string whole = jpeg(128);
     EXPECT_TRUE(decode_picture(whole));

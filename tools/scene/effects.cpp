@@ -378,14 +378,13 @@ void judge_physical_surface(const Subject& subject, const EyePlace& eye, double 
                 subject.scene.has_default_light ? "the scene states no light: the studio stands in"
                                                 : fmt::format("a share of {:.3g}", reflection))});
     for (const MaterialExtension& extension : material_extensions()) {
+        const bool is_seen = subject.is_lit || (extension.seen_by != SeenBy::lights && reflection > 0) ||
+                             (extension.seen_by == SeenBy::probes && overrides.probe);
         const ExtensionProperty& amount = extension.properties.front();
         const double most = std::ranges::max(physical.of_extensions.at(amount.uniform));
-        effects.push_back(
-            decide(extension.feature, extension.feature, extension.value,
-                   {{most == 0, "it has none"},
-                    {!(subject.is_lit || (extension.is_mirroring && reflection > 0)), "no light is in"},
-                    unlit},
-                   fmt::format("{} of {:.3g}", amount.name, most)));
+        effects.push_back(decide(extension.feature, extension.feature, extension.value,
+                                 {{most == 0, "it has none"}, {!is_seen, "no light is in"}, unlit},
+                                 fmt::format("{} of {:.3g}", amount.name, most)));
     }
     for (const std::string& name : physical.not_drawn)
         effects.push_back({name, name, "", true, "its material states it"});

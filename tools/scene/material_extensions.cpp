@@ -20,21 +20,21 @@ const std::vector<MaterialExtension>& material_extensions() {
          {{"clearcoatFactor", "Material.clearcoat", {0}},
           {"clearcoatRoughnessFactor", "Material.clearcoatRoughness", {0}}},
          {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"},
-         true},
+         SeenBy::probes},
         {"KHR_materials_sheen",
          "sheen",
          "charlie",
          {{"sheenColorFactor", "Material.sheenColor", {0, 0, 0}},
           {"sheenRoughnessFactor", "Material.sheenRoughness", {0}}},
          {"sheenColorTexture", "sheenRoughnessTexture"},
-         false},
+         SeenBy::probes},
         {"KHR_materials_anisotropy",
          "anisotropy",
          "brushed",
          {{"anisotropyStrength", "Material.anisotropy", {0}},
           {"anisotropyRotation", "Material.anisotropyDirection", {0}, {}, direction_of_angle}},
          {"anisotropyTexture"},
-         false},
+         SeenBy::lights},
         {"KHR_materials_iridescence",
          "iridescence",
          "thin_film",
@@ -42,7 +42,7 @@ const std::vector<MaterialExtension>& material_extensions() {
           {"iridescenceIor", "Iridescence.ior", {1.3}, {1}},
           {"iridescenceThicknessMaximum", "Iridescence.thickness", {400}, kNotNegative}},
          {"iridescenceTexture", "iridescenceThicknessTexture"},
-         true}};
+         SeenBy::reflection}};
     return kExtensions;
 }
 

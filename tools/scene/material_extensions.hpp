@@ -18,6 +18,10 @@ struct ExtensionProperty {
     std::vector<double> (*to_uniform)(double) = nullptr;  ///< where the uniform holds something else
 };
 
+/// Which light shows an extension: lights, or the mirrored environment as well, or light from all around,
+/// too.
+enum class SeenBy { lights, reflection, probes };
+
 /// An extension that is one value of one feature.
 struct MaterialExtension {
     const char* name;  ///< "KHR_materials_clearcoat"
@@ -26,7 +30,7 @@ struct MaterialExtension {
     /// The first says how much there is of it: where it is 0, nothing is seen.
     std::vector<ExtensionProperty> properties;
     std::vector<const char*> pictures;  ///< of its own, which no family looks up
-    bool is_mirroring;                  ///< seen by the mirrored environment too, not by lights alone
+    SeenBy seen_by;
 };
 
 [[nodiscard]] const std::vector<MaterialExtension>& material_extensions();
