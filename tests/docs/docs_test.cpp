@@ -43,8 +43,9 @@ TEST_P(Page, DoesWhatItSays) {
 INSTANTIATE_TEST_SUITE_P(Docs, Page,
                          testing::Values("README.md", "docs/adding_an_effect.md", "docs/command_line.md",
                                          "docs/costs.md", "docs/family_file.md", "docs/formats.md",
-                                         "docs/pbr.md", "docs/probes.md", "docs/scene_format.md",
-                                         "docs/shadows.md", "docs/study.md", "docs/vulkan.md"),
+                                         "docs/pbr.md", "docs/porting.md", "docs/probes.md",
+                                         "docs/scene_format.md", "docs/shadows.md", "docs/study.md",
+                                         "docs/vulkan.md"),
                          [](const auto& page) { return std::filesystem::path(page.param).stem().string(); });
 
 }  // namespace

@@ -268,6 +268,13 @@ std::map<std::string, double> errors_on_scenes(const StudyCommandOptions& option
     return errors;
 }
 
+/// The effects that the command names, else those of the plan.
+Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, const Family& family,
+                                           const study::StudyPlan& plan) {
+    const auto& planned = options.study.quick ? plan.quick : plan.effects;
+    return effects_named(family, options.study.effects.empty() ? planned : options.study.effects);
+}
+
 /// What is searched: the keys that are promised something, those of a study that is named, or every single
 /// choice.
 Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, const World& world,
@@ -281,9 +288,7 @@ Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, cons
         return keys;
     }
     GOBO_TRY(const auto plan, load_plan(world, family, options.plan));
-    const auto& planned = options.study.quick ? plan.quick : plan.effects;
-    GOBO_TRY(const std::vector<Key> effects,
-             effects_named(family, options.study.effects.empty() ? planned : options.study.effects));
+    GOBO_TRY(const std::vector<Key> effects, effects_to_search(options, family, plan));
     for (const Key& of : effects) {
         keys.push_back(study::most_accurate(family, of));
         for (const study::Choice& choice : study::single_choices(family, of)) keys.push_back(choice.key);
