@@ -15,14 +15,19 @@ struct MetallicRoughness {
     float metallic_factor = 1;
     float roughness_factor = 1;
     glm::vec3 emissive_factor{0};
-    float emissive_strength = 1;           ///< KHR_materials_emissive_strength
-    float ior = 1.5F;                      ///< KHR_materials_ior; 0: all is reflected
-    float specular_factor = 1;             ///< KHR_materials_specular
-    glm::vec3 specular_color_factor{1};    ///< KHR_materials_specular
-    float clearcoat_factor = 0;            ///< KHR_materials_clearcoat
-    float clearcoat_roughness_factor = 0;  ///< KHR_materials_clearcoat
-    float anisotropy_strength = 0;         ///< KHR_materials_anisotropy
-    float anisotropy_rotation = 0;         ///< KHR_materials_anisotropy, radians
+    float emissive_strength = 1;                ///< KHR_materials_emissive_strength
+    float ior = 1.5F;                           ///< KHR_materials_ior; 0: all is reflected
+    float specular_factor = 1;                  ///< KHR_materials_specular
+    glm::vec3 specular_color_factor{1};         ///< KHR_materials_specular
+    float clearcoat_factor = 0;                 ///< KHR_materials_clearcoat
+    float clearcoat_roughness_factor = 0;       ///< KHR_materials_clearcoat
+    float anisotropy_strength = 0;              ///< KHR_materials_anisotropy
+    float anisotropy_rotation = 0;              ///< KHR_materials_anisotropy, radians
+    glm::vec3 sheen_color_factor{0};            ///< KHR_materials_sheen
+    float sheen_roughness_factor = 0;           ///< KHR_materials_sheen
+    float iridescence_factor = 0;               ///< KHR_materials_iridescence
+    float iridescence_ior = 1.3F;               ///< KHR_materials_iridescence
+    float iridescence_thickness_maximum = 400;  ///< KHR_materials_iridescence, nanometres
     float normal_scale = 1;
     float occlusion_strength = 1;
     bool is_unlit = false;  ///< KHR_materials_unlit
@@ -53,9 +58,21 @@ Material fill_material(const MetallicRoughness& from) {
     material.anisotropy = from.anisotropy_strength;
     material.anisotropyDirection =
         glm::vec2(std::cos(from.anisotropy_rotation), std::sin(from.anisotropy_rotation));
+    material.sheenColor = from.sheen_color_factor;
+    material.sheenRoughness = from.sheen_roughness_factor;
     material.normalScale = from.normal_scale;
     material.occlusionStrength = from.occlusion_strength;
     return material;
+}
+
+/// The block of a thin film: `gobo::fill_iridescence<pbr::Iridescence_block>(material)`.
+template <class Iridescence>
+Iridescence fill_iridescence(const MetallicRoughness& from) {
+    Iridescence film{};
+    film.factor = from.iridescence_factor;
+    film.ior = from.iridescence_ior;
+    film.thickness = from.iridescence_thickness_maximum;
+    return film;
 }
 
 /// The key with the features that the material calls for: `pbr::find(gobo::select(material, pbr::Key{}))`.
@@ -85,6 +102,11 @@ Key select(const MetallicRoughness& from, Key key) {
     using Anisotropy = decltype(key.anisotropy);
     choose(key.anisotropy, from.anisotropy_strength > 0 && !from.is_unlit, Anisotropy::brushed,
            Anisotropy::none);
+    using Sheen = decltype(key.sheen);
+    choose(key.sheen, from.sheen_color_factor != glm::vec3(0) && !from.is_unlit, Sheen::charlie, Sheen::none);
+    using Iridescence = decltype(key.iridescence);
+    choose(key.iridescence, from.iridescence_factor > 0 && !from.is_unlit, Iridescence::thin_film,
+           Iridescence::none);
     return key;
 }
 

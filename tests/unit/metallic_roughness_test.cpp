@@ -42,6 +42,28 @@ TEST(MetallicRoughness, SelectsWhatTheMaterialCallsFor) {
     EXPECT_EQ(pbr::key_text(select(material, selected)), "base_color_map=texture lighting=base_color");
 }
 
+TEST(MetallicRoughness, TakesSheenAndThinFilms) {
+    struct Film {
+        float factor, ior, thickness;
+    };
+    pbr::Key key;
+    key.point = 1;
+    MetallicRoughness soap;
+    soap.sheen_color_factor = glm::vec3(0, 0.5F, 0);
+    soap.sheen_roughness_factor = 0.25F;
+    soap.iridescence_factor = 0.75F;
+    EXPECT_EQ(pbr::key_text(select(soap, key)), "iridescence=thin_film point=1 sheen=charlie");
+    const auto block = fill_material<pbr::Material>(soap);
+    EXPECT_FLOAT_EQ(block.sheenColor.y, 0.5F);
+    EXPECT_FLOAT_EQ(block.sheenRoughness, 0.25F);
+    const auto film = fill_iridescence<Film>(soap);
+    EXPECT_FLOAT_EQ(film.factor, 0.75F);
+    EXPECT_FLOAT_EQ(film.ior, 1.3F);
+    EXPECT_FLOAT_EQ(film.thickness, 400);
+    soap.is_unlit = true;
+    EXPECT_EQ(pbr::key_text(select(soap, key)), "lighting=base_color");
+}
+
 TEST(MetallicRoughness, FindsThePermutationsThatASceneNeeded) {
     pbr::Key around;
     around.ambient = pbr::AmbientFeature::image;
