@@ -171,7 +171,7 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     bindings_mapped_ = map_bindings;
     const auto messages = static_cast<EShMessages>(rules(for_spirv, is_vulkan) | further_messages_);
     const bool is_fine = shader.parse(GetDefaultResources(), 110, false, messages);
-    if (is_fine && version_of(prologue).es) precisions_ = precisions_of(shader);
+    if (is_fine && version_of(prologue).es) precisions_ = precisions_of(shader.getInfoDebugLog());
     const Place place{pieces_.back()->path, 0, 0};
     Diagnostics found = with_macros(
         with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
@@ -220,7 +220,7 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
 Diagnostics GlslangStage::parse() {
     const std::string prologue = without_requirements(pieces_.front()->text);
     const bool has_switches = has_strict_switches(pieces_);
-    further_messages_ = has_switches ? EShMsgAST : EShMsgDefault;
+    further_messages_ = has_switches || asks_for_tree(pieces_) ? EShMsgAST : EShMsgDefault;
     Diagnostics found = parse_by_glslang(prologue);
     // That a macro gives `defined` is an error to glslang alone; it can be told to go on.
     const bool is_relaxed = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
@@ -237,7 +237,7 @@ Diagnostics GlslangStage::parse() {
     Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_);
     std::ranges::move(more, std::back_inserter(found));
     if (!is_spirv(dialect_)) {
-        more = check_calls(shader_->shader, pieces_);
+        more = check_calls(shader_->shader.getInfoDebugLog(), pieces_);
         std::ranges::move(more, std::back_inserter(found));
     }
     if (has_switches) {

@@ -277,6 +277,8 @@ class LanguageCheck {
                 refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
                        "take it out: what a vertex stage writes can be invariant");
             if (depth == 1 && token == "{") check_block(begin, i);
+            if (depth == 0 && token == "(" && is_name(i - 1)) check_header(begin, i);
+            if (depth == 0 && token == ";") has_layout_ = has_layout_ || states_layout(begin, i);
             if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth == 0 && token == ";") check_counter(begin, i);
             if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
@@ -308,6 +310,26 @@ class LanguageCheck {
                type.starts_with("ivec") || type.starts_with("bvec");
     }
 
+    /// The `(` of a function's head; its declaration begins at `begin`, behind the `}` of a struct that it is
+    /// to return.
+    void check_header(std::size_t begin, std::size_t bracket) {
+        bool has_struct = begin > 0 && at(begin - 1) == "}" && bracket == begin + 1 &&
+                          at(begin) != "layout" && !is_macro(begin);
+        for (std::size_t i = bracket; i < tokens_.size() && !is_any(at(i), {")", ";"}); ++i)
+            has_struct = has_struct || (at(i) == "struct" && at(i + 2) == "{");
+        if (has_struct)
+            refuse(tokens_[bracket],
+                   fmt::format("a struct is declared in the head of the function '{}'", at(bracket - 1)),
+                   "declare it before");
+    }
+
+    /// Whether these tokens hold std140 or std430, as a block's own or as `layout(std140) uniform;`.
+    [[nodiscard]] bool states_layout(std::size_t begin, std::size_t end) const {
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_any(at(i), {"std140", "std430"}) || is_macro(i)) return true;
+        return false;
+    }
+
     /// `float f(float x);` within a function.
     void check_prototype(std::size_t index) {
         if (at(index + 2) != "(" || !is_name(index) || !is_name(index + 1)) return;
@@ -328,12 +350,18 @@ class LanguageCheck {
         };
         const bool is_buffer = is("buffer");
         if (brace == 0 || at(brace - 1) == ")" || !(is_buffer || is("uniform"))) return;
+        const bool has_layout = has_layout_ || states_layout(begin, brace);
         if (is_buffer && is("readonly") && is("writeonly"))
             refuse(tokens_[brace],
                    fmt::format("the buffer block '{}' is both readonly and writeonly", at(brace - 1)),
                    "take one out; a member that only its length is asked of may have both");
         std::size_t end = brace + 1;
         for (; end < tokens_.size() && at(end) != "}"; ++end) {
+            if (!has_layout && is_any(at(end), {"offset", "align"}) && at(end + 1) == "=")
+                refuse(tokens_[end],
+                       fmt::format("'{}' in the block '{}', which states neither std140 nor std430", at(end),
+                                   at(brace - 1)),
+                       "write layout(std140) before the block");
             const bool is_unsized = at(end) == "[" && at(end + 1) == "]";
             if (!is_unsized || !is_buffer) continue;
             std::size_t last = end;
@@ -425,6 +453,7 @@ class LanguageCheck {
     std::vector<Token> tokens_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
+    bool has_layout_ = false;  ///< `layout(std140) uniform;` stands above
     std::set<std::string> told_;
     Diagnostics found_;
 };

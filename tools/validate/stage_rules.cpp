@@ -36,6 +36,7 @@ class StageCheck {
         if (kind_ == StageKind::geometry) check_streams();
         check_sizes();
         check_writeonly();
+        if (!is_spirv(dialect_)) check_offsets();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -214,6 +215,21 @@ class StageCheck {
             return refuse(use_of(name, pieces_), fmt::format("'{}' is writeonly, and is read", name),
                           "take writeonly out of its block, or write it without reading it");
         }
+    }
+
+    /// No member lies before the end of the one that stands before it (GLSL 4.60, 4.4.5).
+    void check_offsets() {
+        for (const auto* const blocks : {&interface_.blocks, &interface_.storage_blocks})
+            for (const Block& block : *blocks)
+                for (std::size_t i = 1; i < block.members.size(); ++i) {
+                    const Member& member = block.members[i];
+                    if (member.offset >= block.members[i - 1].offset) continue;
+                    return refuse(
+                        declaration_of_member(root_of(block.name), member.name, pieces_),
+                        fmt::format("'{}' has offset {}, before that of '{}', which stands above it",
+                                    member.name, member.offset, block.members[i - 1].name),
+                        "order members by their offsets");
+                }
     }
 
     /// Further streams take points alone (GLSL 4.60, 8.15), and there are four.

@@ -1,21 +1,57 @@
 #include "validate/syntax_tree.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
-#include <glslang/MachineIndependent/localintermediate.h>
 
+#include "compose/dialect.hpp"
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
 #include "validate/declaration.hpp"
 
 namespace gobo {
 namespace {
 
-void add_precisions(const std::string& path, const glslang::TType& type, Precisions& precisions) {
-    if (type.isStruct()) {
-        for (const glslang::TTypeLoc& member : *type.getStruct())
-            add_precisions(path + "." + member.type->getFieldName().c_str(), *member.type, precisions);
-    } else if (type.getQualifier().precision != glslang::EpqNone) {
-        precisions[path] = glslang::GetPrecisionQualifierString(type.getQualifier().precision);
+/// The names of functions that a stage declares by `float f(float x);`.
+std::set<std::string_view> declared_functions(const std::vector<const Piece*>& pieces) {
+    std::set<std::string_view> names;
+    int braces = 0;
+    for (const Piece* const piece : pieces) {
+        const std::vector<std::string_view> tokens = tokens_of(piece->text);
+        std::string_view name;  // before the last `(` outside of functions
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+            if (tokens[i] == "{") ++braces;
+            if (tokens[i] == "}") --braces;
+            if (braces == 0 && tokens[i] == "(" && i > 1 && is_identifier(tokens[i - 2]))
+                name = is_identifier(tokens[i - 1]) ? tokens[i - 1] : "";
+            if (braces == 0 && tokens[i] == ")" && i + 1 < tokens.size() && tokens[i + 1] == ";" &&
+                !name.empty())
+                names.insert(name);
+        }
+    }
+    return names;
+}
+
+/// Of a type as glslang prints it, "uniform structure{ global lowp sampler2D map,  global bool on}".
+void add_precisions(const std::string& path, std::string_view type, Precisions& precisions) {
+    constexpr std::string_view kStructure = "structure{";
+    const std::size_t open = type.find(kStructure);
+    if (open == std::string_view::npos) {
+        for (const std::string& word : split(type, ' '))
+            if (word == "lowp" || word == "mediump" || word == "highp") precisions[path] = word;
+        return;
+    }
+    int depth = 1;
+    std::size_t begin = open + kStructure.size();
+    for (std::size_t i = begin; i < type.size() && depth > 0; ++i) {
+        depth += type[i] == '{' ? 1 : type[i] == '}' ? -1 : 0;
+        if (depth != 0 && (depth != 1 || type[i] != ',')) continue;
+        const std::string_view member = trim(type.substr(begin, i - begin));
+        const std::size_t blank = std::min(member.rfind(' '), member.size());
+        add_precisions(fmt::format("{}.{}", path, trim(member.substr(blank))), member.substr(0, blank),
+                       precisions);
+        begin = i + 1;
     }
 }
 
@@ -31,32 +67,35 @@ void set_precisions(const std::string& path, std::vector<Member>& members, const
     }
 }
 
-/// Names as glslang has them, with the types of the parameters: "f(f1;".
-class Calls : public glslang::TIntermTraverser {
-  public:
-    bool visitAggregate(glslang::TVisit, glslang::TIntermAggregate* node) override {
-        if (node->getOp() == glslang::EOpFunction) written.insert(node->getName().c_str());
-        if (node->getOp() == glslang::EOpFunctionCall && node->isUserDefined())
-            called.insert(node->getName().c_str());
-        return true;
-    }
-
-    std::set<std::string> written;
-    std::set<std::string> called;
-};
-
 }  // namespace
 
-Precisions precisions_of(const glslang::TShader& shader) {
+bool asks_for_tree(const std::vector<const Piece*>& pieces) {
+    const auto has_plain_uniform = [](const Piece* piece) {
+        const std::string& text = piece->text;
+        for (std::size_t at = text.find("uniform"); at != std::string::npos;
+             at = text.find("uniform", at + 1)) {
+            const std::size_t end = text.find_first_of(";{", at);
+            const bool is_block = end != std::string::npos && text[end] == '{' &&
+                                  text.substr(at, end - at).find("struct") == std::string::npos;
+            if (!is_block) return true;
+        }
+        return false;
+    };
+    return (version_of(pieces.front()->text).es && std::ranges::any_of(pieces, has_plain_uniform)) ||
+           !declared_functions(pieces).empty();
+}
+
+Precisions precisions_of(std::string_view tree) {
     Precisions precisions;
-    const glslang::TIntermediate& tree = *shader.getIntermediate();
-    if (tree.getTreeRoot() == nullptr) return precisions;
-    for (TIntermNode* const object : tree.findLinkerObjects()->getSequence()) {
-        const glslang::TIntermSymbol* const symbol = object->getAsSymbolNode();
-        if (symbol == nullptr || symbol->getQualifier().storage != glslang::EvqUniform ||
-            symbol->getBasicType() == glslang::EbtBlock)
-            continue;
-        add_precisions(symbol->getName().c_str(), symbol->getType(), precisions);
+    tree = tree.substr(std::min(tree.find("Linker Objects"), tree.size()));
+    for (const std::string& line : split(tree, '\n')) {
+        const std::size_t name = line.find('\'');
+        const std::size_t end = line.find("' (", name + 1);
+        if (name == std::string::npos || end == std::string::npos) continue;
+        const std::string_view type = std::string_view(line).substr(end + 3);
+        const std::string_view head = type.substr(0, type.find('{'));
+        if (head.find("uniform ") == std::string_view::npos || head.ends_with("block")) continue;
+        add_precisions(line.substr(name + 1, end - name - 1), type.substr(0, type.rfind(')')), precisions);
     }
     return precisions;
 }
@@ -71,13 +110,24 @@ void set_precisions(Interface& interface, const Precisions& precisions) {
         set_precision(without_indices(sampler.name), sampler.usage, precisions);
 }
 
-Diagnostics check_calls(const glslang::TShader& shader, const std::vector<const Piece*>& pieces) {
-    Calls calls;
-    if (TIntermNode* const root = shader.getIntermediate()->getTreeRoot()) root->traverse(&calls);
+Diagnostics check_calls(std::string_view tree, const std::vector<const Piece*>& pieces) {
     Diagnostics found;
-    for (const std::string& mangled : calls.called) {
-        if (calls.written.contains(mangled)) continue;
-        const std::string name = mangled.substr(0, mangled.find('('));
+    const std::set<std::string_view> declared = declared_functions(pieces);
+    if (declared.empty()) return found;
+    std::set<std::string> written;  // as glslang names them, with the types of the parameters: "f(f1;"
+    std::set<std::string> called;
+    const std::vector<std::string> lines = split(tree, '\n');
+    for (const auto& [mark, names] :
+         {std::pair("Function Definition: ", &written), std::pair("Function Call: ", &called)})
+        for (const std::string& line : lines) {
+            const std::size_t at = line.find(mark);
+            if (at == std::string::npos) continue;
+            const std::string name = line.substr(at + std::string_view(mark).size());
+            names->insert(name.substr(0, name.find(' ')));
+        }
+    for (const std::string& mangled : called) {
+        const std::string_view name = std::string_view(mangled).substr(0, mangled.find('('));
+        if (written.contains(mangled) || !declared.contains(name)) continue;
         found.push_back(diagnostic_at(use_of(name, pieces), Severity::error,
                                       fmt::format("the function '{}' has no body", name),
                                       "write it, or include the piece that holds it"));
