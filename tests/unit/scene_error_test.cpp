@@ -72,6 +72,11 @@ INSTANTIATE_TEST_SUITE_P(
             "KHR_materials_emissive_strength, "
             "KHR_materials_specular, "
             "KHR_materials_unlit, KHR_mesh_quantization, KHR_texture_transform"},
+        Broken{
+            "light_too_bright", put("/extensions/KHR_lights_punctual/lights/0/intensity", "1e38"),
+            "extensions.KHR_lights_punctual.lights[0].intensity is 1e+38, but must be between 0 and 1e+12"},
+        Broken{"colour_too_bright", put("/extensions/KHR_lights_punctual/lights/0/color", "[0, 1e30, 0]"),
+               "extensions.KHR_lights_punctual.lights[0].color holds a number above 1e+12"},
         Broken{"wrap_unknown", put("/samplers", R"([{"wrapS": 5}])"),
                "samplers[0].wrapS is 5, but must be one of 10497, 33071, 33648"},
         Broken{"magnified_unknown", put("/samplers", R"([{"magFilter": 9986}])"),

@@ -329,7 +329,9 @@ TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {
                 R"({{"pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0, "texCoord": {}}}}}}})", set),
             png({255, 255, 255, 255}, 1, 1)));
     };
-    EXPECT_TRUE(read("4294967296"));  // named as not drawn
+    const Result<Scene> beyond = read("4294967296");
+    ASSERT_TRUE(beyond);
+    EXPECT_THAT(beyond->materials.front().physical.not_drawn, ElementsAre("baseColorTexture by texCoord 4294967296"));
     const Result<Scene> below = read("-1");
     ASSERT_FALSE(below);
     EXPECT_THAT(

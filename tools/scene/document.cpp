@@ -140,6 +140,8 @@ bool Value::read_numbers(double* to, std::size_t count) const {
 bool Value::read_color(glm::dvec3& to) const {
     const bool is_there = read(to);
     if (is_there && (to.r < 0 || to.g < 0 || to.b < 0)) fail("holds a negative number");
+    if (is_there && std::max({to.r, to.g, to.b}) > kBrightness.high)
+        fail("holds a number above {:g}", kBrightness.high);
     return is_there;
 }
 

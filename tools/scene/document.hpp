@@ -27,6 +27,8 @@ struct Range {
 };
 inline constexpr Range kNotNegative{0};
 inline constexpr Range kUpToOne{0, 1};
+/// Of a light or a colour: the product of two of them is far from the largest float.
+inline constexpr Range kBrightness{0, 1e12};
 
 /// Parses a document. A syntax error, or a root that is no object, is thrown as everything else is.
 [[nodiscard]] nlohmann::json parse_document(std::string_view text);

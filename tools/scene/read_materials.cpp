@@ -41,7 +41,7 @@ void read_surface(const Value& value, const Textures& textures, Material& materi
     if (material.alpha_mode == AlphaMode::mask) material.opacity = textures.alpha(model["baseColorTexture"]);
     const Value extensions = value["extensions"].object();
     material.unlit = static_cast<bool>(extensions["KHR_materials_unlit"].object());
-    extensions["KHR_materials_emissive_strength"]["emissiveStrength"].read(emissive_strength, kNotNegative);
+    extensions["KHR_materials_emissive_strength"]["emissiveStrength"].read(emissive_strength, kBrightness);
     const Value specular = extensions["KHR_materials_specular"];
     specular["specularFactor"].read(specular_factor, kUpToOne);
     specular["specularColorFactor"].read_color(specular_color);

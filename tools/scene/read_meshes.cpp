@@ -151,7 +151,7 @@ TextureSide side_of(const Primitive& primitive, const std::vector<glm::vec2>& pl
 /// the vertex' normal, their mean by the triangles' angles there; a vertex at which the texture is mirrored
 /// on some of its triangles becomes two. The bitangent w (N x T) is where v falls: up, on a picture that is
 /// not mirrored.
-void add_tangents(Primitive& primitive, int set) {
+void add_tangents(Primitive& primitive, std::int64_t set) {
     const std::vector<glm::vec2>& places = set == 1 ? primitive.texcoords1 : primitive.texcoords;
     if (places.size() != primitive.positions.size() || primitive.normals.empty()) return;
     const std::size_t vertices = primitive.positions.size();

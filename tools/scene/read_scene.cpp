@@ -96,7 +96,7 @@ Light read_light(const Value& value, Diagnostics& warnings) {
     light.kind = static_cast<LightKind>(value["type"].choice({kLightKinds.begin(), kLightKinds.end()}));
     value["color"].read_color(light.color);
     double intensity = 1;
-    value["intensity"].read(intensity, kNotNegative);
+    value["intensity"].read(intensity, kBrightness);
     light.color *= intensity;
     value["range"].read(light.range);
     if (light.range <= 0) value["range"].fail("is {:g}, but must be above 0", light.range);

@@ -88,7 +88,7 @@ enum class MapKind { base_color, metallic_roughness, normal, occlusion, emissive
 /// `set`, where `linear` is (a, b, c, d) and `offset` (x, y).
 struct TextureUse {
     std::size_t picture = 0;  ///< of the scene
-    int set = 0;
+    std::int64_t set = 0;
     glm::dvec4 linear{1, 0, 0, 1};
     glm::dvec2 offset{0};
     int wrap_s = 10497;  ///< OpenGL's numbers

@@ -80,15 +80,17 @@ Reading reading_for(const Family& family) {
 
 Result<Buckets> parse_buckets(std::string_view text) {
     Buckets buckets;
+    const auto refused =
+        fail(Fault::usage, fmt::format("--bucket-lights: '{}' is not a rising list of light counts", text),
+             "write it like 0,1,2,4,8");
+    if (!text.empty() && has_empty_part(text, ',')) return refused;
     for (const std::string& part : split(text, ',')) {
         int count = -1;
         const char* const end = part.data() + part.size();
         const auto read = std::from_chars(part.data(), end, count);
         const bool rises = buckets.empty() || count > buckets.back();
         if (read.ec != std::errc() || read.ptr != end || count < 0 || count > kLargestBucket || !rises)
-            return fail(Fault::usage,
-                        fmt::format("--bucket-lights: '{}' is not a rising list of light counts", text),
-                        "write it like 0,1,2,4,8");
+            return refused;
         buckets.push_back(count);
     }
     return buckets;

@@ -24,11 +24,11 @@ void check_sampler(const Value& sampler) {
     for (const char* wrap : {"wrapS", "wrapT"}) check_choice(sampler[wrap], {kRepeat, 33071, 33648});
 }
 
-/// The number of a set of texture coordinates; all beyond the second are alike.
-int set_of(const Value& number) {
+/// The number of a set of texture coordinates.
+std::int64_t set_of(const Value& number) {
     const std::int64_t set = number.integer().value_or(0);
     if (set < 0) number.fail("is {}, but must be at least 0", set);
-    return static_cast<int>(std::min<std::int64_t>(set, 1000));
+    return set;
 }
 
 }  // namespace
