@@ -64,6 +64,11 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+bool has_empty_part(std::string_view text, char separator) {
+    const auto parts = std::ranges::count(text, separator) + 1;
+    return std::ssize(split(text, separator)) < parts;
+}
+
 std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> parts;
     while (true) {

@@ -11,6 +11,9 @@ namespace gobo {
 /// `text` without the blanks at both ends.
 [[nodiscard]] std::string_view trim(std::string_view text);
 
+/// Whether split() leaves out a part, as of "a,,b" and of "a,".
+[[nodiscard]] bool has_empty_part(std::string_view text, char separator);
+
 /// The parts of `text` between `separator`, trimmed; empty ones are left out.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 

@@ -426,7 +426,13 @@ Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower)
     Diagnostics errors;
     for (const Domain& domain : narrower) {
         const auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
-        if (own == family.domains.end()) {
+        if (own == family.domains.end() && is_constraint(domain.name)) {
+            errors.push_back(
+                {.place = domain.place,
+                 .message = fmt::format("the family '{}' does not state that {}", family.name, domain.name),
+                 .help = "narrow ranges here; what holds between inputs belongs into the "
+                         "family's [domain]"});
+        } else if (own == family.domains.end()) {
             std::vector<std::string> names;
             for (const Domain& known : family.domains) names.push_back(known.name);
             errors.push_back({.place = domain.place,

@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "core/toml_depth.hpp"
+#include "core/toml_repeats.hpp"
 
 namespace gobo {
 
@@ -50,8 +51,12 @@ toml::table TomlReader::parse(std::string_view text, const std::string& path) {
         return toml::parse(text, path);
     } catch (const toml::parse_error& failure) {
         const toml::source_position at = failure.source().begin;
-        error(in_bytes({path, static_cast<int>(at.line), static_cast<int>(at.column)}),
-              fmt::format("not valid TOML: {}", failure.description()), "see https://toml.io for the syntax");
+        const Place place = in_bytes({path, static_cast<int>(at.line), static_cast<int>(at.column)});
+        if (const auto repeated = repeated_key(failure.description(), text, at.line, place.column))
+            error(place, *repeated, "keep one of them");
+        else
+            error(place, fmt::format("not valid TOML: {}", failure.description()),
+                  "see https://toml.io for the syntax");
         return {};
     }
 }

@@ -10,6 +10,7 @@
 
 #include "core/text.hpp"
 #include "core/toml_depth.hpp"
+#include "core/toml_repeats.hpp"
 #include "lab/evaluate/functions.hpp"
 #include "lab/evaluate/image_call.hpp"
 
@@ -31,7 +32,9 @@ class FileReader {
         try {
             file = toml::parse(text_, path_);
         } catch (const toml::parse_error& error) {
-            report(error.source(), std::string(error.description()));
+            const toml::source_position at = error.source().begin;
+            const auto repeated = repeated_key(error.description(), text_, at.line, at.column);
+            report(error.source(), repeated.value_or(std::string(error.description())));
             return tl::unexpected(diagnostics_);
         }
         const std::map<std::string_view, std::map<std::string, EvalValue>*> sections = {
