@@ -72,10 +72,29 @@ class Parser {
             check_kinds(expression.subtracted, expression.comparison);
         } else {
             expression.value = value(first);
+            if (fault_ == Fault::usage) check_range(expression.features, expression.value);
         }
         for (const int feature : expression.features) expression.value -= features_[feature].lowest;
         for (const int feature : expression.subtracted) expression.value += features_[feature].lowest;
         return expression;
+    }
+
+    /// A rule that a family shares with others may say more than its counts allow; who types a condition
+    /// errs.
+    void check_range(const std::vector<int>& counts, int value) const {
+        if (features_[counts.front()].kind != FeatureKind::count) return;
+        int least = 0;
+        int most = 0;
+        std::vector<std::string> names;
+        for (const int index : counts) {
+            const Feature& feature = features_[index];
+            least += feature.lowest;
+            most += feature.lowest + static_cast<int>(feature.values.size()) - 1;
+            names.push_back(feature.name);
+        }
+        if (value < least || value > most)
+            stop(fmt::format("'{}' is never {}", join(names, " + "), value),
+                 fmt::format("a whole number from {} to {}", least, most), std::to_string(value).size());
     }
 
     /// Features joined by "+".

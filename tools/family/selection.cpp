@@ -49,7 +49,8 @@ Result<KeySpaceLimits> limits_of(const Family& family, const Selection& selectio
     std::set<std::string> conditions = {selection.where, asked.where};
     conditions.erase("");
     for (const std::string& condition : conditions) {
-        GOBO_TRY(Expression where, parse_expression(condition, family.features, {}, Fault::usage));
+        const Fault fault = condition == asked.where ? Fault::usage : Fault::input;
+        GOBO_TRY(Expression where, parse_expression(condition, family.features, {}, fault));
         limits.where.push_back(std::move(where));
     }
     return limits;

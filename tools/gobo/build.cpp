@@ -144,11 +144,7 @@ Result<Built> build(const BuildOptions& options, const World& world) {
         outcome.files.push_back({stem + ".hpp", header});
     }
     GOBO_TRY_DO(check_outputs(world.disk, outcome.files, files));
-    if (composition.permutations.empty())
-        outcome.diagnostics.push_back(
-            {.severity = Severity::warning,
-             .message = "the selection holds no keys: nothing can be found in the header",
-             .help = "see what a selection holds with 'gobo list'"});
+    append(outcome.diagnostics, warn_of_no_keys(composition, "nothing can be found in the header"));
     return Built{std::move(outcome), std::move(family.family), std::move(composition)};
 }
 

@@ -12,14 +12,10 @@ struct CheckOptions : SelectionOptions {
 Result<Outcome> run(const CheckOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(const Composition composition, compose_selection(world, family, options));
-    if (composition.permutations.empty())  // silence would be taken for success
-        return Outcome{{},
-                       {{.severity = Severity::warning,
-                         .message = "the selection holds no keys, so nothing was checked",
-                         .help = "see what a selection holds with 'gobo list'"}}};
     GOBO_TRY(Validated validated, compile(world, family, composition, {.spirv_val = options.spirv_val}));
     append(validated.diagnostics, composition.warnings);
     append(validated.diagnostics, same_programs(family.family, composition, validated));
+    append(validated.diagnostics, warn_of_no_keys(composition, "nothing was checked"));
     return Outcome{{}, std::move(validated.diagnostics)};
 }
 

@@ -241,6 +241,11 @@ Option subject_argument(std::vector<std::string>& names) {
             kRequired};
 }
 
+Option family_or_files_argument(std::vector<std::string>& names) {
+    return {"NAMES", "FAMILY|FILES...",
+            "A family, or shader files (.vert, .frag, .geom, .comp, .vert.glsl, ...)", &names, kRequired};
+}
+
 std::string stage_words() {
     std::vector<std::string> words;
     for (const StageNames& stage : kStages) words.emplace_back(stage.name);
@@ -308,8 +313,11 @@ OptionGroup selection_options(SelectionOptions& options) {
             {{"--key", "KEY", "A key, such as 'fog=linear point=3'", &options.keys},
              {"--keys-from", "FILE", "A file of keys, one a line; - is standard input", &options.key_files},
              {"--scene", "FILE", "A glTF scene: the keys that its draws need", &options.scenes},
-             {"--bucket-lights", "0,1,2,...", "Round the light counts of --scene up to one of these",
-              &options.bucket_lights},
+             {"--bucket-lights",
+              "0,1,2,...",
+              "Round the light counts of --scene up to one of these",
+              &options.bucket_lights,
+              {.needs = "--scene"}},
              {"--all", "", "Every valid key", &options.more.all},
              {"--cover", "T", "Few keys that contain every combination of T feature values",
               &options.more.cover, between(1, kLargestCover)},
@@ -324,6 +332,10 @@ OptionGroup selection_options(SelectionOptions& options) {
 
 Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
     Selection selection = options.more;
+    for (const std::string& names : options.more.over)
+        if (has_empty_part(names, ','))
+            return fail(Fault::usage, fmt::format("--over: '{}' holds an empty name", names),
+                        "write one comma between two names");
     selection.over = split(join(options.more.over, ","), ',');
     for (const std::string& text : options.keys) selection.keys.push_back({text});
     for (const std::string& path : options.key_files) {
@@ -372,6 +384,13 @@ Result<Composition> compose_keys(const LoadedFamily& family, const std::vector<K
     if (!composition)
         for (Diagnostic& error : composition.error()) put_at_mention(error, family);
     return composition;
+}
+
+Diagnostics warn_of_no_keys(const Composition& composition, std::string_view consequence) {
+    if (!composition.permutations.empty()) return {};
+    return {{.severity = Severity::warning,
+             .message = fmt::format("the selection holds no keys, so {}", consequence),
+             .help = "see what a selection holds with 'gobo list'"}};
 }
 
 Result<Composition> compose_selection(const World& world, LoadedFamily& family,

@@ -145,6 +145,10 @@ struct BudgetOptions : Budget {
 [[nodiscard]] Result<Composition> compose_selection(const World& world, LoadedFamily& family,
                                                     const SelectionOptions& options);
 
+/// A warning where the selection holds no keys, of which silence would be taken for success: "nothing was
+/// checked". Else nothing.
+[[nodiscard]] Diagnostics warn_of_no_keys(const Composition& composition, std::string_view consequence);
+
 /// Validates on all cores, in child processes unless CommonOptions::in_process. What has errors is no value;
 /// each error names a key with no more features than it takes.
 [[nodiscard]] Result<Validated> compile(const World& world, const LoadedFamily& family,
@@ -172,6 +176,8 @@ void make_counts_literal(Family& family);
 [[nodiscard]] Result<Validated> compile(const World& world, const Subject& subject,
                                         const ValidateOptions& options = {});
 [[nodiscard]] Option subject_argument(std::vector<std::string>& names);
+/// Of commands that have a selection.
+[[nodiscard]] Option family_or_files_argument(std::vector<std::string>& names);
 /// -S of commands that take shader files.
 [[nodiscard]] Option stages_option(std::vector<std::string>& stages);
 /// "vertex|tess_control|...|vert|tesc|...", the choices of an option.

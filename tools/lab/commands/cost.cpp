@@ -384,10 +384,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (options.specialized) return compare_specialized(world, options, chips);
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect, &options));
     if (subject.composition.permutations.empty())
-        return Outcome{{},
-                       {{.severity = Severity::warning,
-                         .message = "the selection holds no keys, so there is nothing to cost",
-                         .help = "see what a selection holds with 'gobo list'"}}};
+        return Outcome{{}, warn_of_no_keys(subject.composition, "there is nothing to cost")};
     for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
         if (subject.are_files && subject.composition.permutations.front().stages[kind] < 0)
             return fail(Fault::usage,

@@ -14,6 +14,7 @@ Result<Examined> load_examined(const World& world, const FindingOptions& options
              load_subject(world, options.names, options.stages, options.dialect, &options, Counts::literal));
     GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, what));
     GOBO_TRY(Validated validated, compile_over_domains(world, subject, options.inputs));
+    append(validated.diagnostics, warn_of_no_keys(subject.composition, "nothing was examined"));
     return Examined{std::move(subject), std::move(validated)};
 }
 
@@ -72,11 +73,6 @@ Diagnostics report_finding(const World& world, const FindingOptions& options, co
     error.help = "guard the operation; follow the input with: " + follow;
     append(diagnostics, keep_file(world, path, sanitize::eval_input(finding, follow)));
     return diagnostics;
-}
-
-Option names_argument(FindingOptions& options) {
-    return {"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
-            &options.names, kRequired};
 }
 
 Option domains_option(FindingOptions& options) {

@@ -33,8 +33,7 @@ void leave_out_keys(const Subject& subject, Diagnostics& diagnostics);
                                          const std::vector<std::size_t>& permutations, std::string message,
                                          std::size_t number);
 
-/// NAMES and --inputs.
-[[nodiscard]] Option names_argument(FindingOptions& options);
+/// --inputs.
 [[nodiscard]] Option domains_option(FindingOptions& options);
 
 }  // namespace gobo

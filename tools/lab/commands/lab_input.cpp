@@ -70,16 +70,16 @@ Result<std::pair<int, int>> read_pair(const std::string& text, char separator, i
 
 Result<CubeImages> load_environment(const World& world, const std::string& folder,
                                     const std::vector<Interface>& interfaces) {
-    CubeImages images;
-    if (std::none_of(interfaces.begin(), interfaces.end(), looks_up_environment)) return images;
-    if (folder.empty()) return shipped_environment(world);
+    const bool is_wanted = std::ranges::any_of(interfaces, looks_up_environment);
+    if (folder.empty()) return is_wanted ? shipped_environment(world) : CubeImages{};
+    CubeImages images;  // read, and told of, even where no key looks them up
     for (const auto& [sampler, file] :
          {std::pair("diffuseMap", "diffuse.exr"), std::pair("specularMap", "specular.exr")}) {
         auto image = read_image(world.disk, folder + "/" + file);
         if (!image) return with_help(image.error(), "name a folder that gobo probe wrote");
         images.emplace(sampler, std::move(*image));
     }
-    return images;
+    return is_wanted ? images : CubeImages{};
 }
 
 std::vector<Interface> interfaces_of(const Composition& composition, const Validated& validated) {

@@ -168,6 +168,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
                 fmt::format("{}: refused, though the driver links it: {}\n", key, verdict.refused_by_gobo);
         }
     }
+    append(diagnostics, warn_of_no_keys(subject.composition, "nothing was compared"));
     text += fmt::format(
         "{} compared: {} taken and linked, {} refused by both, {} taken that the driver refuses, {} refused "
         "that "
@@ -182,7 +183,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
 Command link_command() {
     const auto options = std::make_shared<LinkOptions>();
     return {titles::kLink,
-            {subject_argument(options->names),
+            {family_or_files_argument(options->names),
              stages_option(options->stages),
              {"--backend", "osmesa|egl", "Whose driver is asked", &options->backend},
              dialect_option(options->dialect)},

@@ -47,7 +47,7 @@ Command prove_command() {
     const auto options = std::make_shared<ProveCommandOptions>();
     prove::ProveOptions& wanted = options->prove;
     return {titles::kProve,
-            {names_argument(*options),
+            {family_or_files_argument(options->names),
              stages_option(options->stages),
              keep_option(options->folder, "inputs that show what is possible, for gobo eval,"),
              {"--splits", "N", "Into how many parts the domain is split for one rule at one place, at most",

@@ -135,7 +135,13 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
     SelectionOptions keys = options;
     keys.scenes.clear();
-    GOBO_TRY(const Composition composition, compose_selection(world, family, keys));
+    const Dialect drawn = family.dialect;
+    if (options.live) family.dialect = Dialect::es300;  // its rules say what browsers can draw
+    GOBO_TRY(const std::vector<Key> selected, load_keys(world, family, keys));
+    family.dialect = drawn;
+    GOBO_TRY(const Composition composition, compose_keys(family, selected));
+    if (composition.permutations.empty())
+        return RenderedSelection{{}, warn_of_no_keys(composition, "nothing was drawn")};
     for (const Permutation& permutation : composition.permutations)
         if (permutation.stages[StageKind::compute] >= 0)
             return fail(Place{family.family.path}, "",
@@ -221,6 +227,8 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
         return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
     GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
     GOBO_TRY(const Composition composition, compose_selection(world, family, options));
+    if (composition.permutations.empty())
+        return RenderedSelection{{}, warn_of_no_keys(composition, "nothing was drawn")};
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
     const std::vector<Interface> interfaces = interfaces_of(composition, validated);
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
@@ -301,7 +309,7 @@ Command render_command() {
               &options->backend},
              {"--format", "png|exr|pfm", "png is sRGB for the eye; exr and pfm hold linear floats",
               &options->format},
-             {"--page", "", "With a page: another one, live.html, that draws every key in the browser",
+             {"--page", "", "Beside a page live.html: it draws every key, of those that es300 allows, itself",
               &options->live},
              {"--mesh", "teapot|sphere|torus|plane|FILE.obj", "What stands on the plane", &options->mesh},
              {"--camera", "N",

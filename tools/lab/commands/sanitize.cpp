@@ -63,7 +63,8 @@ Result<Outcome> run(const SanitizeCommandOptions& options, const World& world) {
     if (options.rounding) {
         GOBO_TRY(const auto stages,
                  sanitize::measure_precision(family, subject.composition, validated, wanted));
-        return Outcome{options.json ? sanitize::precision_json(stages) : sanitize::precision_text(stages)};
+        return Outcome{options.json ? sanitize::precision_json(stages) : sanitize::precision_text(stages),
+                       validated.diagnostics};
     }
     const auto found = sanitize::sanitize(family, subject.composition, validated, wanted);
     Diagnostics diagnostics = validated.diagnostics;
@@ -87,7 +88,7 @@ Command sanitize_command() {
     sanitize::SanitizeOptions& wanted = options->sanitize;
     return {
         titles::kSanitize,
-        {names_argument(*options),
+        {family_or_files_argument(options->names),
          stages_option(options->stages),
          keep_option(options->folder, "inputs that show what is found, for gobo eval,"),
          {"--points", "N", "How many extreme inputs each distinct stage gets", &wanted.points,

@@ -317,6 +317,7 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         append(outcome.diagnostics, problems);
         add(picture, totals);
     }
+    append(outcome.diagnostics, warn_of_no_keys(composition, "nothing was tested"));
     outcome.output += totals_text(totals, composition.permutations.size(), report.renderer);
     return outcome;
 }
@@ -360,6 +361,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     const auto report = verify::verify(family.family, composition, validated, verify_options);
     GOBO_TRY(const auto valid, count_selected(family.family, {.all = true}, name_of(family.dialect)));
     Diagnostics diagnostics = report_failures(world, options, family.family, family.dialect, report);
+    append(diagnostics, warn_of_no_keys(composition, "nothing was tested"));
     if (!options.figures_file.empty()) {
         const auto written =
             world.disk.write(options.figures_file,
