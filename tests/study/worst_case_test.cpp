@@ -2,6 +2,7 @@
 #include "lab/study/worst_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,45 @@ TEST(WorstCase, BreaksEveryPromisePlantedFalse) {
     }
     EXPECT_EQ(broken_promises(family, planted, all_cases()).size(), 20U);
     EXPECT_TRUE(broken_promises(family, kept, all_cases()).empty());
+}
+
+/// One key with one name declared mediump.
+Result<std::vector<WorstCase>> with_mediump(const std::string& key, const std::string& name,
+                                            const std::vector<Domain>& narrower = {}) {
+    Family family = lit_under_study().family;
+    EXPECT_TRUE(narrow_domains(family, narrower));
+    const Subject subject = lit_subject();
+    return find_worst_cases({subject.shipped, family, subject.search, subject.jobs}, {lit_key(key)},
+                            {.points = 4096, .mediump = name});
+}
+
+/// Each component is rounded by 2^-11 of itself at most, so that the vector turns by no more, and the light
+/// of its cosine changes by no more.
+TEST(WorstCase, OfANormalInMediumpIsItsRounding) {
+    Domain normal;
+    normal.name = "eyeNormal";
+    normal.of_length = true;
+    normal.low = 0.5;
+    normal.high = 1;
+    const auto found = with_mediump("directional=1", "eyeNormal", {normal}).value();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GT(found[0].error, 1e-4);
+    EXPECT_LT(found[0].error, 0x1p-11);
+}
+
+TEST(WorstCase, OfAVariableInMediumpIsFoundWhereItOverflows) {
+    EXPECT_TRUE(
+        std::isinf(with_mediump("directional=1", "total").value().at(0).error));  // light above 65,504
+    EXPECT_LT(with_mediump("spot=1", "fade").value().at(0).error,
+              0x1p-10);  // within [0, 1], and then squared
+}
+
+TEST(WorstCase, OfMediumpNeedsSuchAName) {
+    const auto found = with_mediump("directional=1", "fade");
+    ASSERT_FALSE(found);
+    EXPECT_EQ(to_text(found.error().front()),
+              "gobo: error: no fragment stage has a float 'fade'\n"
+              "  help: name a varying, or a variable as its piece declares it: vec3 litNormal\n");
 }
 
 }  // namespace
