@@ -173,6 +173,13 @@ Result<std::vector<Key>> effects_named(const Family& family, const std::vector<s
     return effects;
 }
 
+/// The effects that are asked for, by default the plan's.
+Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, const Family& family,
+                                           const study::StudyPlan& plan) {
+    const auto& planned = options.study.quick ? plan.quick : plan.effects;
+    return effects_named(family, options.study.effects.empty() ? planned : options.study.effects);
+}
+
 /// Promises to be tried, and what they are about.
 struct PromisesToTry {
     std::vector<study::Promise> promises;
