@@ -275,13 +275,6 @@ std::map<std::string, double> errors_on_scenes(const StudyCommandOptions& option
     return errors;
 }
 
-/// The effects that the command names, else those of the plan.
-Result<std::vector<Key>> effects_to_search(const StudyCommandOptions& options, const Family& family,
-                                           const study::StudyPlan& plan) {
-    const auto& planned = options.study.quick ? plan.quick : plan.effects;
-    return effects_named(family, options.study.effects.empty() ? planned : options.study.effects);
-}
-
 /// What is searched: the keys that are promised something, those of a study that is named, or every single
 /// choice.
 Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, const World& world,
