@@ -506,9 +506,23 @@ INSTANTIATE_TEST_SUITE_P(
                "'point=1' on "
                "navi21\n  help: write it anew with --update\n"},
         Growth{"AKeyMore", with_another_key(costs(100, 24, 500, false)),
-               "costs.csv: warning: it lacks the fragment stage of 'fog=exponential' on navi21\n"
+               "costs.csv: error: it lacks the fragment stage of 'fog=exponential' on navi21\n"
                "  help: write it anew with --update\n"}),
     [](const auto& growth) { return growth.param.name; });
+
+TEST(Baseline, TellsOfWhatIsNoLongerMeasured) {
+    const CsvTable baseline = to_table(with_another_key(costs(100, 24, 500, false)));
+    const auto now = costs(100, 24, 500, false);
+    const auto comparison = compare_with_baseline(now, baseline, "costs.csv", 2);
+    ASSERT_TRUE(comparison);
+    ASSERT_EQ(comparison->diagnostics.size(), 1U);
+    EXPECT_EQ(to_text(comparison->diagnostics.front()),
+              "costs.csv: note: it also holds what was not measured now: the fragment stage of "
+              "'fog=exponential' on navi21\n");
+    EXPECT_EQ(rows_lost(baseline, to_table(now)), 1U);
+    EXPECT_EQ(rows_lost(to_table(now), baseline), 0U);
+    EXPECT_EQ(rows_lost(read_csv("no,table\n1,2\n"), baseline), 0U);
+}
 
 TEST(Baseline, LeavesOutCyclesThatWereGuessed) {
     const CsvTable guessed = to_table(costs(100, 24, 300, true));
@@ -521,9 +535,13 @@ TEST(Baseline, IsReadAsItIsWritten) {
     EXPECT_EQ(to_text(compare_with_baseline({}, read_csv("gpu,key\n"), "costs.csv", 0).error().front()),
               "costs.csv:1: error: there is no column 'stage'\n  help: write it anew with --update\n");
     CsvTable wrong = to_table(costs(1, 2, 3, false));
-    wrong.rows[0][*wrong.column("cycles")] = "many";
-    EXPECT_EQ(to_text(compare_with_baseline({}, wrong, "costs.csv", 0).error().front()),
-              "costs.csv:2: error: 'many' is no number of cycles\n  help: write it anew with --update\n");
+    for (const char* cell : {"many", "nan", "inf", "67.5", "-1", "1e3", ""}) {
+        wrong.rows[0][*wrong.column("cycles")] = cell;
+        EXPECT_EQ(to_text(compare_with_baseline({}, wrong, "costs.csv", 0).error().front()),
+                  fmt::format("costs.csv:2: error: '{}' is no whole number of cycles\n"
+                              "  help: write it anew with --update\n",
+                              cell));
+    }
 }
 
 TEST(Cycles, StandSideBySide) {

@@ -28,6 +28,7 @@ TEST(Csv, TakesOtherPeoplesLines) {
                                                  testing::ElementsAre("1", "2", "3")));
     EXPECT_EQ(table.column("c"), 2u);
     EXPECT_EQ(table.column("d"), std::nullopt);
+    EXPECT_EQ(read_csv("\xEF\xBB\xBFgpu,key\n").column("gpu"), 0u);
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ std::optional<std::size_t> CsvTable::column(std::string_view name) const {
 
 CsvTable read_csv(std::string_view text) {
     CsvTable table;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as spreadsheets write it
     if (!text.empty()) table.columns = take_cells(text);
     while (!text.empty()) {
         std::vector<std::string> cells = take_cells(text);
@@ -71,6 +72,13 @@ std::string csv_text(const CsvTable& table) {
 
 std::optional<double> number_in_cell(std::string_view cell) {
     double number = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+    return number;
+}
+
+std::optional<std::uint64_t> whole_number_in_cell(std::string_view cell) {
+    std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
     if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
     return number;

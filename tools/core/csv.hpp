@@ -1,6 +1,7 @@
 // Tables of text: RFC 4180, a header line, '\n'.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ struct CsvTable {
     [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
 };
 
-/// Rows with fewer cells are filled up with empty ones, further cells left out.
+/// A byte order mark is skipped. Rows with fewer cells are filled up with empty ones, further cells left out.
 [[nodiscard]] CsvTable read_csv(std::string_view text);
 
 /// The table as read_csv() reads it.
@@ -26,6 +27,9 @@ struct CsvTable {
 
 /// The number that a cell is as a whole.
 [[nodiscard]] std::optional<double> number_in_cell(std::string_view cell);
+
+/// The same of a number without sign, point and exponent.
+[[nodiscard]] std::optional<std::uint64_t> whole_number_in_cell(std::string_view cell);
 
 /// An error at a row of the table at `path`.
 [[nodiscard]] tl::unexpected<Diagnostics> fail_at_row(const std::string& path, std::size_t row,

@@ -476,13 +476,32 @@ Result<Subject> load_files(const World& world, const std::vector<std::string>& n
     return subject;
 }
 
+/// The first option that chooses keys and was given; empty where there is none.
+std::string_view first_given(const SelectionOptions& options) {
+    const Selection& more = options.more;
+    const std::pair<std::string_view, bool> given[] = {
+        {"--key", !options.keys.empty()},     {"--keys-from", !options.key_files.empty()},
+        {"--scene", !options.scenes.empty()}, {"--all", more.all},
+        {"--cover", more.cover != 0},         {"--over", !more.over.empty()},
+        {"--where", !more.where.empty()},     {"--excluded", more.excluded},
+        {"--shard", !options.shard.empty()}};
+    for (const auto& [name, is_given] : given)
+        if (is_given) return name;
+    return "";
+}
+
 }  // namespace
 
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                              const std::vector<std::string>& stages, const std::string& dialect,
                              const SelectionOptions* selection, Counts counts) {
-    if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file))
+    if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file)) {
+        const std::string_view option = selection != nullptr ? first_given(*selection) : "";
+        if (!option.empty())
+            return fail(Fault::usage, fmt::format("{} chooses keys of a family, and files have none", option),
+                        "leave it out, or name a family");
         return load_files(world, names, stages, dialect, selection == nullptr);
+    }
     Subject subject;
     const std::size_t most = selection != nullptr ? 1 : 2;
     if (names.size() > most)

@@ -98,10 +98,13 @@ Result<cost::Pipeline> pipeline_of(const Composition& composition, const Validat
     return pipeline;
 }
 
-/// "fog=linear", or the files' names.
+/// "fog=linear", or the files' names, with the key where they have several.
 std::string text_of(const CostCommandOptions& options, const Subject& subject,
                     const Permutation& permutation) {
-    return subject.are_files ? join(options.names, " ") : key_text(subject.family.family, permutation.key);
+    const std::string key = key_text(subject.family.family, permutation.key);
+    if (!subject.are_files) return key;
+    const bool is_only = subject.composition.permutations.size() == 1;
+    return join(options.names, " ") + (is_only ? "" : " " + key);
 }
 
 Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const Validated& validated) {
@@ -248,9 +251,14 @@ Result<Outcome> hold_to_baseline(const World& world, const CostCommandOptions& o
                                  const std::vector<cost::ChipCost>& costs, Diagnostics diagnostics) {
     if (options.update) {
         if (exit_status(diagnostics) != 0)
-            return tl::unexpected(std::move(diagnostics));  // it would lack rows
-        GOBO_TRY(const bool is_new, world.disk.write(options.baseline, csv_text(cost::to_table(costs))));
-        return Outcome{{}, std::move(diagnostics), options.baseline + (is_new ? "" : " (unchanged)")};
+            return tl::unexpected(std::move(diagnostics));                // it would lack rows
+        const std::string path = world.disk.real_path(options.baseline);  // the file that a link leads to
+        const CsvTable table = cost::to_table(costs);
+        const std::size_t lost = cost::rows_lost(read_csv(world.disk.read(path).value_or("")), table);
+        GOBO_TRY(const bool is_new, world.disk.write(path, csv_text(table)));
+        std::string what = is_new ? "" : " (unchanged)";
+        if (lost > 0) what = fmt::format(" ({} rows are gone: they were not measured now)", lost);
+        return Outcome{{}, std::move(diagnostics), options.baseline + what};
     }
     const Result<std::string> text = read_input(world, options.baseline);
     if (!text) return with_help(text.error(), "make it with --update");
@@ -373,6 +381,27 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
     return Outcome{std::move(text), std::move(diagnostics)};
 }
 
+/// An error where shader files are not of a vertex and a fragment stage.
+Result<void> refuse_other_files(const StageNumbers& stages) {
+    const std::string help = "name the files of those two: gobo cost game.vert game.frag --gpu navi21";
+    for (const StageNames& stage : kStages) {
+        const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
+        if (!is_usual && stages[stage.kind] >= 0)
+            return fail(
+                Fault::usage,
+                fmt::format("gobo cost compiles a vertex and a fragment stage alone, and here is a {} "
+                            "stage",
+                            stage.name),
+                help);
+    }
+    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
+        if (stages[kind] < 0)
+            return fail(Fault::usage,
+                        fmt::format("there is no {} stage, and drivers compile both together", name_of(kind)),
+                        help);
+    return {};
+}
+
 Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
@@ -385,16 +414,11 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect, &options));
     if (subject.composition.permutations.empty())
         return Outcome{{}, warn_of_no_keys(subject.composition, "there is nothing to cost")};
-    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
-        if (subject.are_files && subject.composition.permutations.front().stages[kind] < 0)
-            return fail(Fault::usage,
-                        fmt::format("there is no {} stage, and drivers compile both together", name_of(kind)),
-                        "name the files of both stages: gobo cost game.vert game.frag --gpu navi21");
+    if (subject.are_files) GOBO_TRY_DO(refuse_other_files(subject.composition.permutations.front().stages));
     // Of a family with passes of other stages the rest is costed.
     const auto left_out =
-        std::erase_if(subject.composition.permutations, [&](const Permutation& permutation) {
-            return !subject.are_files && !permutation.stages.is_usual_pair();
-        });
+        std::erase_if(subject.composition.permutations,
+                      [&](const Permutation& permutation) { return !permutation.stages.is_usual_pair(); });
     if (subject.composition.permutations.empty())
         return fail(
             Place{subject.family.family.path}, "",

@@ -39,11 +39,11 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
         const auto read = [&](std::string_view name, std::uint64_t& value) -> Result<void> {
             const auto column = table.column(name);
             if (!column) return missing(name);
-            const auto number = number_in_cell(cells[*column]);
-            if (!number || *number < 0 || *number > 1e15)
-                return fail_at_row(path, i, fmt::format("'{}' is no number of {}", cells[*column], name),
-                                   kUpdate);
-            value = static_cast<std::uint64_t>(*number);
+            const auto number = whole_number_in_cell(cells[*column]);
+            if (!number)
+                return fail_at_row(
+                    path, i, fmt::format("'{}' is no whole number of {}", cells[*column], name), kUpdate);
+            value = *number;
             return {};
         };
         for (const Figure& figure : figures()) GOBO_TRY_DO(read(figure.name, row.cost.*figure.value));
@@ -54,6 +54,16 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
             GOBO_TRY_DO(read(kKindNames[kind], row.cost.kinds[kind]));
     }
     return rows;
+}
+
+/// "the fragment stage of 'point=1' on navi21"
+std::string text_of(const RowName& row) {
+    return fmt::format("the {} stage of '{}' on {}", row[2], row[1], row[0]);
+}
+
+/// "the fragment stage of 'point=1' on navi21 and 3 more"
+std::string text_of(const std::vector<RowName>& rows) {
+    return text_of(rows.front()) + (rows.size() == 1 ? "" : fmt::format(" and {} more", rows.size() - 1));
 }
 
 /// "instructions 200 -> 260 (+30.0 %), cycles ...": what has grown too much; empty where nothing has.
@@ -79,19 +89,19 @@ std::string growth(const StageCost& before, const StageCost& now, double percent
 
 Result<Comparison> compare_with_baseline(const std::vector<ChipCost>& costs, const CsvTable& baseline,
                                          const std::string& path, double percent) {
-    GOBO_TRY(const auto rows, read_rows(baseline, path));
+    GOBO_TRY(auto rows, read_rows(baseline, path));  // those that are left at the end were not measured
     Comparison comparison;
-    std::vector<std::string> absent;
+    std::vector<RowName> absent;
     for (const ChipCost& cost : costs)
         for (const KeyCost& key : cost.keys)
             for (const StageCost& stage : key.stages) {
-                const auto found = rows.find({std::string(cost.chip.name), key.key, stage.stage});
-                if (found == rows.end()) {
-                    absent.push_back(
-                        fmt::format("the {} stage of '{}' on {}", stage.stage, key.key, cost.chip.name));
+                const RowName name = {std::string(cost.chip.name), key.key, stage.stage};
+                const auto found = rows.extract(name);
+                if (found.empty()) {
+                    absent.push_back(name);
                     continue;
                 }
-                const BaselineRow& row = found->second;
+                const BaselineRow& row = found.mapped();
                 if (row.driver != cost.driver)
                     return fail(
                         {path, 0, 0}, "",
@@ -111,18 +121,36 @@ Result<Comparison> compare_with_baseline(const std::vector<ChipCost>& costs, con
                 error.help = fmt::format("{}{}if that is meant, {}", kinds,
                                          kinds.empty() ? "" : " instructions; ", kUpdate);
             }
-    if (absent.empty()) return comparison;
-    if (comparison.stages == 0)
+    if (!absent.empty() && comparison.stages == 0)
         return fail({path, 0, 0}, "",
-                    fmt::format("it holds nothing of what was measured, such as {}", absent.front()),
+                    fmt::format("it holds nothing of what was measured, such as {}", text_of(absent.front())),
                     kUpdate);
-    comparison.diagnostics.push_back(
-        {.severity = Severity::warning,
-         .place = {path, 0, 0},
-         .message = fmt::format("it lacks {}{}", absent.front(),
-                                absent.size() == 1 ? "" : fmt::format(" and {} more", absent.size() - 1)),
-         .help = kUpdate});
+    if (!absent.empty())
+        comparison.diagnostics.push_back(
+            {.place = {path, 0, 0}, .message = fmt::format("it lacks {}", text_of(absent)), .help = kUpdate});
+    std::vector<RowName> unmeasured;
+    for (const auto& [name, row] : rows) unmeasured.push_back(name);
+    if (!unmeasured.empty())
+        comparison.diagnostics.push_back(
+            {.severity = Severity::note,
+             .place = {path, 0, 0},
+             .message = fmt::format("it also holds what was not measured now: {}", text_of(unmeasured))});
     return comparison;
+}
+
+std::size_t rows_lost(const CsvTable& baseline, const CsvTable& now) {
+    const auto names_in = [](const CsvTable& table) {
+        std::set<RowName> names;
+        const auto gpu = table.column("gpu");
+        const auto key = table.column("key");
+        const auto stage = table.column("stage");
+        if (gpu && key && stage)
+            for (const auto& cells : table.rows) names.insert({cells[*gpu], cells[*key], cells[*stage]});
+        return names;
+    };
+    const auto kept = names_in(now);
+    std::set<RowName> names = names_in(baseline);
+    return std::erase_if(names, [&](const RowName& name) { return !kept.contains(name); });
 }
 
 }  // namespace gobo::cost
