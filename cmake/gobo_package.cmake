@@ -52,6 +52,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/" DESTINATION "${CMAKE_INSTALL_DA
 if(GOBO_LAB)
   install(TARGETS gobo-lab RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT lab)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}-lab" RENAME copyright COMPONENT lab)
+  # As in the source tree: the script reads the list beside it.
+  install(PROGRAMS "${PROJECT_SOURCE_DIR}/tools/fetch_mesa.sh" DESTINATION "${CMAKE_INSTALL_DATADIR}/gobo/tools" COMPONENT lab)
+  install(FILES "${PROJECT_SOURCE_DIR}/data/study/mesa_packages.txt" DESTINATION "${CMAKE_INSTALL_DATADIR}/gobo/data/study" COMPONENT lab)
   install(FILES "${PROJECT_BINARY_DIR}/share/man/man1/gobo-lab.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT lab)
 endif()
 

@@ -119,6 +119,16 @@ const std::vector<Sources> kPipelines = {
      "void main() { color = material.tint * texture(material.albedo, vec2(0.5)); }\n",
      "gobo: error: Vulkan has no samplers within structs, and here is one such: material\n"
      "  help: samplers of a struct become variables of their own\n"},
+    {"AtomicCounters", kVertex,
+     "#version 450\nout vec4 color;\nlayout(binding = 0) uniform atomic_uint hits;\n"
+     "void main() { color = vec4(float(atomicCounterIncrement(hits))); }\n",
+     "gobo: error: Vulkan has no atomic counters, and here is one: hits\n"
+     "  help: count in a storage block, with atomicAdd()\n"},
+    {"InputsOfDoubles",
+     "#version 450\nin dvec3 position;\nvoid main() { gl_Position = vec4(position, 1); }\n",
+     "#version 450\nout vec4 color;\nvoid main() { color = vec4(1); }\n",
+     "gobo: error: vertex input position is a dvec3: only components of 32 bits can be asked about\n"
+     "  help: declare it with floats for the estimate\n"},
     {"BooleansReadAsAWhole", kVertex,
      "#version 450\nout vec4 color;\nstruct Switch { bool on; float by; };\n"
      "layout(location = 0) uniform Switch switches[2];\nlayout(location = 8) uniform int at;\n"
@@ -157,12 +167,15 @@ class Loops : public testing::TestWithParam<LoopRow> {};
 
 TEST_P(Loops, VaryWhereTheirTurnsAreNotWritten) {
     const Pipeline pipeline =
-        pipeline_of({"", kVertex,
-                     "#version 450\nout vec4 color;\nlayout(std140) uniform S { int count; vec4 tint; };\n"
-                     "float doubled(float x) { for (int i = 0; i < count; ++i) x += x; return x; }\n"
-                     "void main() {\n  color = tint;\n  " +
-                         GetParam().statements + "\n}\n",
-                     ""})
+        pipeline_of(
+            {"", "#version 450\nvoid main() { gl_Position = vec4(1); }\n",
+             "#version 450\nlayout(location = 0) out vec4 color;\nlayout(constant_id = 3) const int N = 4;\n"
+             "layout(std140, binding = 0) uniform S { int count; vec4 tint; };\n"
+             "float doubled(float x) { for (int i = 0; i < count; ++i) x += x; return x; }\n"
+             "void main() {\n  color = tint;\n  " +
+                 GetParam().statements + "\n}\n",
+             ""},
+            Dialect::vulkan)
             .value();
     EXPECT_EQ(pipeline.fragment_loop_varies, GetParam().varies);
     EXPECT_FALSE(pipeline.vertex_loop_varies);
@@ -173,6 +186,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         LoopRow{"None", "color += color;", false},
         LoopRow{"ToAConstant", "for (int i = 0; i < 5; ++i) color += color;", false},
+        LoopRow{"ToASpecialisedConstant", "for (int i = 0; i < N; ++i) color += color;", false},
+        LoopRow{"ToTwiceASpecialisedConstant", "for (int i = 0; i < 2 * N; ++i) color += color;", false},
+        LoopRow{"ToAUniformAndASpecialisedConstant", "for (int i = 0; i < count * N; ++i) color += color;",
+                true},
         LoopRow{"WithinAnother",
                 "for (int i = 0; i < 5; ++i) for (int k = 8; k > 0; k >>= 1) color += color;", false},
         LoopRow{"WithAChoice", "for (int i = 0; i < 5; ++i) if (color.x > 1.0) color += color;", false},
@@ -260,6 +277,7 @@ struct BadDriver {
     std::string chip;
     std::string driver;
     std::string message;
+    std::string help = "mesa-vulkan-drivers";
 };
 
 class BadDrivers : public testing::TestWithParam<BadDriver> {};
@@ -269,7 +287,7 @@ TEST_P(BadDrivers, AreErrorsThatSayWhatToInstall) {
         compile(chips_of({GetParam().chip}), {pipeline_named("fine")}, {.driver = GetParam().driver});
     ASSERT_FALSE(answers.front());
     EXPECT_THAT(answers.front().error().front().message, HasSubstr(GetParam().message));
-    EXPECT_THAT(answers.front().error().front().help, HasSubstr("mesa-vulkan-drivers"));
+    EXPECT_THAT(answers.front().error().front().help, HasSubstr(GetParam().help));
     EXPECT_EQ(exit_status(answers.front().error()), 3);
 }
 
@@ -278,6 +296,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadDriver{"KnowsNoSuchChip", "tahiti", GOBO_FAKE_DRIVER,
                               "tahiti: the driver was ended by signal 6 (Aborted): fake: unknown chip"},
                     BadDriver{"HasNoDevice", "pitcairn", GOBO_FAKE_DRIVER, "has no device"},
+                    BadDriver{"TellsNothing", "bonaire", GOBO_FAKE_DRIVER,
+                              "fake 1.0 tells nothing of compiled shaders", "libvulkan_radeon.so"},
                     BadDriver{"IsNotThere", "navi21", "libno_such_driver.so",
                               "navi21: cannot load the Vulkan driver: libno_such"},
                     BadDriver{"IsNoDriver", "navi21", "libm.so.6", "libm.so.6 is no Vulkan driver"}),
@@ -337,7 +357,8 @@ TEST(Places, OfNoDriverAreErrors) {
     EXPECT_EQ(to_text(find_driver(disk, "backports", Maker::nvidia).error().front()),
               "gobo: error: backports holds no libvulkan_nouveau.so, such as "
               "backports/usr/lib/x86_64-linux-gnu/libvulkan_nouveau.so\n"
-              "  help: fetch Mesa's drivers into a folder with tools/fetch_mesa.sh\n");
+              "  help: fetch Mesa's drivers into a folder with tools/fetch_mesa.sh (installed: "
+              "share/gobo/tools)\n");
 }
 
 TEST(Chips, AreNamedInAnyCaseAndOnce) {

@@ -41,7 +41,8 @@ void features(VkPhysicalDevice, VkPhysicalDeviceFeatures2* told) {
     for (auto* next = static_cast<VkBaseOutStructure*>(told->pNext); next != nullptr; next = next->pNext)
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR)
             reinterpret_cast<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR*>(next)
-                ->pipelineExecutableInfo = VK_TRUE;
+                ->pipelineExecutableInfo =
+                std::strcmp(std::getenv("RADV_FORCE_FAMILY"), "BONAIRE") == 0 ? VK_FALSE : VK_TRUE;
 }
 
 VkResult create_module(VkDevice, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks*,

@@ -23,7 +23,7 @@ struct OptionRule {
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
     std::string needs = {};     ///< an option that must be given too
-    std::string excludes = {};  ///< one that must not
+    std::string excludes = {};  ///< those that must not, with blanks between
 };
 
 /// An option, or an argument where its name has no dash. A bool is a flag; a vector takes one value each

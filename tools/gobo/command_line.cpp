@@ -92,13 +92,20 @@ void add_option(CLI::App& app, const Option& option, const std::string& heading)
         added->option_text(option.value + blank + (rule.required ? "REQUIRED" : ""));
         added->type_name(option.value);
         if (!option.is_argument()) added->allow_extra_args(false);
-    }
-    if (!option.is_flag())
         added->check(
             CLI::Validator([option](const std::string& text) { return value_fault(option, text); }, ""));
+    } else {
+        added->option_text(" ");  // the description tells what goes with it
+    }
     if (rule.one_of) added->check(CLI::IsMember(split(option.value, '|')));
-    if (!rule.needs.empty()) added->needs(app.get_option(rule.needs));
-    if (!rule.excludes.empty()) added->excludes(app.get_option(rule.excludes));
+}
+
+/// Between options that are all there.
+void add_relations(CLI::App& app, const Option& option) {
+    if (option.rule.needs.empty() && option.rule.excludes.empty()) return;
+    CLI::Option* added = app.get_option(split(option.names, ',').back());
+    if (!option.rule.needs.empty()) added->needs(app.get_option(option.rule.needs));
+    for (const std::string& name : split(option.rule.excludes, ' ')) added->excludes(app.get_option(name));
 }
 
 void add_command(CLI::App& app, const Command& command) {
@@ -108,6 +115,9 @@ void add_command(CLI::App& app, const Command& command) {
     for (const Option& option : command.options) add_option(*added, option, "Options");
     for (const OptionGroup& group : command.groups)
         for (const Option& option : group.options) add_option(*added, option, group.heading);
+    for (const Option& option : command.options) add_relations(*added, option);
+    for (const OptionGroup& group : command.groups)
+        for (const Option& option : group.options) add_relations(*added, option);
     added->footer(fmt::format("{}{}Examples:\n{}", command.notes, command.notes.empty() ? "" : "\n\n",
                               command.examples));
 }
@@ -163,7 +173,8 @@ std::string described(const Option& option) {
     details.push_back(range_text(option.rule));
     if (const std::string text = default_text(option); !text.empty()) details.push_back("by default " + text);
     if (!option.rule.needs.empty()) details.push_back("with " + option.rule.needs);
-    if (!option.rule.excludes.empty()) details.push_back("without " + option.rule.excludes);
+    if (!option.rule.excludes.empty())
+        details.push_back("without " + join(split(option.rule.excludes, ' '), ", "));
     std::erase(details, "");
     return details.empty() ? option.help : fmt::format("{} ({})", option.help, join(details, "; "));
 }

@@ -330,6 +330,19 @@ OptionGroup selection_options(SelectionOptions& options) {
              {"--shard", "I/N", "Of all these keys only every N-th, from the I-th on", &options.shard}}};
 }
 
+std::string_view first_given(const SelectionOptions& options) {
+    const Selection& more = options.more;
+    const std::pair<std::string_view, bool> given[] = {
+        {"--key", !options.keys.empty()},     {"--keys-from", !options.key_files.empty()},
+        {"--scene", !options.scenes.empty()}, {"--all", more.all},
+        {"--cover", more.cover != 0},         {"--over", !more.over.empty()},
+        {"--where", !more.where.empty()},     {"--excluded", more.excluded},
+        {"--shard", !options.shard.empty()}};
+    for (const auto& [name, is_given] : given)
+        if (is_given) return name;
+    return "";
+}
+
 Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
     Selection selection = options.more;
     for (const std::string& names : options.more.over)
@@ -474,20 +487,6 @@ Result<Subject> load_files(const World& world, const std::vector<std::string>& n
         GOBO_TRY(subject.composition, without_subjects(compose_keys(subject.family, keys)));
     }
     return subject;
-}
-
-/// The first option that chooses keys and was given; empty where there is none.
-std::string_view first_given(const SelectionOptions& options) {
-    const Selection& more = options.more;
-    const std::pair<std::string_view, bool> given[] = {
-        {"--key", !options.keys.empty()},     {"--keys-from", !options.key_files.empty()},
-        {"--scene", !options.scenes.empty()}, {"--all", more.all},
-        {"--cover", more.cover != 0},         {"--over", !more.over.empty()},
-        {"--where", !more.where.empty()},     {"--excluded", more.excluded},
-        {"--shard", !options.shard.empty()}};
-    for (const auto& [name, is_given] : given)
-        if (is_given) return name;
-    return "";
 }
 
 }  // namespace

@@ -99,6 +99,8 @@ struct SelectionOptions {
     Selection more = {};  ///< what needs no reading
 };
 [[nodiscard]] OptionGroup selection_options(SelectionOptions& options);
+/// The first option that chooses keys and was given, "--key"; empty where there is none.
+[[nodiscard]] std::string_view first_given(const SelectionOptions& options);
 
 /// What the options select. Key files, scenes and their buffers that were read are added to `family.files`.
 [[nodiscard]] Result<Selection> load_selection(const World& world, LoadedFamily& family,

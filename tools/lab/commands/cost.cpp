@@ -18,6 +18,8 @@
 namespace gobo {
 namespace {
 
+using json = nlohmann::ordered_json;
+
 struct CostCommandOptions : SelectionOptions {
     std::vector<std::string> names;  ///< FAMILY, or files
     std::vector<std::string> stages;
@@ -43,20 +45,31 @@ cost::CompileOptions compile_options(const CostCommandOptions& options, const Wo
 Result<Outcome> list_chips(const CostCommandOptions& options, const World& world) {
     const auto answers =
         cost::compile_on_chips(world.disk, cost::chips(), {}, compile_options(options, world));
-    std::string text = fmt::format("{:<10} {:<13} {:<18} {}\n", "GPU", "architecture", "such as", "known to");
-    for (std::size_t i = 0; i < answers.size(); ++i) {
-        const cost::Chip& chip = cost::chips()[i];
-        text += fmt::format("{:<10} {:<13} {:<18} {}\n", chip.name, chip.architecture, chip.sold_as,
-                            answers[i] ? answers[i]->driver : "-");
-    }
     const bool has_driver =
         std::any_of(answers.begin(), answers.end(), [](const auto& answer) { return answer; });
     if (!has_driver) return tl::unexpected(answers.front().error());
-    return Outcome{
-        text,
-        {},
-        "more chips: fetch a newer Mesa's drivers into a folder with tools/fetch_mesa.sh and name it with "
-        "--driver"};
+    CsvTable table{{"gpu", "architecture", "sold_as", "driver"}, {}};
+    json list = json::array();
+    std::string text = fmt::format("{:<10} {:<13} {:<18} {}\n", "GPU", "architecture", "such as", "known to");
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const cost::Chip& chip = cost::chips()[i];
+        const std::string driver = answers[i] ? answers[i]->driver : "";
+        table.rows.push_back(
+            {std::string(chip.name), std::string(chip.architecture), std::string(chip.sold_as), driver});
+        list.push_back({{"gpu", chip.name},
+                        {"architecture", chip.architecture},
+                        {"sold_as", chip.sold_as},
+                        {"driver", answers[i] ? json(driver) : json()}});
+        text += fmt::format("{:<10} {:<13} {:<18} {}\n", chip.name, chip.architecture, chip.sold_as,
+                            driver.empty() ? "-" : driver);
+    }
+    if (options.csv) return Outcome{csv_text(table)};
+    if (options.json) return Outcome{json{{"gpus", std::move(list)}}.dump(2) + "\n"};
+    return Outcome{text,
+                   {},
+                   "more chips: fetch a newer Mesa's drivers into a folder with tools/fetch_mesa.sh "
+                   "(installed: share/gobo/tools) and name it with "
+                   "--driver"};
 }
 
 /// A permutation's two stages, indices into Composition::stages, and the values of its specialisation
@@ -251,13 +264,14 @@ Result<Outcome> hold_to_baseline(const World& world, const CostCommandOptions& o
                                  const std::vector<cost::ChipCost>& costs, Diagnostics diagnostics) {
     if (options.update) {
         if (exit_status(diagnostics) != 0)
-            return tl::unexpected(std::move(diagnostics));                // it would lack rows
-        const std::string path = world.disk.real_path(options.baseline);  // the file that a link leads to
+            return tl::unexpected(std::move(diagnostics));  // it would lack rows
+        const DiskFileSystem disk;                          // world.disk does not write over what was read
+        const std::string path = disk.real_path(options.baseline);  // the file that a link leads to
         const CsvTable table = cost::to_table(costs);
-        const std::size_t lost = cost::rows_lost(read_csv(world.disk.read(path).value_or("")), table);
+        const std::size_t lost = cost::rows_lost(read_csv(disk.read(path).value_or("")), table);
         GOBO_TRY(const bool is_new, world.disk.write(path, csv_text(table)));
         std::string what = is_new ? "" : " (unchanged)";
-        if (lost > 0) what = fmt::format(" ({} rows are gone: they were not measured now)", lost);
+        if (lost > 0) what = fmt::format(" (rows gone, which were not measured now: {})", lost);
         return Outcome{{}, std::move(diagnostics), options.baseline + what};
     }
     const Result<std::string> text = read_input(world, options.baseline);
@@ -276,6 +290,9 @@ Result<Outcome> cost_study(const World& world, const CostCommandOptions& options
     if (options.names.size() != 1)
         return fail(Fault::usage, "--study goes with one family",
                     "name it: gobo cost lit --study study.csv --gpu navi21");
+    if (const std::string_view option = first_given(options); !option.empty())
+        return fail(Fault::usage, fmt::format("--study has keys of its own, and {} chooses others", option),
+                    "leave it out");
     GOBO_TRY(const LoadedFamily family, load_family(world, options.names.front()));
     GOBO_TRY(const std::string text, read_input(world, options.study));
     const CsvTable study = read_csv(text);
@@ -316,8 +333,12 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
         Validated validated;
         Modules modules;
     };
-    const auto compiled = [&](const std::string& dialect) -> Result<Side> {
-        GOBO_TRY(const Subject subject, load_subject(world, options.names, {}, dialect, &options));
+    if (!options.dialect.empty() && options.dialect != "vulkan")
+        return fail(Fault::usage,
+                    fmt::format("--specialized does not compare in --dialect {}", options.dialect),
+                    "leave --dialect out, or name vulkan");
+    const auto compiled = [&](const std::string& dialect, Counts counts) -> Result<Side> {
+        GOBO_TRY(const Subject subject, load_subject(world, options.names, {}, dialect, &options, counts));
         GOBO_TRY_DO(
             refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
         Side side;
@@ -327,8 +348,9 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
         return side;
     };
     GOBO_TRY(const LoadedFamily family, load_family(world, options.names.front()));
-    GOBO_TRY(const Side literal, compiled("450"));
-    GOBO_TRY(const Side specialized, compiled("gl_spirv"));
+    const bool is_vulkan = !options.dialect.empty();
+    GOBO_TRY(const Side literal, compiled(is_vulkan ? "vulkan" : "450", Counts::literal));
+    GOBO_TRY(const Side specialized, compiled(is_vulkan ? "vulkan" : "gl_spirv", Counts::specialized));
     // Of each permutation that has such counts the literal pipeline, then the specialised one.
     std::vector<cost::Pipeline> pipelines;
     std::vector<std::string> keys;
@@ -383,7 +405,7 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
 
 /// An error where shader files are not of a vertex and a fragment stage.
 Result<void> refuse_other_files(const StageNumbers& stages) {
-    const std::string help = "name the files of those two: gobo cost game.vert game.frag --gpu navi21";
+    const std::string help = "name a file of each of those two: gobo cost game.vert game.frag --gpu navi21";
     for (const StageNames& stage : kStages) {
         const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
         if (!is_usual && stages[stage.kind] >= 0)
@@ -438,9 +460,14 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     const auto costs = costs_of(world, options, subject, pairs, chips, diagnostics);
     if (!options.baseline.empty()) return hold_to_baseline(world, options, costs, std::move(diagnostics));
     std::string text;
-    if (!options.against.empty())
+    if (!options.against.empty()) {
         text = differences(options, subject, costs);
-    else if (options.json)
+        if (subject.composition.permutations.size() == 1)
+            diagnostics.push_back({.severity = Severity::note,
+                                   .message = fmt::format(
+                                       "--against names the key itself, '{}': they are the same",
+                                       text_of(options, subject, subject.composition.permutations.front()))});
+    } else if (options.json)
         text = cost::to_json(costs, options.isa).dump(2) + "\n";
     else if (options.csv)
         text = csv_text(cost::to_table(costs));
@@ -516,9 +543,16 @@ Command cost_command() {
          {"--gpu", "A,B,...",
           "Chips, such as navi21,vega10; list prints those that this machine's driver knows", &options->gpus,
           kRequired},
-         {"--against", "KEY", "How the figures of each key differ from those of this one", &options->against},
-         {"--baseline", "FILE", "Compare with a table that was kept: what has grown is an error",
-          &options->baseline},
+         {"--against",
+          "KEY",
+          "How the figures of each key differ from those of this one",
+          &options->against,
+          {.excludes = "--isa --cycles --json --csv"}},
+         {"--baseline",
+          "FILE",
+          "Compare with a table that was kept: what has grown is an error",
+          &options->baseline,
+          {.excludes = "--against --isa --cycles --json --csv"}},
          {"--tolerance",
           "PERCENT",
           "How much figures may grow",
@@ -529,19 +563,26 @@ Command cost_command() {
           "FILE",
           "Print this study.csv with cycles and fronts of the chips, for gobo build --max-error --gpu",
           &options->study,
-          {.excludes = "--dialect"}},
+          {.excludes = "--dialect --against --baseline --isa --cycles --json"}},
          {"--specialized",
           "",
           "Compile each key with its counts as specialisation constants too: what assembly differs, and how "
           "many "
           "modules and bytes that saves",
           &options->specialized,
-          {.excludes = "--dialect"}},
-         {"--isa", "", "Print the assembly of every stage; with --json beside its figures", &options->isa},
-         {"--cycles", "", "Print cycles only: a row for each key and stage, a column for each chip",
-          &options->cycles},
-         {"--json", "", "Print JSON", &options->json},
-         {"--csv", "", "Print CSV, with instructions by kind", &options->csv, {.excludes = "--json"}},
+          {.excludes = "--study --against --baseline --isa --cycles --json --csv"}},
+         {"--isa",
+          "",
+          "Print the assembly of every stage; with --json beside its figures",
+          &options->isa,
+          {.excludes = "--cycles --csv"}},
+         {"--cycles",
+          "",
+          "Print cycles only: a row for each key and stage, a column for each chip",
+          &options->cycles,
+          {.excludes = "--json --csv"}},
+         {"--json", "", "Print JSON", &options->json, {.excludes = "--csv"}},
+         {"--csv", "", "Print CSV, with instructions by kind", &options->csv},
          keep_option(options->folder, "the SPIR-V of pairs that a driver crashes on"),
          driver_option(options->driver)},
         {selection_options(*options)},

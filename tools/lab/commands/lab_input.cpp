@@ -111,12 +111,14 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
 }
 
 Result<std::string> dialect_for(const std::string& backend, const std::string& dialect) {
+    const std::vector<std::string> known = split(kBackends, '|');
+    if (std::ranges::find(known, backend) == known.end())
+        return fail(Fault::usage, fmt::format("unknown backend '{}'", backend), suggestion(backend, known));
     if (backend != kVulkanBackend) {
         if (dialect == "vulkan" || dialect == "gl_spirv")
             return fail(
                 Fault::usage, fmt::format("--dialect {} is not drawn by --backend {}", dialect, backend),
                 dialect == "vulkan" ? "add --backend vulkan" : "draw --dialect 450: its text is the same");
-        GOBO_TRY_DO(backend_of(backend));
         return dialect;
     }
     if (!dialect.empty() && dialect != "vulkan")

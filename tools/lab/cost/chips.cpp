@@ -70,12 +70,14 @@ std::string_view install_driver(Maker maker) {
                ? "install Mesa's Vulkan driver: apt-get install mesa-vulkan-drivers"
                : "install Mesa's NVK and what stands in for a GPU, from Debian 13 on: apt-get install "
                  "mesa-vulkan-drivers mesa-drm-shim; or fetch them into a folder with tools/fetch_mesa.sh "
+                 "(installed: share/gobo/tools) "
                  "and name it with --driver";
 }
 
 std::string_view install_newer(Maker maker) {
     return maker == Maker::amd
                ? "a newer mesa-vulkan-drivers may know it: fetch one into a folder with tools/fetch_mesa.sh "
+                 "(installed: share/gobo/tools) "
                  "and name it with --driver; 'gobo cost --gpu list' says which chips this one knows"
                : install_driver(maker);
 }

@@ -178,7 +178,8 @@ Result<Driver> Driver::open(const std::string& library) {
             Fault::file,
             fmt::format(
                 "{} tells nothing of compiled shaders: it lacks VK_KHR_pipeline_executable_properties",
-                device->name));
+                device->name),
+            "name Mesa's RADV or NVK: libvulkan_radeon.so, libvulkan_nouveau.so");
     const float priority = 1;
     auto queue = made<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueCount = 1;

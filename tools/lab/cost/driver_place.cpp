@@ -42,7 +42,7 @@ Result<DriverPlace> find_driver(const FileSystem& disk, const std::string& where
     return fail(
         Fault::file,
         fmt::format("{} holds no {}, such as {}/{}/{}", where, library, where, kLibraryFolders[0], library),
-        "fetch Mesa's drivers into a folder with tools/fetch_mesa.sh");
+        "fetch Mesa's drivers into a folder with tools/fetch_mesa.sh (installed: share/gobo/tools)");
 }
 
 }  // namespace gobo::cost

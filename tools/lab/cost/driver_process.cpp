@@ -104,7 +104,9 @@ void write_all(int file, std::string_view bytes) {
 }
 
 json error_in(const Diagnostics& errors) {
-    return {{"error", errors.front().message}, {"is_missing", errors.front().fault == Fault::file}};
+    return {{"error", errors.front().message},
+            {"help", errors.front().help},
+            {"is_missing", errors.front().fault == Fault::file}};
 }
 
 json compiled(const Driver& driver, const Pipeline& pipeline) {
@@ -254,9 +256,11 @@ Result<std::string> DriverProcess::open(const DriverPlace& place, const Chip& ch
     if (process_ < 0) return lose("no process can be started", "");
     const Answer answer = exchange("");
     if (!answer.content) return lose(fmt::format("the driver {}", answer.ending), install_newer(chip.maker));
-    if (answer.content->contains("error"))
-        return lose((*answer.content)["error"], install_driver(chip.maker),
+    if (answer.content->contains("error")) {
+        const auto help = (*answer.content)["help"].get<std::string>();
+        return lose((*answer.content)["error"], help.empty() ? install_driver(chip.maker) : help,
                     (*answer.content)["is_missing"] ? Fault::file : Fault::input);
+    }
     return (*answer.content)["driver"].get<std::string>();
 }
 

@@ -65,9 +65,11 @@ class Function {
         return false;
     }
 
+    /// What is made of constants alone, specialised ones too, is OpSpecConstantOp.
     bool is_constant(Id id) const {
         const Instruction* made = module_->definition(id);
-        return made != nullptr && made->opcode >= spv::OpConstantTrue && made->opcode <= spv::OpSpecConstant;
+        return made != nullptr && made->opcode >= spv::OpConstantTrue &&
+               made->opcode <= spv::OpSpecConstantOp;
     }
 
     /// Compares a counter with a constant, or two counters.
