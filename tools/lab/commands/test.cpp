@@ -240,16 +240,29 @@ void keep_modules(const World& world, const std::string& folder, const std::stri
 }
 
 /// `totals` are of all pictures together.
-std::string totals_text(const raster::PictureReport& totals, std::size_t permutations,
+std::string totals_text(const raster::PictureReport& totals, std::size_t drawn, std::size_t permutations,
                         const std::string& renderer) {
     const auto share = [&](std::size_t part) {
         return totals.pixels > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(totals.pixels) : 0;
     };
     return fmt::format(
         "{} x {} pixels: {:.1f} % drawn, {} ({:.3f} %) decided at an edge; at most {:.2f} of the limit\n"
-        "{} permutations drawn by {}, max {:.1e}, rms {:.1e}\n",
+        "{}{} permutations drawn by {}, max {:.1e}, rms {:.1e}\n",
         kSide, kSide, share(totals.drawn), totals.edges, share(totals.edges), totals.largest_ratio,
-        permutations, renderer, totals.largest_error, totals.root_mean_square);
+        drawn < permutations ? fmt::format("{} of ", drawn) : "", permutations, renderer,
+        totals.largest_error, totals.root_mean_square);
+}
+
+/// What there is to say of a picture that passes: its values, and whether it shows anything.
+Diagnostics warnings_of(const raster::PictureReport& picture) {
+    Diagnostics warnings = picture.warnings;
+    if (picture.drawn > 0 || !picture.diagnostics.empty()) return warnings;
+    Diagnostic nothing;
+    nothing.severity = Severity::warning;
+    nothing.message = "no pixel is drawn, so nothing was compared";
+    nothing.help = "give what gl_Position is computed from its values under [render] in the family file";
+    warnings.push_back(std::move(nothing));
+    return warnings;
 }
 
 /// The largest of each error, the worst root mean square, all pixels.
@@ -306,6 +319,8 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
     Outcome outcome;
     outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     raster::PictureReport totals;
+    std::size_t drawn = 0;
+    DiagnosticGroups warnings(family);
     for (std::size_t i = 0; i < report.pictures.size(); ++i) {
         const raster::PictureReport& picture = report.pictures[i];
         const std::string key = key_text(family, picture.key);
@@ -315,10 +330,13 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         for (Diagnostic& problem : problems) problem.subject = key;
         if (picture.fails()) problems = report_picture(world, options.folder, key, picture);
         append(outcome.diagnostics, problems);
+        for (const Diagnostic& warning : warnings_of(picture)) warnings.add(warning, picture.key);
+        if (picture.diagnostics.empty()) ++drawn;
         add(picture, totals);
     }
+    append(outcome.diagnostics, warnings.result());
     append(outcome.diagnostics, warn_of_no_keys(composition, "nothing was tested"));
-    outcome.output += totals_text(totals, composition.permutations.size(), report.renderer);
+    outcome.output += totals_text(totals, drawn, composition.permutations.size(), report.renderer);
     return outcome;
 }
 

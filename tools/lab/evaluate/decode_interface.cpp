@@ -10,15 +10,14 @@ void Decoder::decode_globals() {
     for (const Instruction& instruction : module_.instructions) {
         if (error_ || instruction.opcode == spv::OpFunction) return;
         if (instruction.opcode == spv::OpVariable) decode_variable(instruction);
-        if (instruction.opcode == spv::OpSpecConstantOp)
-            report(instruction, "the evaluator does not know OpSpecConstantOp");
         if (instruction.opcode == spv::OpExtInstImport &&
             spirv::literal_text(instruction.words.subspan(2)) == "GLSL.std.450")
             std450_ = instruction.result;
-        if (is_one_of(instruction.opcode,
-                      {spv::OpConstant, spv::OpConstantTrue, spv::OpConstantFalse, spv::OpConstantComposite,
-                       spv::OpConstantNull, spv::OpSpecConstant, spv::OpSpecConstantTrue,
-                       spv::OpSpecConstantFalse, spv::OpSpecConstantComposite, spv::OpUndef}))
+        if (is_one_of(
+                instruction.opcode,
+                {spv::OpConstant, spv::OpConstantTrue, spv::OpConstantFalse, spv::OpConstantComposite,
+                 spv::OpConstantNull, spv::OpSpecConstant, spv::OpSpecConstantTrue, spv::OpSpecConstantFalse,
+                 spv::OpSpecConstantComposite, spv::OpSpecConstantOp, spv::OpUndef}))
             decode_constant(instruction);
     }
 }
@@ -32,6 +31,7 @@ std::optional<Bits> Decoder::constant_bits(const Instruction& instruction) const
     if (is({spv::OpConstantTrue, spv::OpSpecConstantTrue})) return Bits{1};
     if (is({spv::OpConstantFalse, spv::OpSpecConstantFalse})) return Bits{0};
     if (is({spv::OpConstantNull, spv::OpUndef})) return Bits(slots, 0);
+    if (is({spv::OpSpecConstantOp})) return computed_bits(instruction);
     Bits bits;
     for (std::size_t word = 3; word < instruction.words.size() && bits.size() <= slots; ++word) {
         const auto part = constant_bits_.find(instruction.id(word));
@@ -41,9 +41,52 @@ std::optional<Bits> Decoder::constant_bits(const Instruction& instruction) const
     return bits;
 }
 
+/// Of what SPIRV-Tools leaves of constants computed from specialisation constants: those that are no integers
+/// and are chosen, or parts of others. Nothing for other operations.
+std::optional<Bits> Decoder::computed_bits(const Instruction& instruction) const {
+    const auto bits_of = [&](std::size_t word) {
+        const auto found = constant_bits_.find(instruction.id(word));
+        return found == constant_bits_.end() ? Bits{} : found->second;
+    };
+    const auto operation = static_cast<spv::Op>(instruction.word(3));
+    Bits first = bits_of(4);
+    const std::size_t slots = type(instruction.type).scalars;
+    if (operation == spv::OpSelect) {
+        const Bits yes = bits_of(5);
+        const Bits no = bits_of(6);
+        if (first.size() == 1) first.resize(slots, first.front());
+        if (first.size() != slots || yes.size() != slots || no.size() != slots) return std::nullopt;
+        for (std::size_t i = 0; i < slots; ++i) first[i] = first[i] != 0 ? yes[i] : no[i];
+        return first;
+    }
+    if (operation == spv::OpCompositeExtract) {
+        const Instruction* whole = module_.definition(instruction.id(4));
+        if (whole == nullptr) return std::nullopt;
+        Id part = whole->type;
+        std::size_t offset = 0;
+        for (std::size_t word = 5; word < instruction.words.size(); ++word) {
+            if (instruction.word(word) >= type(part).count) return std::nullopt;
+            offset += part_offset(part, instruction.word(word));
+            part = part_type(part, instruction.word(word));
+        }
+        if (offset + slots > first.size()) return std::nullopt;
+        return Bits(&first[offset], &first[offset] + slots);
+    }
+    if (operation != spv::OpVectorShuffle) return std::nullopt;
+    const Bits second = bits_of(5);
+    first.insert(first.end(), second.begin(), second.end());
+    Bits bits;
+    for (std::size_t word = 6; word < instruction.words.size(); ++word)
+        bits.push_back(instruction.word(word) < first.size() ? first[instruction.word(word)] : 0);
+    return bits;
+}
+
 void Decoder::decode_constant(const Instruction& instruction) {
     const std::uint32_t slots = type(instruction.type).scalars;
     std::optional<Bits> bits = constant_bits(instruction);
+    if (!bits && instruction.opcode == spv::OpSpecConstantOp)
+        return report(instruction, fmt::format("the evaluator does not know {} of specialisation constants",
+                                               opcode_name(static_cast<spv::Op>(instruction.word(3)))));
     if (!bits || slots == 0 || bits->size() != slots) return report(instruction, "a constant is malformed");
     const std::uint32_t slot = permanent(slots);
     add_constants(instruction.type, slot, *bits);
@@ -128,13 +171,13 @@ void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t s
             return add_ports(program_.outputs, name, id, number, at);
         case spv::StorageClassUniform:
         case spv::StorageClassStorageBuffer:
-        case spv::StorageClassPushConstant:
+        case spv::StorageClassPushConstant: {
+            Id block = id;
+            while (type(block).is_array()) block = type(block).element;
             // OpenGL names members of a block by the block, not by its instance.
-            if (type(id).opcode == spv::OpTypeStruct && !module_.decoration(id, spv::DecorationBuiltIn))
-                name = module_.name(id);
-            at.block = static_cast<int>(program_.uniform_blocks.size());
-            program_.uniform_blocks.push_back({name, 0});
-            [[fallthrough]];
+            if (type(block).opcode == spv::OpTypeStruct) name = module_.name(block);
+            return add_blocks(name, id, number, at);
+        }
         case spv::StorageClassUniformConstant:
         case spv::StorageClassAtomicCounter:
             return add_ports(program_.uniforms, name, id, number, at);
@@ -143,6 +186,21 @@ void Decoder::name_interface(const Instruction& variable, Id id, std::uint32_t s
             return;
         default:
             report(variable, fmt::format("'{}' is a kind of variable that is not evaluated", name));
+    }
+}
+
+/// A block, or each element of an array of them, which is a block of its own.
+void Decoder::add_blocks(const std::string& name, Id id, int& number, Location at) {
+    const Type& of = type(id);
+    if (!of.is_array()) {
+        at.block = static_cast<int>(program_.uniform_blocks.size());
+        program_.uniform_blocks.push_back({name, 0});
+        return add_ports(program_.uniforms, name, id, number, at);
+    }
+    const std::uint32_t first = at.slot;
+    for (std::uint32_t index = 0; index < of.count; ++index) {
+        at.slot = first + part_offset(id, index);
+        add_blocks(fmt::format("{}[{}]", name, index), of.element, number, at);
     }
 }
 

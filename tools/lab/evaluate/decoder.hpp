@@ -103,6 +103,7 @@ class Decoder {
     void decode_globals();
     void decode_constant(const Instruction& instruction);
     [[nodiscard]] std::optional<Bits> constant_bits(const Instruction& instruction) const;
+    [[nodiscard]] std::optional<Bits> computed_bits(const Instruction& instruction) const;
     void add_constants(Id type, std::uint32_t slot, std::span<const std::uint64_t> bits);
     std::optional<Value> new_variable(const Instruction& instruction, const std::string& name,
                                       bool is_read_only);
@@ -110,6 +111,7 @@ class Decoder {
     [[nodiscard]] bool is_storage_block(const Instruction& variable) const;
     [[nodiscard]] bool may_write(const Instruction& variable) const;
     void name_interface(const Instruction& variable, Id type, std::uint32_t slot);
+    void add_blocks(const std::string& name, Id type, int& number, Location at);
     void add_ports(std::vector<Port>& ports, const std::string& name, Id type, int& number,
                    const Location& at);
     void add_leaf(std::vector<Port>& ports, const std::string& name, Id type, int& number,

@@ -227,6 +227,7 @@ Result<Drawing> draw(const Context& context, const Scene& scene, const Family& f
              render_permutation(context, stages_of(composition, permutation), drawing.interface,
                                 scene.objects, drawing.values, scene.view, given));
     drawing.color = std::move(picture.color);
+    drawing.depth = std::move(picture.depth);
     drawing.warnings = std::move(picture.warnings);
     return drawing;
 }
@@ -246,8 +247,8 @@ Result<Evaluation> evaluate_drawing(const Drawing& drawing, const Scene& scene, 
     };
     GOBO_TRY(const auto seen, objects_in(scene.view));
     Evaluation evaluation;
-    evaluation.report = raster::compare_picture(drawing.color, program, seen, scene.view.background,
-                                                raster::KeptPictures::all);
+    evaluation.report = raster::compare_picture({drawing.color, drawing.depth, {}}, program, seen,
+                                                scene.view.background, raster::KeptPictures::all);
     if (!evaluation.report.diagnostics.empty()) return tl::unexpected(evaluation.report.diagnostics);
 
     // Costs are averages: a picture this small tells them to a few parts in a hundred.

@@ -30,6 +30,7 @@ struct Scene {
 struct Drawing {
     Interface interface;
     Image color;                      ///< linear radiance
+    Image depth;                      ///< as of Picture
     std::vector<RenderValue> values;  ///< of the uniforms, those of the shadow maps among them
     evaluate::Images images;          ///< what the samplers answer, texel for texel
     std::vector<Image> shadow_maps;   ///< their depths, layer by layer

@@ -21,6 +21,10 @@ using Color = std::array<double, 4>;
 /// Depths this near to one another may be ordered either way: some twenty roundings of a depth near 1.
 constexpr double kDepthError = 2e-6;
 
+/// A depth compared by itself may be off by as much as it changes over this part of a pixel: the corners of a
+/// triangle that is clipped are known to 1/256, in either direction.
+constexpr double kDepthPlaceError = 1.0 / 256;
+
 /// A fragment as one evaluation shaded it.
 struct Candidate {
     const Fragment* fragment = nullptr;
@@ -43,6 +47,10 @@ Result<Layers> shade_all(const Pipeline& pipeline, const std::vector<RasterObjec
         std::vector<Color> spread(shaded.size());
         if (with_spread) {
             GOBO_TRY(spread, color_spread(pipeline, objects[o]));
+            for (std::size_t i = 0; i < spread.size() && pipeline.color.empty(); ++i) {
+                const Interpolator interpolator = objects[o].interpolator(objects[o].fragments[i].triangle);
+                spread[i][0] += kDepthPlaceError * interpolator.depth_slope(0, 0);
+            }
         }
         for (std::size_t i = 0; i < shaded.size(); ++i) {
             const Fragment& fragment = objects[o].fragments[i];
@@ -236,12 +244,24 @@ bool computes(const evaluate::Program& program, std::initializer_list<evaluate::
 PixelLimit limit_of(const Pipeline& pipeline) {
     using evaluate::Kind;
     PixelLimit limit{kSmallestError, kArithmeticError};
+    if (pipeline.color.empty()) return {kDepthError, 0};
     for (const evaluate::Program* program : {&pipeline.vertex, &pipeline.fragment}) {
         if (!program->images.empty()) limit.absolute = kSmallestError + kFilteringError;
         if (computes(*program, {Kind::pow, Kind::exp, Kind::log, Kind::trig}))
             limit.relative = kArithmeticError + kPowerError;
     }
     return limit;
+}
+
+/// Depths as shade() gives them where there is no colour.
+Image as_color(const Image& depth) {
+    Image image(depth.width, depth.height, 4);
+    for (int y = 0; y < depth.height; ++y)
+        for (int x = 0; x < depth.width; ++x) {
+            image.at(x, y, 0) = depth.at(x, y, 0);
+            image.at(x, y, 3) = 1;
+        }
+    return image;
 }
 
 Result<PictureReport> compare(const Image& drawn, const Pipeline& pipeline,
@@ -278,10 +298,13 @@ bool PictureReport::fails() const {
            static_cast<double>(edges) > kLargestEdgePixelShare * static_cast<double>(pixels);
 }
 
-PictureReport compare_picture(const Image& drawn, const Pipeline& pipeline,
+PictureReport compare_picture(const Picture& drawn, const Pipeline& pipeline,
                               const std::vector<RasterObject>& objects,
                               const std::array<float, 4>& background, KeptPictures kept) {
-    Result<PictureReport> report = compare(drawn, pipeline, objects, background, kept);
+    const bool has_color = !pipeline.color.empty();
+    Result<PictureReport> report =
+        has_color ? compare(drawn.color, pipeline, objects, background, kept)
+                  : compare(as_color(drawn.depth), pipeline, objects, {1, 0, 0, 1}, kept);
     if (report) return *std::move(report);
     PictureReport none;
     none.diagnostics = std::move(report).error();

@@ -8,6 +8,7 @@
 #include "family/family.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/render/image.hpp"
+#include "lab/render/render.hpp"
 
 namespace gobo::raster {
 
@@ -60,6 +61,7 @@ struct PictureReport {
     Image actual;                   ///< kept where the picture fails, or all are
     Image expected;
     Diagnostics diagnostics;  ///< why there is no picture
+    Diagnostics warnings;     ///< of what was drawn: attributes, uniforms and samplers without a value
 
     /// Wrong pixels, too many at edges, or an RMS error above its limit.
     [[nodiscard]] bool fails() const;
@@ -72,8 +74,9 @@ enum class KeptPictures { failing, all };
 
 /// Holds a picture drawn by the renderer against the evaluation of the same objects. A pixel that is out of
 /// its limit is right all the same where a fragment within a rounding of covering or hiding it gives its
-/// colour, or where inputs moved by at most 1e-5 do: it lies at an edge, and is counted.
-[[nodiscard]] PictureReport compare_picture(const Image& drawn, const Pipeline& pipeline,
+/// colour, or where inputs moved by at most 1e-5 do: it lies at an edge, and is counted. Of stages that write
+/// no colour the depths are compared.
+[[nodiscard]] PictureReport compare_picture(const Picture& drawn, const Pipeline& pipeline,
                                             const std::vector<RasterObject>& objects,
                                             const std::array<float, 4>& background,
                                             KeptPictures kept = KeptPictures::failing);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "lab/evaluate/images.hpp"
 #include "lab/render/mesh.hpp"
+#include "lab/render/texture.hpp"
 
 namespace gobo::raster {
 namespace {
@@ -72,12 +74,10 @@ Result<evaluate::Invocations> uniforms_of(const evaluate::Program& program, cons
                                           const evaluate::Images& images) {
     GOBO_TRY(const auto resolved, resolve_uniforms(interface, values, view));
     evaluate::Invocations invocations;
-    for (const Block& block : interface.blocks) {
-        const bool is_read = std::any_of(program.uniform_blocks.begin(), program.uniform_blocks.end(),
-                                         [&](const auto& own) { return own.name == block.name; });
-        if (!is_read) continue;
-        invocations.blocks[block.name] = bytes_of(block, resolved.assignments);
-    }
+    for (const auto blocks : {&Interface::blocks, &Interface::push_constants})
+        for (const Block& block : interface.*blocks)
+            if (std::ranges::count(program.uniform_blocks, block.name, &evaluate::UniformBlock::name) > 0)
+                invocations.blocks[block.name] = bytes_of(block, resolved.assignments);
     for (const Assignment& assignment : resolved.assignments)
         if (assignment.leaf.block.empty()) add_plain_uniform(program, assignment, invocations);
     add_images(program, values, images, invocations);
@@ -89,6 +89,11 @@ void add_attributes(const evaluate::Program& program, const Mesh& mesh,
                     const std::vector<RenderValue>& values, evaluate::Invocations& invocations) {
     invocations.count = mesh.positions.size();
     for (const evaluate::Port& port : program.inputs) {
+        if (port.name == "gl_VertexID" || port.name == "gl_VertexIndex") {
+            std::vector<double>& numbers = invocations.values[port.name];
+            numbers.resize(invocations.count);
+            std::iota(numbers.begin(), numbers.end(), 0.0);
+        }
         if (port.name.starts_with("gl_")) continue;  // gl_InstanceID and the like are 0
         const RenderValue* value = find_value(values, port.name);
         const std::string source(value != nullptr ? value->source : attribute_source_of(port.name));
@@ -130,7 +135,9 @@ std::vector<RenderValue> with_plain_textures(const Interface& interface, std::ve
         const bool is_depth = sampler.type.find("Shadow") != std::string::npos;
         RenderValue plain;
         plain.name = sampler.name;
-        plain.numbers = is_depth ? std::vector<double>{1} : std::vector<double>{0.25, 0.5, 0.75, 1};
+        plain.numbers = {0.25, 0.5, 0.75, 1};
+        if (is_depth) plain.numbers = {1};
+        if (!has_texture(sampler.type)) plain.numbers = {0, 0, 0, 1};  // as the renderer's reads
         values.push_back(std::move(plain));
     }
     return values;

@@ -149,7 +149,7 @@ void add_fragments(std::vector<Fragment>& fragments, std::uint32_t triangle,
     for (int y = bottom; y < top; ++y)
         for (int x = left; x < right; ++x)
             if (const auto coverage = coverage_of(parts, x, y))
-                fragments.push_back({x, y, triangle, coverage->is_covered, coverage->is_near_edge,
+                fragments.push_back({x, y, triangle, triangle, coverage->is_covered, coverage->is_near_edge,
                                      is_front_facing, interpolator.at(x + 0.5, y + 0.5)});
 }
 

@@ -24,6 +24,7 @@ struct Fragment {
     int x = 0;
     int y = 0;
     std::uint32_t triangle = 0;
+    std::uint32_t primitive = 0;  ///< the triangle's number as it is drawn: gl_PrimitiveID
     bool is_covered = false;
     /// The pixel's centre lies so near to an edge that a vertex off by a rounding decides whether it is
     /// covered.

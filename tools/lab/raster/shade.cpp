@@ -31,6 +31,7 @@ Shaded shaded(const Pipeline& pipeline, const evaluate::Outputs& outputs, std::s
     const auto depth = outputs.values.find("gl_FragDepth");
     if (depth != outputs.values.end() && !pipeline.tests_early)
         result.depth = stored_depth(depth->second[invocation]);
+    if (pipeline.color.empty()) result.color[0] = result.depth;
     return result;
 }
 
@@ -157,6 +158,10 @@ evaluate::Invocations fragment_inputs(const Pipeline& pipeline, const RasterObje
         invocations.values[varying.input] = interpolated(
             outputs.values.at(varying.output), varying.components, object, places, varying.interpolation);
     for (const evaluate::Port& port : pipeline.fragment.inputs) {
+        if (port.name == "gl_PrimitiveID") {
+            std::vector<double>& to = invocations.values[port.name];
+            for (const FragmentPlace& place : places) to.push_back(place.fragment->primitive);
+        }
         if (port.name != "gl_FragCoord" && port.name != "gl_FrontFacing") continue;
         std::vector<double>& to = invocations.values[port.name];
         to.resize(port.components * places.size());
@@ -182,7 +187,8 @@ Result<std::vector<Shaded>> shade(const Pipeline& pipeline, const RasterObject& 
     Random random(nudge.seed);
     evaluate::Invocations vertices = object.vertices;
     for (const evaluate::Port& port : pipeline.vertex.inputs)
-        if (const auto found = vertices.values.find(port.name); found != vertices.values.end())
+        if (const auto found = vertices.values.find(port.name);
+            found != vertices.values.end() && evaluate::is_float(port.scalar))
             move(found->second, port.components, vertices.count, nudge.by, random);
     evaluate::Options options;
     options.count = work != nullptr;

@@ -52,7 +52,7 @@ struct FragmentPlace {
 
 /// What the fragment stage made of a fragment.
 struct Shaded {
-    std::array<double, 4> color = {0, 0, 0, 1};
+    std::array<double, 4> color = {0, 0, 0, 1};  ///< without colour outputs the depth stands for red
     double depth = 0;
     bool is_discarded = false;
 };

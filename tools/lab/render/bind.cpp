@@ -218,6 +218,15 @@ bool is_of_sampler(const Interface& interface, const RenderValue& value) {
                                });
 }
 
+/// An attribute, or a value that only attributes have.
+bool is_of_input(const Interface& interface, const RenderValue& value) {
+    const bool is_source_of_uniforms =
+        value.source.empty() || std::ranges::any_of(kUniformSources, [&](const Source& source) {
+            return source.name == value.source;
+        });
+    return !is_source_of_uniforms || std::ranges::count(interface.inputs, value.name, &Variable::name) > 0;
+}
+
 /// An error where the interface has the block or uniform, but not what the value names in it.
 Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& value) {
     const auto head_of = [](const std::string& name) { return name.substr(0, name.find_first_of(".[")); };
@@ -231,6 +240,46 @@ Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& valu
     if (known.empty()) return {};
     return fail(value.place, {}, fmt::format("'{}' has no member '{}'", head_of(value.name), value.name),
                 suggestion(plain, {known.begin(), known.end()}));
+}
+
+/// A block with one of its members, whatever elements of arrays within the block.
+std::string member_of(const Leaf& leaf) {
+    return leaf.block + " " + without_subscripts(leaf.name);
+}
+
+/// The member without a value that a value means which names nothing: by the block's instance, or by itself.
+const Leaf* meant_member(const std::vector<Leaf>& leaves, const RenderValue& value,
+                         const std::set<std::string>& given) {
+    const auto has_end = [](std::string_view name, std::string_view end) {
+        return name.size() > end.size() && name.ends_with(end);
+    };
+    const std::size_t head = value.name.find_first_of(".[");
+    const std::string member = "." + value.name.substr(value.name.rfind('.') + 1);
+    const Leaf* meant = nullptr;
+    for (const Leaf& leaf : leaves) {
+        if (!has_end(leaf.name, member) || given.contains(member_of(leaf))) continue;
+        const bool is_same_element = head != std::string::npos && has_end(leaf.name, value.name.substr(head));
+        if (is_same_element) return &leaf;
+        if (meant == nullptr) meant = &leaf;
+    }
+    return meant;
+}
+
+/// Values that name nothing, though members that they may mean stay 0: these are told of here.
+void warn_of_meant_members(const std::vector<Leaf>& leaves, const std::vector<const RenderValue*>& unused,
+                           const std::set<std::string>& given, std::set<std::string>& without_value,
+                           Diagnostics& warnings) {
+    for (const RenderValue* value : unused) {
+        const Leaf* leaf = meant_member(leaves, *value, given);
+        if (leaf == nullptr) continue;
+        without_value.erase(without_subscripts(leaf->name));
+        Diagnostic warning =
+            no_value(fmt::format("'{}' has no value: '{}' names no uniform", leaf->name, value->name));
+        warning.place = value->place;
+        warning.help =
+            fmt::format("a member is named behind its block, not behind its instance: \"{}\"", leaf->name);
+        warnings.push_back(std::move(warning));
+    }
 }
 
 tl::unexpected<Diagnostics> cannot_supply(const Leaf& leaf, const RenderValue& value) {
@@ -404,17 +453,24 @@ Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std:
     }
     std::vector<RenderValue> ordered = values;  // what is said of all elements, then of one
     std::ranges::stable_partition(ordered, is_of_all_elements);
+    std::vector<const RenderValue*> unused;
+    std::set<std::string> given;
     for (const RenderValue& value : ordered) {
         const std::vector<Leaf> named = named_leaves(leaves, value);
-        if (named.empty() && !is_of_sampler(interface, value)) GOBO_TRY_DO(check_name(leaves, value));
+        if (named.empty() && !is_of_sampler(interface, value)) {
+            GOBO_TRY_DO(check_name(leaves, value));
+            if (!is_of_input(interface, value)) unused.push_back(&value);
+        }
         for (const Leaf& leaf : named) {
             GOBO_TRY(Assignment assignment, assign(leaf, value, object));
             resolved.assignments.push_back(std::move(assignment));
+            given.insert(member_of(leaf));
             std::string name = without_subscripts(leaf.name);
             without_value.erase(name);
             if (name.ends_with("[]")) without_value.erase(name.substr(0, name.size() - 2));
         }
     }
+    warn_of_meant_members(leaves, unused, given, without_value, resolved.warnings);
     for (const std::string& name : without_value)
         resolved.warnings.push_back(no_value(fmt::format("'{}' has no value and stays 0", name)));
     return resolved;

@@ -26,6 +26,12 @@ Result<ChosenAttribute> chosen_attribute(const std::string& name, const Mesh& me
                            no_value(fmt::format("the attribute '{}' has no value and stays 0", name))};
 }
 
+bool writes_color(const Interface& interface) {
+    return std::ranges::count(interface.stages, name_of(StageKind::fragment)) == 0 ||
+           std::ranges::any_of(interface.outputs,
+                               [](const Variable& output) { return output.location <= 0; });
+}
+
 Result<void> check_textures(const Interface& interface, const std::vector<RenderValue>& values) {
     const std::vector<std::string>& known = texture_sources();
     for (const Sampler& sampler : interface.samplers) {

@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include "family/key.hpp"
+#include "lab/render/chosen_values.hpp"
 
 namespace gobo {
 namespace {
@@ -59,7 +60,13 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     set_bindings(context, program, interface);
     GOBO_TRY(const DrawList list,
              make_draw_list(context, program, interface, objects, values, viewed_from(view), textures));
-    return take_picture(framebuffer, view.background, list.warnings(), [&] { list.draw(); });
+    return take_picture(framebuffer, view.background, list.warnings(), [&] {
+        const GladGLContext& gl = context.gl();
+        const GLboolean written = writes_color(interface) ? GL_TRUE : GL_FALSE;
+        gl.ColorMask(written, written, written, written);
+        list.draw();
+        gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    });
 }
 
 RenderedSelection draw_each(

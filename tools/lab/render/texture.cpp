@@ -115,6 +115,10 @@ const RenderValue* find_value(const std::vector<RenderValue>& values, std::strin
     return nullptr;
 }
 
+bool has_texture(std::string_view sampler_type) {
+    return std::ranges::count(kTargets, sampler_type, &SamplerTarget::sampler_type) > 0;
+}
+
 TextureSource texture_source_of(const std::string& sampler, const std::vector<RenderValue>& values) {
     const RenderValue* value = find_value(values, sampler);
     if (value == nullptr) return {usual_texture(sampler), {}};

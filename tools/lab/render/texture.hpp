@@ -21,6 +21,9 @@ using GivenTextures = std::map<std::string, Texture>;
 /// The value given last to that name, else to the elements of all arrays ("surfaces[].albedo"), or null.
 [[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
 
+/// Whether make_texture() knows the type of sampler.
+[[nodiscard]] bool has_texture(std::string_view sampler_type);
+
 /// What a texture is made of: a name that make_texture() knows, or one colour.
 struct TextureSource {
     std::string name;

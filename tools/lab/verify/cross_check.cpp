@@ -20,7 +20,7 @@ struct Drawn {
     Interface interface;
     std::vector<RenderValue> values;
     evaluate::Images images;
-    Image color;
+    Picture picture;
 };
 
 /// What draws; used by one thread.
@@ -65,10 +65,9 @@ class OpenGlRenderer final : public Renderer {
             drawn.images["shadowMaps"] = raster::depths_of(*maps, lights);
         }
         drawn.values = raster::with_plain_textures(drawn.interface, std::move(drawn.values));
-        GOBO_TRY(auto picture,
+        GOBO_TRY(drawn.picture,
                  render_permutation(context_, stages_of(composition_, permutation), drawn.interface,
                                     scene_.objects, drawn.values, scene_.view, given));
-        drawn.color = std::move(picture.color);
         return drawn;
     }
 
@@ -94,17 +93,19 @@ class OpenGlRenderer final : public Renderer {
     raster::SharedTextures textures_;
 };
 
-/// What a child process sends of one task: a picture's colours or layers of depths, or why there are none.
+/// What a child process sends of one task: a picture or layers of depths, or why there are none.
 struct Drawing {
     std::vector<float> color;
+    std::vector<float> depth;
     std::vector<float> depths;  ///< of all layers
     std::string renderer;
+    Diagnostics warnings;
     Diagnostics errors;
 };
 
 void fields(auto& archive, OneOf<Drawing> auto& value) {
-    auto& [color, depths, renderer, errors] = value;
-    archive(color, depths, renderer, errors);
+    auto& [color, depth, depths, renderer, warnings, errors] = value;
+    archive(color, depth, depths, renderer, warnings, errors);
 }
 
 /// Draws everything in child processes before there are threads, and answers from what they sent.
@@ -167,8 +168,10 @@ class VulkanRenderer final : public Renderer {
         const Drawing& drawing = *drawings_[number_of(permutation)];
         if (!drawing.errors.empty()) return tl::unexpected(drawing.errors);
         GOBO_TRY(Drawn drawn, described(permutation, images_of(drawing.depths), nullptr));
-        drawn.color = Image(scene_.view.width, scene_.view.height, 4);
-        drawn.color.values = drawing.color;
+        drawn.picture = {Image(scene_.view.width, scene_.view.height, 4),
+                         Image(scene_.view.width, scene_.view.height, 1), drawing.warnings};
+        drawn.picture.color.values = drawing.color;
+        drawn.picture.depth.values = drawing.depth;
         return drawn;
     }
 
@@ -209,6 +212,8 @@ class VulkanRenderer final : public Renderer {
                                                           drawn.interface, scene_.objects, drawn.values,
                                                           scene_.view, given));
         drawing.color = std::move(picture.color.values);
+        drawing.depth = std::move(picture.depth.values);
+        drawing.warnings = std::move(picture.warnings);
         return drawing;
     }
 
@@ -294,7 +299,7 @@ Result<raster::PictureReport> compare(const Validated& validated, const Permutat
     GOBO_TRY(auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values,
                                                      scene.view, drawn.images));
     for (raster::RasterObject& object : objects) object.rows_run_down = rows_run_down;
-    return raster::compare_picture(drawn.color, pipeline, objects, scene.view.background);
+    return raster::compare_picture(drawn.picture, pipeline, objects, scene.view.background);
 }
 
 /// Every light that casts shadows in any of the keys: of each kind, as many as in the key that has most.
@@ -348,6 +353,7 @@ CrossCheckReport cross_check_by(Renderer& renderer, const Composition& compositi
             else
                 picture.diagnostics = std::move(found).error();
             picture.key = permutations[i].key;
+            if (drawn[i]) picture.warnings = std::move(drawn[i]->picture.warnings);
             drawn[i] = Drawn{};
         }
     };

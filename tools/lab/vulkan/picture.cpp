@@ -39,7 +39,7 @@ class Drawing {
           target_(target),
           start_(start),
           bindings_(resources, interface),
-          pipelines_(resources, stages, target, bias) {}
+          pipelines_(resources, stages, target, bias, writes_color(interface)) {}
 
     Result<void> prepare(const std::vector<Object>& objects, const std::vector<RenderValue>& values,
                          const ViewedObject& view, const Textures& textures) {

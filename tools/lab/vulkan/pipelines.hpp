@@ -32,8 +32,8 @@ struct Primitive {
 class Pipelines {
   public:
     Pipelines(Resources& resources, const std::vector<StageModule>& stages, const Target& target,
-              DepthBias bias)
-        : resources_(resources), stages_(stages), target_(target), bias_(bias) {}
+              DepthBias bias, bool writes_color)
+        : resources_(resources), stages_(stages), target_(target), bias_(bias), writes_color_(writes_color) {}
 
     Result<void> make(VkPipelineLayout layout);
     /// The pipeline for an object; made where none is alike.
@@ -61,6 +61,7 @@ class Pipelines {
     const std::vector<StageModule>& stages_;
     const Target& target_;
     DepthBias bias_;
+    bool writes_color_;  ///< else the target's colour stays
     Primitive primitive_;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     std::vector<Constants> constants_;
