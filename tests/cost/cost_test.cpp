@@ -558,7 +558,9 @@ TEST(Baseline, IsReadAsItIsWritten) {
     CsvTable wrong = to_table(costs(1, 2, 3, false));
     for (const char* cell : {"many", "nan", "inf", "67.5", "-1", "1e3", ""}) {
         wrong.rows[0][*wrong.column("cycles")] = cell;
-        EXPECT_EQ(to_text(compare_with_baseline({}, wrong, "costs.csv", 0).error().front()),
+        const auto comparison = compare_with_baseline({}, wrong, "costs.csv", 0);
+        ASSERT_FALSE(comparison) << cell;
+        EXPECT_EQ(to_text(comparison.error().front()),
                   fmt::format("costs.csv:2: error: '{}' is no whole number of cycles\n"
                               "  help: write it anew with --update\n",
                               cell));
