@@ -125,6 +125,10 @@ Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
     if (found.empty()) return found;
     const std::map<std::string_view, Place> macros = macros_of(pieces);
     for (Diagnostic& diagnostic : found) {
+        if (diagnostic.message.ends_with("only allowed when using GLSL for Vulkan")) {
+            diagnostic.help = "it is written for Vulkan: --dialect vulkan takes it";
+            continue;
+        }
         const std::string_view redefined =
             behind(diagnostic.message, "Macro redefined; different substitutions:");
         if (const auto first = macros.find(redefined); first != macros.end()) {
