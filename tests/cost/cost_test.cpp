@@ -117,17 +117,18 @@ const std::vector<Sources> kPipelines = {
      "#version 450\nout vec4 color;\nstruct Material { sampler2D albedo; vec4 tint; };\n"
      "layout(location = 0) uniform Material material;\n"
      "void main() { color = material.tint * texture(material.albedo, vec2(0.5)); }\n",
-     "gobo: error: Vulkan has no samplers within structs, and here is one such: material\n"
+     "gobo: error: Vulkan has no samplers within structs, and here is one such: material [material]\n"
      "  help: samplers of a struct become variables of their own\n"},
     {"AtomicCounters", kVertex,
      "#version 450\nout vec4 color;\nlayout(binding = 0) uniform atomic_uint hits;\n"
      "void main() { color = vec4(float(atomicCounterIncrement(hits))); }\n",
-     "gobo: error: Vulkan has no atomic counters, and here is one: hits\n"
+     "gobo: error: Vulkan has no atomic counters, and here is one: hits [hits]\n"
      "  help: count in a storage block, with atomicAdd()\n"},
     {"InputsOfDoubles",
      "#version 450\nin dvec3 position;\nvoid main() { gl_Position = vec4(position, 1); }\n",
      "#version 450\nout vec4 color;\nvoid main() { color = vec4(1); }\n",
-     "gobo: error: vertex input position is a dvec3: only components of 32 bits can be asked about\n"
+     "gobo: error: vertex input position is a dvec3: only components of 32 bits can be asked about "
+     "[position]\n"
      "  help: declare it with floats for the estimate\n"},
     {"BooleansReadAsAWhole", kVertex,
      "#version 450\nout vec4 color;\nstruct Switch { bool on; float by; };\n"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
@@ -120,6 +121,21 @@ std::string text_of(const CostCommandOptions& options, const Subject& subject,
     return join(options.names, " ") + (is_only ? "" : " " + key);
 }
 
+/// Puts the error where one of the two stages first has the name.
+void put_at_name(Diagnostic& error, const Composition& composition, const Permutation& permutation,
+                 const std::string& name) {
+    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
+        for (const int number : composition.stage(permutation.stages[kind]).pieces) {
+            const std::string& text = composition.piece(number).text;
+            for (const std::string_view token : tokens_of(text)) {
+                if (token != name) continue;
+                const auto before = text.begin() + (token.data() - text.data());
+                return put_at(error, composition.piece(number),
+                              static_cast<int>(std::count(text.begin(), before, '\n')) + 1);
+            }
+        }
+}
+
 Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const Validated& validated) {
     Pairs pairs;
     std::map<Pair, bool> seen;
@@ -132,6 +148,7 @@ Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const 
             continue;
         }
         for (Diagnostic& error : pipeline.error()) {
+            put_at_name(error, subject.composition, permutation, error.subject);
             error.subject = text_of(options, subject, permutation);
             pairs.errors.push_back(std::move(error));
         }

@@ -169,10 +169,11 @@ Result<std::vector<VertexInput>> inputs_of(const Module& module) {
         const auto [element, count] = element_of(module, variable->type);
         const GlslType& type = module.type(element).value;
         if (type.scalar != Scalar::float32 && !is_integer(type.scalar))
-            return fail(Fault::input,
-                        fmt::format("vertex input {} is a {}: only components of 32 bits can be asked about",
-                                    module.name(variable->id), type.name()),
-                        "declare it with floats for the estimate");
+            return fail({.message = fmt::format(
+                             "vertex input {} is a {}: only components of 32 bits can be asked about",
+                             module.name(variable->id), type.name()),
+                         .help = "declare it with floats for the estimate",
+                         .subject = module.name(variable->id)});
         const std::uint32_t columns = count * static_cast<std::uint32_t>(type.columns);
         for (std::uint32_t i = 0; i < columns; ++i)
             inputs.push_back({location_of(module, *variable) + i, type.scalar, type.rows});
@@ -209,10 +210,10 @@ Result<Pipeline> linked(const Words& vertex_words, const Words& fragment_words, 
     for (const Module* module : {&vertex, &fragment})
         for (const Variable& variable : module->variables) {
             if (variable.storage == spv::StorageClassAtomicCounter)
-                return fail(Fault::input,
-                            fmt::format("Vulkan has no atomic counters, and here is one: {}",
-                                        module->name(variable.id)),
-                            "count in a storage block, with atomicAdd()");
+                return fail({.message = fmt::format("Vulkan has no atomic counters, and here is one: {}",
+                                                    module->name(variable.id)),
+                             .help = "count in a storage block, with atomicAdd()",
+                             .subject = module->name(variable.id)});
             if (is_resource(variable))
                 by_name.try_emplace(name_of(*module, variable), descriptor_of(*module, variable));
         }

@@ -54,7 +54,7 @@ struct Pipeline {
 /// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one
 /// space of bindings for blocks and samplers, uniforms outside blocks gathered in one for each stage,
 /// varyings matched by location instead of by name, gl_VertexID and the origin of gl_FragCoord. Errors: what
-/// Vulkan lacks, such as samplers within structs.
+/// Vulkan lacks, such as samplers within structs; their subject is the variable.
 [[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl);
 
 /// The same of stages in Vulkan's SPIR-V, whose resources are gathered in set 0. Push constants are left to

@@ -63,10 +63,11 @@ class Gathering {
             order_.push_back(&variable);
         }
         if (!with_images.empty())
-            return fail(Fault::input,
-                        fmt::format("Vulkan has no samplers within structs, and here {} such: {}",
-                                    with_images.size() == 1 ? "is one" : "are some", join(with_images, ", ")),
-                        "samplers of a struct become variables of their own");
+            return fail({.message = fmt::format("Vulkan has no samplers within structs, and here {} such: {}",
+                                                with_images.size() == 1 ? "is one" : "are some",
+                                                join(with_images, ", ")),
+                         .help = "samplers of a struct become variables of their own",
+                         .subject = with_images.front()});
         if (order_.empty()) return words_;
         declare_block();
         for (const Instruction& instruction : module_.instructions) GOBO_TRY_DO(rewrite(instruction));
