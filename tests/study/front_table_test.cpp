@@ -254,6 +254,47 @@ TEST(FrontByTime, HoldsWhomNobodyAsAccurateIsMeasurablyFaster) {
     }
 }
 
+struct Summary {
+    const char* name;
+    const char* renderer;
+    Control control;
+    const char* text;
+};
+
+constexpr const char* kRanks =
+    "rank correlation of cost and time: fragments 0.00, vertices 0.00, over 1 permutations\n";
+constexpr const char* kNotRanked =
+    "1 of 1 permutations are not ranked by time: their control is off by more than 2 %\n";
+const Summary kSummaries[] = {
+    {"the elapsed time does not count",
+     "llvmpipe (LLVM 15.0.6, 256 bits)",
+     {0.58, 0.01},
+     "A/A control, worst: elapsed 58.0 %, processor 1.0 %; processor time counts\n"},
+    {"the processor's fails",
+     "llvmpipe (LLVM 15.0.6, 256 bits)",
+     {0.01, 0.03},
+     "A/A control, worst: elapsed 1.0 %, processor 3.0 %; processor time counts\n"},
+    {"a GPU's time",
+     "GPU by GL_TIME_ELAPSED",
+     {0.01, 0.58},
+     "A/A control, worst: elapsed 1.0 %, processor 58.0 %; elapsed time counts\n"},
+    {"a GPU whose clock fails",
+     "GPU by GL_TIME_ELAPSED",
+     {1, 0.01},
+     "A/A control, worst: elapsed 100.0 %, processor 1.0 %; elapsed time counts\n"},
+};
+
+TEST(FrontByTime, SaysWhichClockCounts) {
+    for (const Summary& row : kSummaries) {
+        Study study = timed_study({{"light=1", 1e-7, {10, 9, 11}, true}}, 0);
+        study.effects.front().control = row.control;
+        study.effects.front().keys.front().timing->renderer = row.renderer;
+        const bool holds = row.control.ranked(row.renderer) <= kLargestControl;
+        EXPECT_EQ(times_summary(study, {}), std::string(row.text) + (holds ? kRanks : kNotRanked))
+            << row.name;
+    }
+}
+
 TEST(FrontByTime, IsNotDrawnWhereTheControlFails) {
     const auto rows = rows_of(small_family(), timed_study({{"light=1", 1e-7, {10, 9, 11}, true}}, 0.03), {});
     EXPECT_FALSE(rows.front().on_time_front);

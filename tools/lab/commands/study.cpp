@@ -409,40 +409,12 @@ std::string front_text(const Family& family, const study::EffectsResult& effects
                        short_number(cheapest->error));
 }
 
-std::string time_text(const study::Study& study, const study::Weights& weights) {
-    double elapsed = 0;
-    double processor = 0;
-    std::size_t timed = 0;
-    for (const study::EffectsResult& effects : study.effects) {
-        if (!effects.control) continue;
-        timed += static_cast<std::size_t>(
-            std::ranges::count_if(effects.keys, [](const auto& key) { return key.timing.has_value(); }));
-        elapsed = std::max(elapsed, effects.control->elapsed);
-        processor = std::max(processor, effects.control->processor);
-    }
-    if (timed == 0) return "";
-    const auto fragments = study::cost_against_time(study, weights, false);
-    const auto vertices = study::cost_against_time(study, weights, true);
-    std::string text = fmt::format("A/A control, worst: elapsed {:.1f} %, processor {:.1f} %\n",
-                                   100 * elapsed, 100 * processor);
-    const std::size_t ranked = fragments.cost.size();
-    if (ranked < timed)
-        text += fmt::format(
-            "{} of {} permutations are not ranked by time: their control is off by more than {} %\n",
-            timed - ranked, timed, short_number(100 * study::kLargestControl));
-    if (ranked > 0)
-        text += fmt::format(
-            "rank correlation of cost and time: fragments {:.2f}, vertices {:.2f}, over {} permutations\n",
-            fragments.correlation, vertices.correlation, ranked);
-    return text;
-}
-
 /// For each combination of effects its front's size and ends, the controls of timing, how cost goes with
 /// time, and which choices are dominated everywhere.
 std::string study_summary(const Family& family, const study::Study& study, const study::Weights& weights) {
     std::string text;
     for (const study::EffectsResult& effects : study.effects) text += front_text(family, effects, weights);
-    text += time_text(study, weights);
+    text += study::times_summary(study, weights);
     for (const study::ChoiceSummary& choice : study::summarise_choices(family, study, weights))
         if (!choice.dominated_by.empty())
             text += fmt::format("{}={} is dominated everywhere by {}\n", choice.feature, choice.value,

@@ -74,6 +74,13 @@ evaluate::Invocations moved(const evaluate::Invocations& inputs, const std::stri
     return result;
 }
 
+/// As far for each place of a quad, but neighbours the opposite ways.
+std::vector<double> apart_in_quads(std::vector<double> distances) {
+    for (std::size_t i = 0; i < distances.size(); ++i)
+        if (i % kQuad == 1 || i % kQuad == 2) distances[i] = -distances[i];
+    return distances;
+}
+
 /// Adds how far each colour moves by the one shift or the other, whichever is less.
 void add_smaller(const std::vector<Shaded>& plain, const std::vector<Shaded>& one,
                  const std::vector<Shaded>& other, std::vector<std::array<double, 4>>& spread) {
@@ -232,12 +239,19 @@ Result<std::vector<std::array<double, 4>>> color_spread(const Pipeline& pipeline
     GOBO_TRY(const auto plain, shade_fragments<float>(pipeline, object, inputs));
     for (const auto& [input, rounding] : interpolation_rounding(pipeline, object, varyings))
         for (std::size_t from = 0; from < rounding.size(); from += inputs.count) {
-            const auto with = [&, &name = input, &error = rounding](double roundings) {
-                return shade_fragments<float>(pipeline, object, moved(inputs, name, from, error, roundings));
+            const auto add_moved = [&, &name = input](const std::vector<double>& error) -> Result<void> {
+                const auto with = [&](double roundings) {
+                    return shade_fragments<float>(pipeline, object,
+                                                  moved(inputs, name, from, error, roundings));
+                };
+                GOBO_TRY(const auto one, with(kInterpolationRoundings));
+                GOBO_TRY(const auto other, with(-kInterpolationRoundings));
+                add_smaller(plain, one, other, spread);
+                return {};
             };
-            GOBO_TRY(const auto one, with(kInterpolationRoundings));
-            GOBO_TRY(const auto other, with(-kInterpolationRoundings));
-            add_smaller(plain, one, other, spread);
+            GOBO_TRY_DO(add_moved(rounding));
+            // Each pixel of a quad is rounded by itself: a derivative sees what two of them differ by.
+            if (pipeline.needs_quads) GOBO_TRY_DO(add_moved(apart_in_quads(rounding)));
         }
     const auto with_errors = [&](evaluate::Errors errors) {
         return shade_fragments<float>(pipeline, object, inputs, nullptr, errors);

@@ -91,7 +91,8 @@ inline constexpr double kInterpolationRoundings = 12;
 /// How far each fragment's colour may be off by kInterpolationRoundings in each component of each varying,
 /// and by divisions, roots and powers off by what Vulkan allows them, all one way: the sum of what each does
 /// by itself, to first order. Where a formula cancels, as the plain GGX peak does, that is much. Steps do not
-/// count: of the two ways in which something may be off, the one that moves the colour less does.
+/// count: of the two ways in which something may be off, the one that moves the colour less does. Where there
+/// are derivatives, neighbours in a quad may be off the opposite ways as well as the same.
 [[nodiscard]] Result<std::vector<std::array<double, 4>>> color_spread(const Pipeline& pipeline,
                                                                       const RasterObject& object);
 

@@ -115,8 +115,14 @@ const RenderValue* find_value(const std::vector<RenderValue>& values, std::strin
     return nullptr;
 }
 
+std::string combined_type(std::string_view type) {
+    constexpr std::string_view kApart = "texture";
+    return type.starts_with(kApart) ? fmt::format("sampler{}", type.substr(kApart.size()))
+                                    : std::string(type);
+}
+
 bool has_texture(std::string_view sampler_type) {
-    return std::ranges::count(kTargets, sampler_type, &SamplerTarget::sampler_type) > 0;
+    return std::ranges::count(kTargets, combined_type(sampler_type), &SamplerTarget::sampler_type) > 0;
 }
 
 TextureSource texture_source_of(const std::string& sampler, const std::vector<RenderValue>& values) {

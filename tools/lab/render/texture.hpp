@@ -21,7 +21,11 @@ using GivenTextures = std::map<std::string, Texture>;
 /// The value given last to that name, else to the elements of all arrays ("surfaces[].albedo"), or null.
 [[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
 
-/// Whether make_texture() knows the type of sampler.
+/// The type of sampler that looks up a texture which Vulkan has apart from it: "texture2D" gives "sampler2D".
+/// Others stay.
+[[nodiscard]] std::string combined_type(std::string_view type);
+
+/// Whether make_texture() knows the type of sampler, or of what it would be if it were one.
 [[nodiscard]] bool has_texture(std::string_view sampler_type);
 
 /// What a texture is made of: a name that make_texture() knows, or one colour.

@@ -411,4 +411,36 @@ CostAndTime cost_against_time(const Study& study, const Weights& weights, bool o
     return result;
 }
 
+std::string times_summary(const Study& study, const Weights& weights) {
+    Control worst;
+    std::size_t timed = 0;
+    std::string renderer;
+    for (const EffectsResult& effects : study.effects) {
+        if (!effects.control) continue;
+        for (const KeyResult& key : effects.keys) {
+            if (!key.timing) continue;
+            ++timed;
+            renderer = key.timing->renderer;
+        }
+        worst.elapsed = std::max(worst.elapsed, effects.control->elapsed);
+        worst.processor = std::max(worst.processor, effects.control->processor);
+    }
+    if (timed == 0) return "";
+    const CostAndTime fragments = cost_against_time(study, weights, false);
+    const CostAndTime vertices = cost_against_time(study, weights, true);
+    std::string text = fmt::format(
+        "A/A control, worst: elapsed {:.1f} %, processor {:.1f} %; {} time counts\n", 100 * worst.elapsed,
+        100 * worst.processor, draws_in_calling_thread(renderer) ? "processor" : "elapsed");
+    const std::size_t ranked = fragments.cost.size();
+    if (ranked < timed)
+        text += fmt::format(
+            "{} of {} permutations are not ranked by time: their control is off by more than {:.0f} %\n",
+            timed - ranked, timed, 100 * kLargestControl);
+    if (ranked > 0)
+        text += fmt::format(
+            "rank correlation of cost and time: fragments {:.2f}, vertices {:.2f}, over {} permutations\n",
+            fragments.correlation, vertices.correlation, ranked);
+    return text;
+}
+
 }  // namespace gobo::study

@@ -112,4 +112,8 @@ struct CostAndTime {
 };
 [[nodiscard]] CostAndTime cost_against_time(const Study& study, const Weights& weights, bool of_vertices);
 
+/// For people: the worst control of each clock and which of them counts, how many permutations are not ranked
+/// by it, and how cost goes with time over the others. Empty where nothing was timed.
+[[nodiscard]] std::string times_summary(const Study& study, const Weights& weights);
+
 }  // namespace gobo::study

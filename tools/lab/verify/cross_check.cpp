@@ -8,6 +8,7 @@
 #include "core/child_processes.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/render/texture.hpp"
 #include "lab/vulkan/picture.hpp"
 #include "spirv/transform.hpp"
 #include "validate/validate.hpp"
@@ -257,10 +258,11 @@ class VulkanRenderer final : public Renderer {
             const RenderValue* value = find_value(scene_.values, sampler.name);
             const auto cube = scene_.cubes.find(sampler.name);
             if (!sampler.array.empty()) continue;
-            if (cube != scene_.cubes.end() && sampler.type == "samplerCube") {
+            if (cube != scene_.cubes.end() && combined_type(sampler.type) == "samplerCube") {
                 given[sampler.name] = vulkan::cube_texels(cube->second);
                 drawn.images[sampler.name] = raster::colors_of_cube(cube->second);
-            } else if (value != nullptr && !value->source.empty() && sampler.type == "sampler2D") {
+            } else if (value != nullptr && !value->source.empty() &&
+                       combined_type(sampler.type) == "sampler2D") {
                 const TextureSource source{value->source, value->numbers};
                 const auto texels = vulkan::usual_texels(sampler.type, source, TextureLevels::one);
                 if (!texels) continue;

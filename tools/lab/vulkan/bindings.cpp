@@ -5,8 +5,19 @@
 #include <fmt/format.h>
 
 #include "lab/render/chosen_values.hpp"
+#include "lab/render/texture.hpp"
 
 namespace gobo::vulkan {
+
+namespace {
+
+VkDescriptorType descriptor_type(const Sampler& sampler) {
+    if (sampler.type == "sampler") return VK_DESCRIPTOR_TYPE_SAMPLER;
+    const bool is_apart = combined_type(sampler.type) != sampler.type;
+    return is_apart ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+}
+
+}  // namespace
 
 Result<void> Bindings::make(std::size_t objects, const std::vector<RenderValue>& values,
                             const Textures& given) {
@@ -37,7 +48,7 @@ Result<void> Bindings::make_layouts() {
         return fail(Fault::input, fmt::format("the renderer has no contents for the storage block '{}'",
                                               interface_.storage_blocks.front().name));
     for (const Sampler& sampler : interface_.samplers)
-        add(sampler, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, element_count(sampler.array));
+        add(sampler, descriptor_type(sampler), element_count(sampler.array));
     for (const std::vector<VkDescriptorSetLayoutBinding>& set : bindings_) {
         auto info =
             made<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
@@ -100,14 +111,23 @@ Result<VkSampler> Bindings::make_sampler(const TextureTexels& texels) {
 Result<void> Bindings::make_textures(const std::vector<RenderValue>& values, const Textures& given) {
     GOBO_TRY_DO(check_textures(interface_, values));
     for (const Sampler& sampler : interface_.samplers) {
+        if (sampler.type == "sampler") {  // apart from its textures, whatever levels they have
+            TextureTexels any;
+            any.has_levels = true;
+            GOBO_TRY(const VkSampler handle, make_sampler(any));
+            textures_[sampler.name] = {handle, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
+            continue;
+        }
         std::optional<TextureTexels> texels;
         if (const auto found = given.find(sampler.name); found != given.end())
             texels = found->second;
         else
             texels = usual_texels(sampler.type, texture_source_of(sampler.name, values), TextureLevels::all);
         if (!texels)
-            return fail(Fault::input, fmt::format("the renderer has no texture for '{}' of type {}",
-                                                  sampler.name, sampler.type));
+            return fail(
+                Fault::input,
+                fmt::format("the renderer has no texture for '{}' of type {}", sampler.name, sampler.type),
+                sampler.type == "samplerShadow" ? "compare by a sampler2DShadow instead" : "");
         GOBO_TRY(const DeviceImage image, resources_.make_texture(*texels));
         GOBO_TRY(const VkSampler handle, make_sampler(*texels));
         textures_[sampler.name] = {handle, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
@@ -147,7 +167,7 @@ Result<std::vector<VkDescriptorSet>> Bindings::sets_of(const ResolvedUniforms& r
         write.dstSet = sets[static_cast<std::size_t>(sampler.set)];
         write.dstBinding = static_cast<std::uint32_t>(sampler.binding);
         write.descriptorCount = size_of(images);
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.descriptorType = descriptor_type(sampler);
         write.pImageInfo = images.data();
         vk.vkUpdateDescriptorSets(state.device, 1, &write, 0, nullptr);
     }

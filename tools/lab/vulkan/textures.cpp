@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "lab/render/texture.hpp"
 #include "lab/vulkan/picture.hpp"
 
 namespace gobo::vulkan {
@@ -15,8 +16,8 @@ std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const
     constexpr Row kRows[] = {{"sampler2D", flat, false},      {"sampler2DArray", array, false},
                              {"sampler3D", volume, false},    {"samplerCube", cube, false},
                              {"sampler2DShadow", flat, true}, {"sampler2DArrayShadow", array, true}};
-    const auto* const row = std::find_if(std::begin(kRows), std::end(kRows),
-                                         [&](const Row& known) { return known.type == sampler_type; });
+    const auto* const row =
+        std::ranges::find(std::begin(kRows), std::end(kRows), combined_type(sampler_type), &Row::type);
     if (row == std::end(kRows)) return std::nullopt;
     TextureTexels texels;
     texels.shape = row->shape;
