@@ -124,10 +124,8 @@ Result<void> Bindings::make_textures(const std::vector<RenderValue>& values, con
         else
             texels = usual_texels(sampler.type, texture_source_of(sampler.name, values), TextureLevels::all);
         if (!texels)
-            return fail(
-                Fault::input,
-                fmt::format("the renderer has no texture for '{}' of type {}", sampler.name, sampler.type),
-                sampler.type == "samplerShadow" ? "compare by a sampler2DShadow instead" : "");
+            return fail(Fault::input, fmt::format("the renderer has no texture for '{}' of type {}",
+                                                  sampler.name, sampler.type));
         GOBO_TRY(const DeviceImage image, resources_.make_texture(*texels));
         GOBO_TRY(const VkSampler handle, make_sampler(*texels));
         textures_[sampler.name] = {handle, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};

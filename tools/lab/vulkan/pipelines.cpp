@@ -30,6 +30,26 @@ VkPrimitiveTopology topology_of(std::uint32_t mode) {
     }
 }
 
+/// Whether a comparison's sampler is apart from its texture is seen where it is used: the type is any
+/// sampler's.
+Result<void> refuse_samplers_that_compare(std::span<const std::uint32_t> words) {
+    GOBO_TRY(const spirv::Module module, spirv::read_module(words));
+    for (const spirv::Instruction& instruction : module.instructions) {
+        const bool compares = instruction.opcode == spv::OpImageSampleDrefImplicitLod ||
+                              instruction.opcode == spv::OpImageSampleDrefExplicitLod ||
+                              instruction.opcode == spv::OpImageSampleProjDrefImplicitLod ||
+                              instruction.opcode == spv::OpImageSampleProjDrefExplicitLod ||
+                              instruction.opcode == spv::OpImageDrefGather;
+        if (!compares) continue;
+        const spirv::Instruction* sampled = module.definition(instruction.id(3));
+        if (sampled != nullptr && sampled->opcode == spv::OpSampledImage)
+            return fail(module.place(instruction.line), {},
+                        "the renderer has no samplerShadow apart from its texture",
+                        "declare both as one: a sampler2DShadow");
+    }
+    return {};
+}
+
 /// Patches have as many corners as the tessellation control stage makes.
 Result<Primitive> primitive_of(const std::vector<StageModule>& stages) {
     Primitive primitive;
@@ -96,6 +116,7 @@ Result<void> Pipelines::make(VkPipelineLayout layout) {
     GOBO_TRY(primitive_, primitive_of(stages_));
     constants_.resize(stages_.size());
     for (std::size_t i = 0; i < stages_.size(); ++i) {
+        GOBO_TRY_DO(refuse_samplers_that_compare(stages_[i].words));
         Constants& own = constants_[i];
         for (const SpecializedCount& count : stages_[i].specialized) {
             own.entries.push_back(
