@@ -80,15 +80,24 @@ template <class Descriptors, class Permutation>
     });
 }
 
-/// For vkCreatePipelineLayout.
+/// For vkCreatePipelineLayout. Vulkan allows a stage one range, so of a stage with several blocks, those of
+/// other keys, it is the largest; stages with as many bytes share one.
 template <class PushConstants>
 [[nodiscard]] std::vector<VkPushConstantRange> push_constant_ranges(const PushConstants& push_constants) {
     std::vector<VkPushConstantRange> ranges;
-    for (const runtime::PushConstants& block : push_constants) {
+    for (std::uint32_t stage = 1; stage != 0; stage <<= 1U) {
         VkPushConstantRange range{};
-        range.stageFlags = block.stages;
-        range.size = block.size;
-        ranges.push_back(range);
+        range.stageFlags = stage;
+        for (const runtime::PushConstants& block : push_constants)
+            if ((block.stages & stage) != 0 && range.size < block.size) range.size = block.size;
+        if (range.size == 0) continue;
+        bool is_new = true;
+        for (VkPushConstantRange& other : ranges)
+            if (other.size == range.size) {
+                other.stageFlags |= stage;
+                is_new = false;
+            }
+        if (is_new) ranges.push_back(range);
     }
     return ranges;
 }

@@ -155,7 +155,7 @@ TEST_P(MachineMessages, HoldWhatReadersAreTold) {
     const CaseFile file = read_case(disk.read(cases_folder + "/" + GetParam() + ".txt").value());
     std::map<std::string, int> told;  // by severity
     for (const std::string& line : split(file.answer, '\n'))
-        for (const char* severity : {"error", "warning"})
+        for (const char* severity : {"error", "warning", "note"})
             if (line.find(fmt::format(": {}: ", severity)) != std::string::npos) ++told[severity];
     for (const char* format : {"json", "sarif"}) {
         const Answer answer = answer_of(file, format);

@@ -117,6 +117,37 @@ TEST(VulkanHeader, GivesArraysOneBindingAndKnowsEveryKind) {
     EXPECT_EQ(descriptor_arrays::Scales::binding, 0);
 }
 
+struct PushConstantsRow {
+    const char* name;
+    std::vector<runtime::PushConstants> blocks;
+    std::vector<std::pair<VkShaderStageFlags, std::uint32_t>> ranges;  ///< stages and bytes
+};
+
+/// No stage is in two ranges (VUID-VkPipelineLayoutCreateInfo-pPushConstantRanges-00292).
+class PushConstantRanges : public testing::TestWithParam<PushConstantsRow> {};
+
+TEST_P(PushConstantRanges, HaveEachStageOnce) {
+    std::vector<std::pair<VkShaderStageFlags, std::uint32_t>> ranges;
+    for (const VkPushConstantRange& range : vulkan::push_constant_ranges(GetParam().blocks)) {
+        EXPECT_EQ(range.offset, 0u);
+        ranges.emplace_back(range.stageFlags, range.size);
+    }
+    EXPECT_EQ(ranges, GetParam().ranges);
+}
+
+constexpr std::uint32_t kVertex = VK_SHADER_STAGE_VERTEX_BIT;
+constexpr std::uint32_t kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+INSTANTIATE_TEST_SUITE_P(
+    Rows, PushConstantRanges,
+    testing::Values(
+        PushConstantsRow{"none", {}, {}},
+        PushConstantsRow{"of_two_stages", {{"Tint", 16, kVertex | kFragment}}, {{kVertex | kFragment, 16}}},
+        PushConstantsRow{"of_keys", {{"Tint", 16, kFragment}, {"Tone", 32, kFragment}}, {{kFragment, 32}}},
+        PushConstantsRow{"of_keys_and_stages",
+                         {{"Tint", 16, kVertex | kFragment}, {"Tone", 32, kFragment}},
+                         {{kVertex, 16}, {kFragment, 32}}}),
+    [](const auto& row) { return std::string(row.param.name); });
+
 struct Vertex {
     float weight;
     glm::vec3 position;

@@ -18,8 +18,10 @@ namespace {
 
 class Composer {
   public:
-    Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments)
+    Composer(const Family& family, const SearchPath& search, Dialect dialect, Comments comments,
+             const LiteralCounts& literal)
         : family_(family),
+          literal_(literal),
           composition_(composition_for(dialect)),
           library_(family, search, comments, composition_),
           placer_(family, library_, composition_),
@@ -41,7 +43,9 @@ class Composer {
             placements.push_back(Placement{key, stage.kind, written});
             GOBO_TRY_DO(placer_.follow_templates(placements.back()));
         }
-        GOBO_TRY(const auto specialized, specializer_.in_stages(key, placements, read, library_));
+        GOBO_TRY(auto specialized, specializer_.in_stages(key, placements, read, library_));
+        if (const auto literal = literal_.find(key); literal != literal_.end())
+            for (const int feature : literal->second) specialized.erase(feature);
         for (const auto& [feature, id] : specialized)
             permutation.specialized.push_back({id, family_.features[feature].lowest + key[feature]});
         for (const Placement& placement : placements)
@@ -120,6 +124,7 @@ class Composer {
     }
 
     const Family& family_;
+    const LiteralCounts& literal_;
     Composition composition_;
     PieceLibrary library_;
     Placer placer_;
@@ -130,8 +135,8 @@ class Composer {
 }  // namespace
 
 Result<Composition> compose(const Family& family, const std::vector<Key>& keys, const SearchPath& search,
-                            Dialect dialect, Comments comments) {
-    Composer composer(family, search, dialect, comments);
+                            Dialect dialect, Comments comments, const LiteralCounts& literal) {
+    Composer composer(family, search, dialect, comments, literal);
     for (const Key& key : keys) {
         Result<void> added = composer.add(key);
         if (added) continue;

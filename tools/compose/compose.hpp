@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,12 +12,16 @@
 
 namespace gobo {
 
+/// By key the counts, by feature, that stay numbers though the family wants them specialised.
+using LiteralCounts = std::map<Key, std::set<int>>;
+
 /// Composes every key (canonical ones, as select() gives them). Each file is read and scanned once.
 /// Errors name the include's file and line: a missing piece (with the folders searched and the nearest file),
 /// an unknown feature, an include cycle (printed whole), a path that leaves the folders searched.
 [[nodiscard]] Result<Composition> compose(const Family& family, const std::vector<Key>& keys,
                                           const SearchPath& search, Dialect dialect,
-                                          Comments comments = Comments::remove);
+                                          Comments comments = Comments::remove,
+                                          const LiteralCounts& literal = {});
 
 /// Every identifier that the shaders of any key may hold, of all dialects' conditions.
 [[nodiscard]] std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family,

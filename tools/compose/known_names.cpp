@@ -31,6 +31,9 @@ std::vector<Named> names_of(const Family& family) {
         for (const RenderValue& value : relation.at)
             names.push_back({value.name, "[[relations]]", value.place});
     }
+    for (const DescriptorSet& set : family.descriptor_sets)
+        for (const std::string& name : set.holds)
+            names.push_back({name, "[[descriptor_sets]]", set.holds_place});
     std::erase_if(names, [&](const Named& named) { return named.place.file != family.path; });
     return names;
 }
@@ -40,6 +43,15 @@ std::string unknown_part(const std::string& name, const std::set<std::string, st
     for (const std::string_view token : tokens_of(name))
         if (is_identifier(token) && !identifiers.contains(token)) return std::string(token);
     return {};
+}
+
+/// Whether names are joined, but by the macros of gobo's prologues.
+bool joins_names(std::string_view text) {
+    for (std::size_t at = text.find("##"); at != std::string_view::npos; at = text.find("##", at + 2)) {
+        const std::string_view before = text.substr(0, at);
+        if (!before.ends_with("PLACE_") && !before.ends_with("PLACE_OF_SAMPLER_")) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -56,7 +68,7 @@ Diagnostics unknown_names(const Family& family, const SearchPath& search, const 
         family.features, [](const Feature& feature) { return !feature.substituted.empty(); });
     for (const Piece& piece : composition.pieces) {
         for (const std::string_view name : identifiers_of(piece.text)) identifiers.emplace(name);
-        is_rewritten = is_rewritten || piece.text.find("##") != std::string::npos;
+        is_rewritten = is_rewritten || joins_names(piece.text);
     }
     drop_known();
     if (names.empty() || is_rewritten) return {};

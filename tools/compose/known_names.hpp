@@ -6,8 +6,9 @@
 
 namespace gobo {
 
-/// An error for each name under [domain], [render] and [[relations]] of the family's own file that no key's
-/// shaders mention. Files that no key of `composition` has are read only for names that it lacks.
+/// An error for each name under [domain], [render], [[relations]] and [[descriptor_sets]] of the family's own
+/// file that no key's shaders mention. Files that no key of `composition` has are read only for names that it
+/// lacks.
 [[nodiscard]] Diagnostics unknown_names(const Family& family, const SearchPath& search,
                                         const Composition& composition);
 

@@ -64,8 +64,7 @@ void add(Descriptors& descriptors, const std::vector<Entry>& entries, std::strin
     }
 }
 
-Result<std::vector<std::string>> descriptor_rows(const Interface& interface,
-                                                 const Declarations& declarations) {
+std::vector<std::string> descriptor_rows(const Interface& interface, const Declarations& declarations) {
     Descriptors descriptors;
     const auto as = [](std::string_view kind) { return [kind](const Block&) { return std::pair(kind, 1); }; };
     add(descriptors, interface.blocks, "uniform block", declarations, as("uniform_buffer"));
@@ -76,17 +75,10 @@ Result<std::vector<std::string>> descriptor_rows(const Interface& interface,
     std::vector<std::string> rows;
     for (const auto& [place, list] : descriptors) {
         const auto& [set, binding] = place;
-        for (const DescriptorRow& row : list) {
-            if (row.name != list.front().name)
-                return fail(
-                    Fault::input,
-                    fmt::format("'{}' and '{}' of different keys are both at set {}, binding {}",
-                                list.front().name, row.name, set, binding),
-                    "all keys share a layout of descriptor sets: list both under [[descriptor_sets]]");
+        for (const DescriptorRow& row : list)
             rows.push_back(fmt::format("{{{}, {}, {}, gobo::DescriptorKind::{}, {}, {:#x}{}}}",
                                        cpp_literal(row.name), set, binding, row.kind, row.count, row.stages,
                                        row.only));
-        }
     }
     return rows;
 }
@@ -148,9 +140,7 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
     values["includes"] = "#include <gobo/spirv.hpp>\n";
     TemplateValues own;
     std::vector<std::string> descriptors;
-    if (dialect == Dialect::vulkan) {
-        GOBO_TRY(descriptors, descriptor_rows(interface, declarations));
-    }
+    if (dialect == Dialect::vulkan) descriptors = descriptor_rows(interface, declarations);
     add_table(own, "descriptor", descriptors);
     std::vector<std::string> push_constants;
     for (const Block& block : interface.push_constants)
@@ -160,21 +150,7 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
     add_table(own, "vertex_input", vertex_input_rows(interface, declarations));
     std::vector<std::string> constants;
     std::string constant_values;
-    std::map<int, const SpecializationConstant*> known;  // by constant_id
     for (const SpecializationConstant& constant : interface.specialization_constants) {
-        const auto [at, is_new] = known.try_emplace(constant.id, &constant);
-        if (!is_new) {
-            const SpecializationConstant& first = *at->second;
-            const std::string problem =
-                first.name == constant.name && first.type == constant.type
-                    ? fmt::format("'{}' with constant_id {} has another default in another key", first.name,
-                                  first.id)
-                    : fmt::format("constant_id {} is the {} '{}' in one key and the {} '{}' in another",
-                                  first.id, first.type, first.name, constant.type, constant.name);
-            return fail(Fault::input, problem,
-                        "all keys share a table of constants: declare it alike in all, or give one of them "
-                        "another constant_id");
-        }
         constants.push_back(fmt::format("{{{}, {}, {}, {:#x}}}", cpp_literal(constant.name),
                                         cpp_literal(constant.type), constant.id, constant.value));
         constant_values += (constant_values.empty() ? "" : ", ") + value_of(constant, key);

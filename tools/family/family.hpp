@@ -135,6 +135,7 @@ struct DescriptorSet {
     std::string name;                ///< such as "frame": what it changes with
     std::vector<std::string> holds;  ///< blocks and samplers; the binding of each is its place here
     Place place;
+    Place holds_place;
 };
 
 /// Text that the family puts in front of its stages.

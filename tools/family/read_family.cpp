@@ -217,7 +217,8 @@ std::vector<DescriptorSet> read_descriptor_sets(const TomlTable& root) {
     std::map<std::string, std::string> set_of;  // by resource
     for (const TomlTable& table : root.tables("descriptor_sets", "a descriptor set")) {
         table.only({"name", "holds"});
-        DescriptorSet set{table.required_string("name"), table.strings("holds"), table.place_of()};
+        DescriptorSet set{table.required_string("name"), table.strings("holds"), table.place_of(),
+                          table.place_of("holds")};
         if (!root.reader.failed() && !is_identifier(set.name))
             table.error("name", fmt::format("has the name '{}'", set.name),
                         "use letters, digits and _: it names a C++ constant");

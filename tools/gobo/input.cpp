@@ -16,6 +16,7 @@
 #include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "gobo/literal_counts.hpp"
 #include "gobo/shader_files.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/scene_domains.hpp"
@@ -412,20 +413,23 @@ Result<Composition> compose_selection(const World& world, LoadedFamily& family,
     return compose_keys(family, keys);
 }
 
-Result<Validated> compile(const World& world, const LoadedFamily& family, const Composition& composition,
+Result<Validated> compile(const World& world, const LoadedFamily& family, Composition& composition,
                           ValidateOptions options) {
     options.jobs = world.jobs();
     options.child_processes = !world.options.in_process;
     options.cache = world.cache;
-    Validated validated = validate(family.family, composition, options);
+    Validated validated = validate_with_counts(family, composition, options);
+    const Diagnostics unknown = is_embedded(world, family.name)
+                                    ? Diagnostics{}
+                                    : unknown_names(family.family, family.search, composition);
     if (exit_status(validated.diagnostics) != 0) {
         if (!world.options.stopped.empty())
             append(validated.diagnostics, keep_stopped(world, family.family.name, validated));
         simplify_subjects(validated.diagnostics, family, options);
+        append(validated.diagnostics, unknown);
         return tl::unexpected(std::move(validated.diagnostics));
     }
-    if (!is_embedded(world, family.name))
-        append(validated.diagnostics, unknown_names(family.family, family.search, composition));
+    append(validated.diagnostics, unknown);
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(std::move(validated.diagnostics));
     return validated;
 }
@@ -516,7 +520,7 @@ Result<Subject> load_subject(const World& world, const std::vector<std::string>&
     return subject;
 }
 
-Result<Validated> compile(const World& world, const Subject& subject, const ValidateOptions& options) {
+Result<Validated> compile(const World& world, Subject& subject, const ValidateOptions& options) {
     auto validated = compile(world, subject.family, subject.composition, options);
     if (!subject.are_files) return validated;
     if (validated)

@@ -152,9 +152,10 @@ struct BudgetOptions : Budget {
 [[nodiscard]] Diagnostics warn_of_no_keys(const Composition& composition, std::string_view consequence);
 
 /// Validates on all cores, in child processes unless CommonOptions::in_process. What has errors is no value;
-/// each error names a key with no more features than it takes.
+/// each error names a key with no more features than it takes. Keys whose counts cannot be specialisation
+/// constants are composed anew.
 [[nodiscard]] Result<Validated> compile(const World& world, const LoadedFamily& family,
-                                        const Composition& composition, ValidateOptions options = {});
+                                        Composition& composition, ValidateOptions options = {});
 
 /// What FAMILY and keys name, or loose shader files.
 struct Subject {
@@ -175,7 +176,7 @@ void make_counts_literal(Family& family);
                                            const std::vector<std::string>& stages, const std::string& dialect,
                                            const SelectionOptions* selection = nullptr,
                                            Counts counts = Counts::specialized);
-[[nodiscard]] Result<Validated> compile(const World& world, const Subject& subject,
+[[nodiscard]] Result<Validated> compile(const World& world, Subject& subject,
                                         const ValidateOptions& options = {});
 [[nodiscard]] Option subject_argument(std::vector<std::string>& names);
 /// Of commands that have a selection.

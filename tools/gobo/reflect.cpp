@@ -15,7 +15,7 @@ struct ReflectOptions {
 };
 
 Result<Outcome> run(const ReflectOptions& options, const World& world) {
-    GOBO_TRY(const Subject subject, load_subject(world, options.names, options.stages, options.dialect));
+    GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect));
     GOBO_TRY(Validated validated, compile(world, subject));
     const Interface interface = interface_of(validated, subject.composition.permutations.front());
     return Outcome{options.json ? to_json(interface).dump(2) + "\n" : to_text(interface),

@@ -280,6 +280,9 @@ class Reflection {
         if (lacks_size(extents))
             return stop("block '{}' is an array without a size, which Vulkan 1.0 cannot bind", block.name,
                         Fault::input, kStateSize);
+        if (api_ == Api::vulkan && extents.size() > 1)  // Vulkan 1.0, 14.5.1
+            return stop("block '{}' is an array of arrays, which Vulkan 1.0 cannot bind", block.name,
+                        Fault::input, "make it an array of one dimension: [2 * i + j] for [i][j]");
         block.binding = stated(module_, spv::DecorationBinding, variable.id);
         const bool is_pushed = variable.storage == spv::StorageClassPushConstant;
         block.set = is_pushed ? -1 : set_of(variable.id);

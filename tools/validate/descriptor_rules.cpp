@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "compose/dialect.hpp"
 #include "validate/declaration.hpp"
+#include "validate/glslang_log.hpp"
 #include "validate/link_rules.hpp"
 
 namespace gobo {
@@ -14,22 +16,32 @@ namespace {
 /// What every device binds at least (Vulkan 1.0, table 53).
 constexpr int kGuaranteedSets = 4;
 constexpr int kGuaranteedPushConstants = 128;
+constexpr const char* kCountedTogether =
+    "Vulkan counts blocks and samplers together: list them under [[descriptor_sets]] in the family, or state "
+    "other numbers";
 
 class DescriptorCheck {
   public:
-    explicit DescriptorCheck(const std::vector<StageView>& stages) : stages_(stages) {}
+    DescriptorCheck(const std::vector<StageView>& stages, const Family& family)
+        : stages_(stages), family_(family) {}
 
     Diagnostics run() {
         for (const StageView& stage : stages_) {
             for (const Block& block : stage.interface.blocks) add(stage, "uniform block", block);
             for (const Block& block : stage.interface.storage_blocks) add(stage, "storage block", block);
             for (const Sampler& sampler : stage.interface.samplers) add(stage, "sampler", sampler);
-            for (const Block& block : stage.interface.push_constants)
+            for (const Block& block : stage.interface.push_constants) {
+                if (const DescriptorSet* const set = set_with(block.name))
+                    refuse(stage, block.name,
+                           fmt::format("'{}' are push constants, which no set holds, but {} lists them",
+                                       block.name, text_of(*set)),
+                           fmt::format("take '{}' out of the set", block.name));
                 if (block.size > kGuaranteedPushConstants)
                     add_warning(
                         stage, block.name,
                         fmt::format("the push constants '{}' take {} bytes", block.name, block.size),
                         fmt::format("Vulkan guarantees {}: put some into a block", kGuaranteedPushConstants));
+            }
         }
         return std::move(found_);
     }
@@ -50,25 +62,44 @@ class DescriptorCheck {
                    fmt::format("the {} '{}' is at set {}, binding {}, where {} binds '{}'", kind, name,
                                resource.set, resource.binding,
                                declaration_of(at->second.name, "", at->second.stage->pieces).text(),
-                               at->second.name));
+                               at->second.name),
+                   kCountedTogether);
         }
+        const DescriptorSet* const set = set_with(name);
+        const DescriptorPlace listed = descriptor_place(family_, name, resource.binding, false);
+        if (set != nullptr && place != std::pair(listed.set, listed.binding))
+            refuse(stage, name,
+                   fmt::format("the {} '{}' is at set {}, binding {}, but {} lists it, at set {}, binding {}",
+                               kind, name, resource.set, resource.binding, text_of(*set), listed.set,
+                               listed.binding),
+                   "declare it by BLOCK or SAMPLER, state the place that the family gives it, or take it out "
+                   "of the set");
         const auto [known, is_first] = place_of_.try_emplace(name, place);
         if (!is_first && known->second != place)
             refuse(
                 stage, name,
                 fmt::format("'{}' is at set {}, binding {}, and in an earlier stage at set {}, binding {}",
-                            name, resource.set, resource.binding, known->second.first, known->second.second));
+                            name, resource.set, resource.binding, known->second.first, known->second.second),
+                kCountedTogether);
         if (resource.set >= kGuaranteedSets && is_first)
             add_warning(
                 stage, name, fmt::format("'{}' is in set {}", name, resource.set),
                 fmt::format("Vulkan guarantees {} sets, 0 to {}", kGuaranteedSets, kGuaranteedSets - 1));
     }
 
-    void refuse(const StageView& stage, const std::string& name, std::string message) {
+    /// The set of the family's that lists a block or sampler; null where none does.
+    [[nodiscard]] const DescriptorSet* set_with(const std::string& name) const {
+        for (const DescriptorSet& set : family_.descriptor_sets)
+            if (std::ranges::find(set.holds, name) != set.holds.end()) return &set;
+        return nullptr;
+    }
+    static std::string text_of(const DescriptorSet& set) {
+        return fmt::format("the set '{}' ({}:{})", set.name, set.holds_place.file, set.holds_place.line);
+    }
+
+    void refuse(const StageView& stage, const std::string& name, std::string message, std::string help) {
         found_.push_back(diagnostic_at(declaration_of(name, "", stage.pieces), Severity::error,
-                                       std::move(message),
-                                       "Vulkan counts blocks and samplers together: list them under "
-                                       "[[descriptor_sets]] in the family, or state other numbers"));
+                                       std::move(message), std::move(help)));
     }
 
     void add_warning(const StageView& stage, const std::string& name, std::string message, std::string help) {
@@ -77,6 +108,7 @@ class DescriptorCheck {
     }
 
     const std::vector<StageView>& stages_;
+    const Family& family_;
     std::map<std::pair<int, int>, Taken> taken_;
     std::map<std::string, std::pair<int, int>> place_of_;
     Diagnostics found_;
@@ -84,8 +116,8 @@ class DescriptorCheck {
 
 }  // namespace
 
-Diagnostics check_descriptors(const std::vector<StageView>& stages) {
-    return DescriptorCheck(stages).run();
+Diagnostics check_descriptors(const std::vector<StageView>& stages, const Family& family) {
+    return DescriptorCheck(stages, family).run();
 }
 
 Diagnostics check_constants(const std::vector<StageView>& stages) {
@@ -96,6 +128,17 @@ Diagnostics check_constants(const std::vector<StageView>& stages) {
             const auto [at, is_new] = known.try_emplace(constant.id, &constant, &stage);
             const auto& [first, in_stage] = at->second;
             if (is_new || *first == constant) continue;
+            const bool is_count = declaration_of(constant.name, "constant_id", stage.pieces).place.file ==
+                                  stage.pieces.front()->path;
+            if (is_count || declaration_of(first->name, "constant_id", in_stage->pieces).place.file ==
+                                in_stage->pieces.front()->path) {
+                const auto& [own, own_stage] = is_count ? at->second : std::pair(&constant, &stage);
+                const std::string& count = is_count ? constant.name : first->name;
+                found.push_back(diagnostic_at(declaration_of(own->name, "constant_id", own_stage->pieces),
+                                              Severity::error, id_of_count(constant.id, count),
+                                              std::string(kIdsOfCounts)));
+                continue;
+            }
             const std::string where = declaration_of(first->name, "constant_id", in_stage->pieces).text();
             found.push_back(diagnostic_at(
                 declaration_of(constant.name, "constant_id", stage.pieces), Severity::error,

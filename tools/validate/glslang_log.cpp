@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <set>
 
 #include <fmt/format.h>
@@ -60,6 +61,39 @@ void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
     }
 }
 
+/// Says which count has the constant_id that a shader states, too.
+void explain_constant_id(Diagnostic& diagnostic, const Piece& prologue) {
+    if (!diagnostic.message.starts_with("'constant_id' : specialization-constant id already used")) return;
+    const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
+    const auto at = std::ranges::find(tokens, "constant_id");
+    if (tokens.end() - at < 3) return;
+    const std::string declared = fmt::format("layout(constant_id = {}) const int ", at[2]);
+    const std::size_t found = prologue.text.find(declared);
+    if (found == std::string::npos) {
+        diagnostic.message = fmt::format("another constant has constant_id {}, too", at[2]);
+        diagnostic.help = "give each constant a number of its own";
+        return;
+    }
+    const std::string_view behind = std::string_view(prologue.text).substr(found + declared.size());
+    diagnostic.message = id_of_count(std::atoi(at[2].data()), behind.substr(0, behind.find(' ')));
+    diagnostic.help = kIdsOfCounts;
+}
+
+/// glslang stops at the first uniform outside of blocks.
+void name_other_uniforms(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
+    if (!diagnostic.message.starts_with("a uniform outside of blocks")) return;
+    std::vector<std::string> others;
+    for (const Piece* const piece : pieces)
+        for (int number = 1; number <= std::ranges::count(piece->text, '\n'); ++number) {
+            const std::vector<std::string_view> tokens = tokens_of(line_of(piece->text, number));
+            const auto uniform = std::ranges::find(tokens, "uniform");
+            const bool is_plain = tokens.end() - uniform > 2 && tokens.back() == ";" && glsl_type(uniform[1]);
+            if (is_plain && !(piece->path == diagnostic.place.file && number == diagnostic.place.line))
+                others.push_back(fmt::format("{}:{}", piece->path, number));
+        }
+    if (!others.empty()) diagnostic.help += fmt::format("; so must those of {}", join(others, ", "));
+}
+
 /// Adds what glslang leaves out: which extension, which numbers.
 void explain(Diagnostic& diagnostic) {
     if (diagnostic.severity == Severity::warning &&
@@ -101,6 +135,10 @@ void explain(Diagnostic& diagnostic) {
 }
 
 }  // namespace
+
+std::string id_of_count(int id, std::string_view count) {
+    return fmt::format("constant_id {} is that of the count {}", id, count);
+}
 
 void make_strict(Diagnostic& diagnostic, std::string_view prologue, bool is_relaxed) {
     const auto says = [&](std::string_view text) { return diagnostic.message.starts_with(text); };
@@ -158,7 +196,11 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
         return diagnostic.message == "'' : missing #endif";
     };
     if (!std::ranges::all_of(diagnostics, is_missing_end)) std::erase_if(diagnostics, is_missing_end);
-    for (Diagnostic& diagnostic : diagnostics) explain(diagnostic);
+    for (Diagnostic& diagnostic : diagnostics) {
+        explain(diagnostic);
+        name_other_uniforms(diagnostic, pieces);
+        if (!pieces.empty()) explain_constant_id(diagnostic, *pieces.front());
+    }
     return diagnostics;
 }
 

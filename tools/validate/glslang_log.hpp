@@ -1,6 +1,7 @@
 // What glslang says, as diagnostics at the pieces.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "core/diagnostic.hpp"
 
 namespace gobo {
+
+/// What is said of a shader's own constant that has the constant_id of a count.
+[[nodiscard]] std::string id_of_count(int id, std::string_view count);
+inline constexpr std::string_view kIdsOfCounts =
+    "the first constant_ids, from 0, are those of the counts with specialize = true: give yours a number "
+    "behind them";
 
 /// Reads the lines of an info log. A message that names one of the pieces gets that piece's path and line,
 /// with the line quoted; the rest (those of linking) stand at `otherwise`. Of what follows from another

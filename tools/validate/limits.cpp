@@ -7,13 +7,12 @@
 #include "compose/dialect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
+#include "validate/guarantees.hpp"
 #include "validate/link_rules.hpp"
 
 namespace gobo {
 namespace {
 
-constexpr int kRowsOfVaryings = 15;
-constexpr int kVaryingComponents = 60;  // 15 vectors of four
 /// 4096 vectors of four: what AMD's, Intel's and Mesa's drivers offer, and none more.
 constexpr int kMostComponents = 16384;
 
@@ -72,8 +71,11 @@ class LimitCheck {
         version_ = version.number;
         block_bindings_ = dialect == Dialect::glsl330 ? 36 : dialect == Dialect::es300 ? 24 : 84;
         units_ = is_es_ ? 32 : version.number < 400 ? 48 : 80;
-        if (dialect == Dialect::vulkan)
+        if (dialect == Dialect::vulkan) {
             block_bindings_ = units_ = kMostComponents;  // bindings are mere names
+            rows_of_varyings_ = 16;
+            varying_components_ = 64;
+        }
     }
 
     Diagnostics run() {
@@ -100,7 +102,7 @@ class LimitCheck {
         const Declaration at = name.empty() ? Declaration{{stage.pieces.back()->path, 0, 0}, "", false}
                                             : declaration_of(name, "", stage.pieces);
         found_.push_back(diagnostic_at(
-            at, severity, fmt::format("{} {}, OpenGL guarantees only {} ({})", what, needed, limit, constant),
+            at, severity, fmt::format("{} {}, {}", what, needed, guarantee_text(dialect_, limit, constant)),
             "use fewer, or forbid the combination by a rule of the family"));
     }
 
@@ -159,6 +161,7 @@ class LimitCheck {
         // AMD's and NVIDIA's drivers offer more bindings of storage blocks than are guaranteed, none more
         // than 96.
         for (const Block& block : interface.storage_blocks) {
+            if (dialect_ == Dialect::vulkan) break;
             const std::int64_t binding = std::int64_t{block.binding} + 1;
             at_most(binding > 96 ? 96 : 8, binding, stage, block.name,
                     fmt::format("storage buffer bindings up to that of '{}':", block.name),
@@ -204,15 +207,15 @@ class LimitCheck {
             if (!input.usage.unused)
                 components += std::int64_t{1} * glsl_type(input.type).value_or(GlslType{}).components() *
                               element_count(input.array);
-        at_most(kVaryingComponents, components, fragment, "",
+        at_most(varying_components_, components, fragment, "",
                 "varying components:", "MAX_VARYING_COMPONENTS");
         const std::size_t found = found_.size();
-        if (components <= kVaryingComponents) {
+        if (components <= varying_components_) {
             if (before != nullptr) check_varying_locations(*before, before->interface.outputs);
             if (found_.size() == found) check_varying_locations(fragment, inputs);
         }
-        if (is_es_ && found_.size() == found && components <= kVaryingComponents)
-            at_most(kRowsOfVaryings, packed_rows(inputs), fragment, "",
+        if (is_es_ && found_.size() == found && components <= varying_components_)
+            at_most(rows_of_varyings_, packed_rows(inputs), fragment, "",
                     "varying vectors:", "MAX_VARYING_VECTORS");
     }
 
@@ -223,13 +226,13 @@ class LimitCheck {
             if (variable.location < 0) continue;
             const std::int64_t count = location_count(variable.type, variable.array);
             if (!variable.usage.unused && variable.component == 0) needed += count;
-            if (variable.location + count <= kRowsOfVaryings) continue;
-            at_most(kRowsOfVaryings, variable.location + count, stage, variable.name,
+            if (variable.location + count <= rows_of_varyings_) continue;
+            at_most(rows_of_varyings_, variable.location + count, stage, variable.name,
                     fmt::format("locations of varyings up to the last of '{}':", variable.name),
                     "MAX_VARYING_COMPONENTS / 4");
             return;
         }
-        at_most(kRowsOfVaryings, needed, stage, "", "varying vectors:", "MAX_VARYING_VECTORS");
+        at_most(rows_of_varyings_, needed, stage, "", "varying vectors:", "MAX_VARYING_VECTORS");
     }
 
     /// Attributes or fragment outputs: each column of a matrix and each element of an array takes a location.
@@ -294,6 +297,8 @@ class LimitCheck {
     int version_ = 0;
     int block_bindings_ = 0;
     int units_ = 0;
+    int rows_of_varyings_ = 15;
+    int varying_components_ = 60;  ///< 15 vectors of four
     Diagnostics found_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
+#include "family/family.hpp"
 #include "reflect/interface.hpp"
 
 namespace gobo {
@@ -25,9 +26,9 @@ struct StageView {
 /// The part of check_link() that looks at bindings, texture units, locations of uniforms and atomic counters.
 [[nodiscard]] Diagnostics check_shared_places(const std::vector<StageView>& stages);
 
-/// Of stages for Vulkan: blocks and samplers that share a place, with both lines; sets and push constants
-/// beyond what every device has, as warnings.
-[[nodiscard]] Diagnostics check_descriptors(const std::vector<StageView>& stages);
+/// Of stages for Vulkan: blocks and samplers that share a place, with both lines, or are not where the family
+/// lists them; sets and push constants beyond what every device has, as warnings.
+[[nodiscard]] Diagnostics check_descriptors(const std::vector<StageView>& stages, const Family& family);
 
 /// Of stages that are shipped as SPIR-V: specialisation constants that share a constant_id but are not alike,
 /// with both lines. The header has one table of them for all stages.

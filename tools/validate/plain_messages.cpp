@@ -107,6 +107,25 @@ std::string text_of(const Place& place) {
     return fmt::format("{}:{}", place.file, place.line);
 }
 
+/// At the second block of push constants.
+Diagnostic push_constants_message(const PieceList& pieces) {
+    std::vector<Declaration> blocks;
+    for (const Piece* const piece : pieces) {
+        const auto lines = 1 + std::ranges::count(piece->text, '\n');
+        for (int number = 1; number <= lines; ++number) {
+            const std::string_view line = line_of(piece->text, number);
+            const std::vector<std::string_view> tokens = tokens_of(line);
+            if (std::ranges::find(tokens, "push_constant") != tokens.end())
+                blocks.push_back({{piece->path, number, 0}, std::string(line)});
+        }
+    }
+    blocks.resize(std::max<std::size_t>(blocks.size(), 2), {{pieces.back()->path, 0, 0}, ""});
+    return diagnostic_at(
+        blocks[1], Severity::error,
+        fmt::format("a second block of push constants, beside that of {}: a stage has one", blocks[0].text()),
+        "put the members of both into one block");
+}
+
 }  // namespace
 
 Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceList& earlier) {
@@ -117,6 +136,10 @@ Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceL
             diagnostic = function_message(message, pieces);
         else if (!earlier.empty() && (says("must match") && (says("\"") || says("Initializers"))))
             diagnostic = mismatch_message(message, pieces, earlier);
+        else if (says("Only one push_constant block is allowed per stage"))
+            diagnostic = push_constants_message(pieces);
+        else if (message.starts_with("Linking ") && says(": "))  // "Linking unknown stage stage: "
+            diagnostic.message = message.substr(message.find(": ") + 2);
     }
     return found;
 }

@@ -9,6 +9,7 @@
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
+#include "validate/guarantees.hpp"
 
 namespace gobo {
 namespace {
@@ -128,7 +129,7 @@ class StageCheck {
         if (size > limit)
             found_.push_back(diagnostic_at(
                 at, severity,
-                fmt::format("{}: {}, OpenGL guarantees only {} ({})", what, size, limit, constant),
+                fmt::format("{}: {}, {}", what, size, guarantee_text(dialect_, limit, constant)),
                 "state fewer"));
     }
 
@@ -261,9 +262,9 @@ class StageCheck {
                               element_count(output.array);
         if (vertices * components > kGuaranteed)
             refuse(use_of("max_vertices", pieces_),
-                   fmt::format("{} vertices of {} components each are {}, OpenGL guarantees only {} "
-                               "(MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS)",
-                               vertices, components, vertices * components, kGuaranteed),
+                   fmt::format("{} vertices of {} components each are {}, {}", vertices, components,
+                               vertices * components,
+                               guarantee_text(dialect_, kGuaranteed, "MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS")),
                    "emit fewer vertices, or write fewer components with each");
     }
 

@@ -82,11 +82,14 @@ class Validator {
         if (!batches_.empty()) compile();
         if (known_) keep_results();
         state_bindings();
-        parallel_for(options_.jobs, programs_.size(), [&](std::size_t i) { check_program(i); });
+        parallel_for(options_.jobs, programs_.size(), [&](std::size_t i) { check_program(i, family); });
         DiagnosticGroups groups(family);
-        for (const Permutation& permutation : composition_.permutations)
-            for (const Diagnostic& diagnostic : diagnostics_of(permutation))
-                groups.add(diagnostic, permutation.key);
+        for (std::size_t i = 0; i < composition_.permutations.size(); ++i) {
+            const Permutation& permutation = composition_.permutations[i];
+            const Diagnostics found = diagnostics_of(permutation);
+            for (const Diagnostic& diagnostic : found) groups.add(diagnostic, permutation.key);
+            if (exit_status(found) != 0) validated_.failed.insert(i);
+        }
         validated_.diagnostics = groups.result();
         return std::move(validated_);
     }
@@ -271,7 +274,7 @@ class Validator {
 
     /// The rules that glslang forgets. Where they find why a program does not link they say it with both
     /// places, so what glslang said goes.
-    void check_program(std::size_t index) {
+    void check_program(std::size_t index, const Family& family) {
         std::vector<StageView> views;
         for (const int stage : programs_[index]) {
             if (!of_stage(stage).is_fine) return;
@@ -283,7 +286,7 @@ class Validator {
         const Diagnostics found = check_link(views);
         if (exit_status(found) != 0) all.clear();
         append(all, found);
-        if (composition_.dialect == Dialect::vulkan) append(all, check_descriptors(views));
+        if (composition_.dialect == Dialect::vulkan) append(all, check_descriptors(views, family));
         if (is_spirv(composition_.dialect)) append(all, check_constants(views));
         if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }
@@ -325,14 +328,24 @@ Validated validate(const Family& family, const Composition& composition, const V
 }
 
 Diagnostics same_programs(const Family& family, const Composition& composition, const Validated& validated) {
+    // The stages by their SPIR-V, and the counts that are constants in them.
+    using Executable = std::pair<PerStage<std::uint64_t>, std::map<int, int>>;
     const auto program_of = [&](const Permutation& permutation) {
         const auto hash = [&](int stage) { return stage < 0 ? 0 : validated.stage(stage).hash; };
-        PerStage<std::uint64_t> hashes;
-        for (const StageNames& stage : kStages) hashes[stage.kind] = hash(permutation.stages[stage.kind]);
-        return hashes;
+        Executable program;
+        for (const StageNames& stage : kStages)
+            program.first[stage.kind] = hash(permutation.stages[stage.kind]);
+        for (const int stage : permutation.stages.values) {
+            if (stage < 0) continue;
+            for (const SpecializationConstant& constant :
+                 validated.stage(stage).interface.specialization_constants)
+                for (const SpecializedCount& count : permutation.specialized)
+                    if (count.id == constant.id) program.second[count.id] = count.value;
+        }
+        return program;
     };
-    std::map<PerStage<std::uint64_t>, const Key*> first_of;
-    std::map<Key, PerStage<std::uint64_t>> programs;
+    std::map<Executable, const Key*> first_of;
+    std::map<Key, Executable> programs;
     std::string example;
     for (const Permutation& permutation : composition.permutations) {
         const auto program = program_of(permutation);

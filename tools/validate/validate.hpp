@@ -2,7 +2,9 @@
 // stage, or the diagnostics.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,7 @@ struct StoppedStage {
 struct Validated {
     std::vector<ValidatedStage> stages;  ///< those of failed permutations are empty
     Diagnostics diagnostics;             ///< errors and warnings, grouped over permutations
+    std::set<std::size_t> failed;        ///< permutations that have errors
     std::vector<StoppedStage> stopped;
     std::size_t compiled = 0;  ///< how many stages went through glslang; the others were in the cache
 
@@ -73,6 +76,11 @@ struct ValidateOptions {
 /// cannot matter stands at its default.
 [[nodiscard]] Diagnostics same_programs(const Family& family, const Composition& composition,
                                         const Validated& validated);
+
+/// For dialects of SPIR-V: errors where keys that are each fine cannot share a header, whose tables hold one
+/// name for each set and binding, and one constant for each constant_id.
+[[nodiscard]] Diagnostics clashes_of_keys(const Family& family, const Composition& composition,
+                                          const Validated& validated);
 
 /// The interface of a permutation's stages as one program.
 [[nodiscard]] Interface interface_of(const Validated& validated, const Permutation& permutation);

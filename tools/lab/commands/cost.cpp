@@ -355,7 +355,7 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
                     fmt::format("--specialized does not compare in --dialect {}", options.dialect),
                     "leave --dialect out, or name vulkan");
     const auto compiled = [&](const std::string& dialect, Counts counts) -> Result<Side> {
-        GOBO_TRY(const Subject subject, load_subject(world, options.names, {}, dialect, &options, counts));
+        GOBO_TRY(Subject subject, load_subject(world, options.names, {}, dialect, &options, counts));
         GOBO_TRY_DO(
             refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
         Side side;

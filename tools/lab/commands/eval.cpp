@@ -22,7 +22,7 @@ struct EvalOptions {
 };
 
 /// The stage, ready to be evaluated.
-Result<evaluate::Program> program_of(const World& world, const Subject& subject, StageKind stage,
+Result<evaluate::Program> program_of(const World& world, Subject& subject, StageKind stage,
                                      std::uint32_t longest_array) {
     GOBO_TRY(const Validated validated,
              compile(world, subject, {.keep_spirv = true, .debug_information = true}));
@@ -55,7 +55,7 @@ std::vector<std::string> machine_names() {
 }
 
 Result<Outcome> run(const EvalOptions& options, const World& world) {
-    GOBO_TRY(const Subject subject,
+    GOBO_TRY(Subject subject,
              load_subject(world, options.names, options.stages, options.dialect, nullptr, Counts::literal));
     GOBO_TRY(const std::string text, read_input(world, options.inputs));
     GOBO_TRY(const auto inputs, evaluate::read_eval_inputs(text, options.inputs));

@@ -98,7 +98,7 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
         return std::nullopt;
     const bool is_vulkan = composition.dialect == Dialect::vulkan;
     GOBO_TRY(LoadedFamily depth, load_family(world, "depth", is_vulkan ? "vulkan" : ""));
-    GOBO_TRY(const Composition stages, compose_selection(world, depth, {}));
+    GOBO_TRY(Composition stages, compose_selection(world, depth, {}));
     GOBO_TRY(const Validated validated, compile(world, depth, stages, {.keep_spirv = true}));
     const Permutation& permutation = stages.permutations.front();
     verify::ShadowPass pass;

@@ -120,7 +120,7 @@ Result<RenderedSelection> render_page(const RenderOptions& options, const World&
     for_browsers.dialect = Dialect::es300;
     std::vector<Key> keys;
     for (const Permutation& permutation : composition.permutations) keys.push_back(permutation.key);
-    GOBO_TRY(const Composition in_browsers, compose_keys(for_browsers, keys));
+    GOBO_TRY(Composition in_browsers, compose_keys(for_browsers, keys));
     GOBO_TRY(const Validated valid_there, compile(world, for_browsers, in_browsers));
     const std::vector<Interface> interfaces = interfaces_of(in_browsers, valid_there);
     gallery::LivePage live(family.family, scene, in_browsers, interfaces);
@@ -139,7 +139,7 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     if (options.live) family.dialect = Dialect::es300;  // its rules say what browsers can draw
     GOBO_TRY(const std::vector<Key> selected, load_keys(world, family, keys));
     family.dialect = drawn;
-    GOBO_TRY(const Composition composition, compose_keys(family, selected));
+    GOBO_TRY(Composition composition, compose_keys(family, selected));
     if (composition.permutations.empty())
         return RenderedSelection{{}, warn_of_no_keys(composition, "nothing was drawn")};
     for (const Permutation& permutation : composition.permutations)
@@ -226,7 +226,7 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
     if (!options.scenes.empty())
         return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
     GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
-    GOBO_TRY(const Composition composition, compose_selection(world, family, options));
+    GOBO_TRY(Composition composition, compose_selection(world, family, options));
     if (composition.permutations.empty())
         return RenderedSelection{{}, warn_of_no_keys(composition, "nothing was drawn")};
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));

@@ -360,7 +360,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
         keys.insert(keys.end(), partners.begin(), partners.end());
         verify_options.partners = partners.size();
     }
-    GOBO_TRY(const Composition composition, compose_keys(family, keys));
+    GOBO_TRY(Composition composition, compose_keys(family, keys));
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
     if (options.render && options.backend == kVulkanBackend)  // draws in children of its own
