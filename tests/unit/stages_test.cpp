@@ -323,6 +323,7 @@ TEST(Pictures, AreDrawnThroughStagesBetween) {
             interface.stages.emplace_back(name_of(kind));
         }
         interface.inputs = {{"position", "vec3", -1, {}}};
+        interface.outputs = {{"color", "vec4", -1, {}}};
         View view;
         view.width = view.height = 16;
         std::vector<Object> objects(1);
