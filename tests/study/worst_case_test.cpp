@@ -70,10 +70,9 @@ TEST(WorstCase, FindsWhatATableOfTheEnvironmentBrdfGivesBack) {
 
 /// A light's error shows whole where the others are dark.
 TEST(WorstCase, IsNoLessAmongMoreLights) {
-    const auto many =
-        searched({"directional=1 fog=exponential point=1 specular=blinn spot=1"}, {}, 16384);
-    for (const char* quality : {"power=near_exact", "power=gaussian_fitted", "power=gaussian", "power=lyon",
-                                "power=schlick"})
+    const auto many = searched({"directional=1 fog=exponential point=1 specular=blinn spot=1"}, {}, 16384);
+    for (const char* quality :
+         {"power=near_exact", "power=gaussian_fitted", "power=gaussian", "power=lyon", "power=schlick"})
         EXPECT_GT(worst_of(many, quality), 0.6 * worst_of(all_cases(), quality)) << quality;
 }
 

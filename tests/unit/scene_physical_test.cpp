@@ -331,7 +331,8 @@ TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {
     };
     const Result<Scene> beyond = read("4294967296");
     ASSERT_TRUE(beyond);
-    EXPECT_THAT(beyond->materials.front().physical.not_drawn, ElementsAre("baseColorTexture by texCoord 4294967296"));
+    EXPECT_THAT(beyond->materials.front().physical.not_drawn,
+                ElementsAre("baseColorTexture by texCoord 4294967296"));
     const Result<Scene> below = read("-1");
     ASSERT_FALSE(below);
     EXPECT_THAT(

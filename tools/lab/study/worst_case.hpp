@@ -56,8 +56,9 @@ struct BrokenPromise {
     double error = 0;  ///< the worst that was found
 };
 /// The promises that some case breaks, in order.
-[[nodiscard]] std::vector<BrokenPromise> broken_promises(const Family& family, const std::vector<Promise>& promises,
-                                                   const std::vector<WorstCase>& cases);
+[[nodiscard]] std::vector<BrokenPromise> broken_promises(const Family& family,
+                                                         const std::vector<Promise>& promises,
+                                                         const std::vector<WorstCase>& cases);
 
 /// The study.csv with what the cases found in the column error_worst of the rows of all scenes; "none" for
 /// keys that they leave out.
