@@ -142,6 +142,19 @@ const Row refused[] = {
         "'image2DMS' is no name"),
     row("a_name_of_layouts_es", "300 es", with_main("float packed = 1.0;\n", "packed"),
         "'packed' is no name"),
+    row("macro_of_spirv", "330 core",
+        with_main("#ifdef GL_SPIRV\nconst float g = 1.0;\n#else\nbroken g;\n#endif\n", "g"),
+        "tiny.frag:5: error"),
+    row("macro_of_spirv_as_a_value", "450", with_main("", "float(GL_SPIRV)"),
+        "'GL_SPIRV' : undeclared identifier"),
+    row("macro_of_a_vulkan_extension", "450",
+        with_main("#if defined GL_EXT_control_flow_attributes || defined(GL_EXT_ray_tracing)\n"
+                  "const float g = 1.0;\n#else\nbroken g;\n#endif\n",
+                  "g"),
+        "tiny.frag:5: error"),
+    row("macro_of_tools", "300 es",
+        with_main("#ifdef GL_GOOGLE_include_directive\nconst float g = 1.0;\n#endif\n", "g"),
+        "'g' : undeclared identifier"),
     row("quotation_in_code", "330 core", with_main("float g\" = 1.0;\n", "g"), "tiny.frag:2: error"),
 };
 
@@ -160,6 +173,13 @@ const Row taken[] = {
         with_main(
             "#ifdef GL_EXT_nonuniform_qualifier\n#extension GL_EXT_nonuniform_qualifier : enable\n#endif\n"),
         ""),
+    row("vulkan_where_its_macro_is_defined", "450",
+        with_main("#ifdef GL_EXT_nonuniform_qualifier\n#extension GL_EXT_nonuniform_qualifier : enable\n"
+                  "#define AT(i) nonuniformEXT(i)\n#else\n#define AT(i) i\n#endif\n",
+                  "AT(1)"),
+        ""),
+    row("set_where_spirv_is_made", "450",
+        with_main("#ifdef GL_SPIRV\nlayout(set = 0, binding = 1) uniform sampler2D map;\n#endif\n"), ""),
     row("macro_gives_defined", "330 core", with_main("#define HAS defined(FOG)\n#if HAS\nbroken\n#endif\n"),
         ""),
     row("semicolons_alone", "330 core",

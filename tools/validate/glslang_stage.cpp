@@ -141,14 +141,20 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     shader_ = std::make_unique<Shader>(language_of(kind_));
     const MissingBuiltIns built_ins =
         for_spirv ? missing_built_ins(kind_, prologue, pieces_) : MissingBuiltIns{};
-    shader_->prologue = prologue + built_ins.declarations;
+    const bool is_shipped = !is_spirv(dialect_);
+    const auto seen_by_drivers = [&](const std::string& text) {
+        return is_shipped && text.find("GL_") != std::string::npos ? without_foreign_macros(text) : text;
+    };
+    shader_->prologue = seen_by_drivers(prologue) + built_ins.declarations;
     for (const Piece* piece : pieces_) {
         const bool is_prologue = piece == pieces_.front();
+        const bool is_changed =
+            !built_ins.renamed.empty() || (is_shipped && piece->text.find("GL_") != std::string::npos);
         const std::string& text =
             is_prologue ? shader_->prologue
-            : built_ins.renamed.empty()
+            : !is_changed
                 ? piece->text
-                : shader_->renamed.emplace_back(substituted(piece->text, built_ins.renamed));
+                : shader_->renamed.emplace_back(seen_by_drivers(substituted(piece->text, built_ins.renamed)));
         shader_->texts.push_back(text.data());
         shader_->lengths.push_back(static_cast<int>(text.size()));
         shader_->names.push_back(piece->path.c_str());
@@ -234,7 +240,7 @@ Diagnostics GlslangStage::parse() {
     drop_consequences(found);
     if (has_errors(found)) return found;
     // Vulkan's language is what glslang takes.
-    Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_);
+    Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_, dialect_);
     std::ranges::move(more, std::back_inserter(found));
     if (!is_spirv(dialect_)) {
         more = check_calls(shader_->shader.getInfoDebugLog(), pieces_);

@@ -14,6 +14,7 @@
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "validate/language_names.hpp"
+#include "validate/missing_built_ins.hpp"
 
 namespace gobo {
 namespace {
@@ -36,8 +37,9 @@ std::string version_text(int number, bool es) {
 
 class LanguageCheck {
   public:
-    LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces)
+    LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces, Dialect dialect)
         : kind_(kind),
+          is_shipped_(!is_spirv(dialect)),
           pieces_(pieces),
           prologue_(pieces.front()->text),
           version_(version_of(prologue_)),
@@ -135,7 +137,8 @@ class LanguageCheck {
         if (conditions_.is_active()) check_directive(word, rest, piece, number);
         if (word == "define" || word == "undef" || word.starts_with("if") || word.starts_with("el") ||
             word == "endif")
-            static_cast<void>(conditions_.apply({std::string(word), std::string(rest), {}, {}}));
+            static_cast<void>(conditions_.apply(
+                {std::string(word), is_shipped_ ? without_foreign_macros(rest) : std::string(rest), {}, {}}));
     }
 
     void check_directive(std::string_view word, std::string_view rest, const Piece& piece, int number) {
@@ -445,6 +448,7 @@ class LanguageCheck {
     }
 
     StageKind kind_;
+    bool is_shipped_;  ///< drivers get the text
     const std::vector<const Piece*>& pieces_;
     const std::string& prologue_;
     GlslVersion version_;
@@ -460,8 +464,8 @@ class LanguageCheck {
 
 }  // namespace
 
-Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces) {
-    return LanguageCheck(kind, pieces).run();
+Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, Dialect dialect) {
+    return LanguageCheck(kind, pieces, dialect).run();
 }
 
 }  // namespace gobo

@@ -11,6 +11,7 @@ namespace gobo {
 /// Errors of what the stage's active lines say: names and layout qualifiers of later versions or of Vulkan,
 /// extensions that OpenGL has not, macros that make strings, functions declared within others. The first
 /// piece is the prologue, which states version and extensions.
-[[nodiscard]] Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces);
+[[nodiscard]] Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces,
+                                         Dialect dialect);
 
 }  // namespace gobo

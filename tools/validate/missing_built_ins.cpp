@@ -5,10 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "compose/scan_piece.hpp"
+#include "compose/tokens.hpp"
+#include "validate/language_names.hpp"
+
 namespace gobo {
 namespace {
 
 constexpr std::string_view kOwnPrefix = "gobo_built_in_";
+constexpr std::string_view kUndefinedPrefix = "gobo_undefined_";
 
 struct BuiltIn {
     std::string_view name;
@@ -34,6 +39,21 @@ bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue) 
 
 std::string own_name(std::string_view name) {
     return fmt::format("{}{}", kOwnPrefix, name.substr(3));
+}
+
+bool is_foreign_macro(std::string_view name) {
+    const ExtensionOf owner = owner_of_extension(name);
+    return name == "GL_SPIRV" || owner == ExtensionOf::vulkan || owner == ExtensionOf::tools;
+}
+
+void replace_all(std::string& text, std::string_view old, std::string_view by) {
+    for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size()))
+        text.replace(at, old.size(), by);
+}
+
+bool states_extension(std::string_view line) {
+    const std::vector<std::string_view> tokens = tokens_of(line);
+    return tokens.size() > 1 && tokens[0] == "#" && tokens[1] == "extension";
 }
 
 }  // namespace
@@ -63,10 +83,25 @@ bool is_missing_built_in(std::string_view uniform) {
     return uniform.starts_with(kOwnPrefix);
 }
 
+std::string without_foreign_macros(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        const std::size_t size = std::min(line.size() + 1, text.size());
+        Substitutions renamed;
+        if (line.find("GL_") != std::string_view::npos && !states_extension(line))
+            for (const std::string_view name : identifiers_of(line))
+                if (is_foreign_macro(name))
+                    renamed.emplace_back(name, fmt::format("{}{}", kUndefinedPrefix, name));
+        result += renamed.empty() ? text.substr(0, size) : substituted(text.substr(0, size), renamed);
+        text.remove_prefix(size);
+    }
+    return result;
+}
+
 void name_built_ins(Diagnostic& diagnostic) {
-    for (auto at = diagnostic.message.find(kOwnPrefix); at != std::string::npos;
-         at = diagnostic.message.find(kOwnPrefix, at))
-        diagnostic.message.replace(at, kOwnPrefix.size(), "gl_");
+    replace_all(diagnostic.message, kOwnPrefix, "gl_");
+    replace_all(diagnostic.message, kUndefinedPrefix, "");
 }
 
 }  // namespace gobo

@@ -1,4 +1,5 @@
-// What GLSL has built in and SPIR-V has not: glslang reads it as uniforms of other names.
+// What GLSL has built in and SPIR-V has not, which glslang reads as uniforms of other names; and the macros
+// that glslang alone defines.
 #pragma once
 
 #include <string>
@@ -24,7 +25,10 @@ struct MissingBuiltIns {
 
 /// Whether a uniform is one of those.
 [[nodiscard]] bool is_missing_built_in(std::string_view uniform);
-/// Gives them their own names again.
+/// The text with other names for the macros that glslang defines and no driver of OpenGL does: `GL_SPIRV`,
+/// and those of extensions that Vulkan or tools alone have. Its `#extension` lines stay as they are.
+[[nodiscard]] std::string without_foreign_macros(std::string_view text);
+/// Gives them, and the macros, their own names again.
 void name_built_ins(Diagnostic& diagnostic);
 
 }  // namespace gobo

@@ -3,11 +3,15 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 
+#include "validate/missing_built_ins.hpp"
+
 namespace gobo {
 
 std::optional<std::string> preprocessed(const Composition& composition, const Stage& stage) {
     [[maybe_unused]] static const bool is_initialized = glslang::InitializeProcess();
-    const std::string source = source_of(composition, stage);
+    const std::string source = is_spirv(composition.dialect)
+                                   ? source_of(composition, stage)
+                                   : without_foreign_macros(source_of(composition, stage));
     const char* const text = source.data();
     const int length = static_cast<int>(source.size());
     const EShLanguage language = stage.kind == StageKind::vertex ? EShLangVertex : EShLangFragment;
