@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lab/raster/shared_textures.hpp"
+#include "lab/scene_picture/picture_levels.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -49,28 +50,18 @@ Color filtered(const Level& level, double x, double y, int wrap_s, int wrap_t) {
     return color;
 }
 
-/// Each texel of the next level lies between texels of this one.
-Level halved(const Level& from) {
-    Level to{std::max(from.width / 2, 1), std::max(from.height / 2, 1), {}};
-    for (int y = 0; y < to.height; ++y)
-        for (int x = 0; x < to.width; ++x)
-            to.texels.push_back(filtered(from, (x + 0.5) * from.width / to.width,
-                                         (y + 0.5) * from.height / to.height, kClampToEdge, kClampToEdge));
-    return to;
-}
-
 std::vector<Level> levels_of(const PictureUse& use) {
-    Level whole{use.picture->width, use.picture->height, {}};
-    const std::vector<std::uint8_t>& bytes = use.picture->texels;
-    for (std::size_t i = 0; i < bytes.size(); i += 4) {
-        Color& color = whole.texels.emplace_back();
-        for (std::size_t c = 0; c < 4; ++c) {
-            const double signal = bytes[i + c] / 255.0;
-            color[c] = use.is_srgb && c < 3 ? linear_of_srgb(signal) : signal;
+    std::vector<Level> levels;
+    for (const TextureImage& picture : picture_levels(*use.picture, use.is_srgb)) {
+        Level& level = levels.emplace_back(Level{picture.width, picture.height, {}});
+        for (std::size_t i = 0; i < picture.texels.size(); i += 4) {
+            Color& color = level.texels.emplace_back();
+            for (std::size_t c = 0; c < 4; ++c) {
+                const double signal = picture.texels[i + c] / 255.0;
+                color[c] = use.is_srgb && c < 3 ? linear_of_srgb(signal) : signal;
+            }
         }
     }
-    std::vector<Level> levels = {std::move(whole)};
-    while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
     return levels;
 }
 

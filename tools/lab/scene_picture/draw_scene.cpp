@@ -10,6 +10,7 @@
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "lab/scene_picture/picture_levels.hpp"
 #include "lab/scene_picture/posed_mesh.hpp"
 
 namespace gobo::scene {
@@ -135,9 +136,12 @@ Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) 
     gl.GenTextures(1, &texture.name);
     gl.BindTexture(GL_TEXTURE_2D, texture.name);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, use.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, use.picture->width,
-                  use.picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, use.picture->texels.data());
-    gl.GenerateMipmap(GL_TEXTURE_2D);
+    // Not by glGenerateMipmap: llvmpipe's takes one sample of the level above, which misses texels where a
+    // side is odd.
+    GLint number = 0;
+    for (const TextureImage& level : picture_levels(*use.picture, use.is_srgb))
+        gl.TexImage2D(GL_TEXTURE_2D, number++, use.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width,
+                      level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, use.use->is_nearest ? GL_NEAREST : GL_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, use.use->wrap_s);
