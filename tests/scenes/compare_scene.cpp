@@ -74,7 +74,7 @@ Result<Comparison> compare_scene(const ShippedFamily& pbr, const Studio& studio,
     GOBO_TRY(const auto shaders,
              shaders_for_draws(pbr.family, pbr.search, std::move(draws), {}, Dialect::own, 2));
     GOBO_TRY(const Context context, open_context(Backend::osmesa));
-    CubeMaps cubes(context);
+    EnvironmentMaps cubes(context);
     for (const auto& [sampler, levels] : studio.levels) GOBO_TRY_DO(cubes.add(sampler, levels));
     const DepthPass depth_pass = shipped_depth_pass(kMapSide);
     GOBO_TRY(const Picture picture,

@@ -73,6 +73,10 @@ std::vector<ClosedForm> closed_forms() {
     for (const double exponent : {1.0, 2.0, 48.0, 1000.0})
         rows.push_back({"constant", environment(64, [](const glm::dvec3&) { return 0.75; }), exponent,
                         [](const glm::dvec3&) { return 0.75; }, 1e-12});
+    // A lobe that falls between texels takes the nearest, half a texel away at most.
+    rows.push_back({"between_texels",
+                    environment(64, [](const glm::dvec3& w) { return 2 + w.x + w.y / 2 + w.z / 4; }), 1e6,
+                    [](const glm::dvec3& n) { return 2 + n.x + n.y / 2 + n.z / 4; }, 0.04});
     // The share of the sky: the midpoint rule over 128 rows is off by pi^2 / (24 * 128^2) of the integral's
     // curvature, at most 1e-4.
     rows.push_back({"half", kUpperHalf, 1, [](const glm::dvec3& n) { return (1 + n.y) / 2; }, 1e-4});

@@ -166,7 +166,7 @@ TEST(RendererPrecision, OfFilteringIsWithinTheLimits) {
         });
     context.gl().DeleteTextures(1, &texture.name);
     const Image faces = patchwork(32, 6 * 32);
-    CubeMaps cubes(context);
+    EnvironmentMaps cubes(context);
     ASSERT_TRUE(cubes.add("map", faces));
     const auto fraction = [](double x) { return x - std::floor(x); };
     const double of_cube =

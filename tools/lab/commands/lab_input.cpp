@@ -21,10 +21,19 @@
 namespace gobo {
 namespace {
 
-Result<CubeImages> shipped_environment(const World& world) {
-    const std::string path = "data/environments/studio.exr";
-    GOBO_TRY(const Image image, read_image(world.shipped, path));
-    GOBO_TRY(const auto environment, probe::environment_of(image, path));
+constexpr const char* kEnvironmentHelp =
+    "name a folder that gobo probe wrote, or a latitude-longitude map FILE.exr";
+
+/// The map of the file `path`; the shipped `studio` where that is empty.
+Result<probe::Environment> load_panorama(const World& world, const std::string& path) {
+    const std::string file = path.empty() ? "data/environments/studio.exr" : path;
+    const Result<Image> image = read_image(path.empty() ? world.shipped : world.disk, file);
+    if (!image) return with_help(image.error(), kEnvironmentHelp);
+    return probe::environment_of(*image, file);
+}
+
+Result<CubeImages> environment_from_panorama(const World& world, const std::string& path) {
+    GOBO_TRY(const auto environment, load_panorama(world, path));
     return CubeImages{{"diffuseMap", probe::lobe_map(environment, 1, 16, world.jobs())},
                       {"specularMap", probe::lobe_map(environment, 48, 32, world.jobs())}};
 }
@@ -37,10 +46,9 @@ bool looks_up_environment(const Interface& interface) {
 
 }  // namespace
 
-Result<std::vector<Image>> load_roughness_levels(const World& world, int levels) {
-    const std::string path = "data/environments/studio.exr";
-    GOBO_TRY(const Image image, read_image(world.shipped, path));
-    GOBO_TRY(const auto environment, probe::environment_of(image, path));
+Result<std::vector<Image>> load_roughness_levels(const World& world, const std::string& panorama,
+                                                 int levels) {
+    GOBO_TRY(const auto environment, load_panorama(world, panorama));
     return probe::roughness_maps(environment, 64, levels, world.jobs());
 }
 
@@ -68,15 +76,23 @@ Result<std::pair<int, int>> read_pair(const std::string& text, char separator, i
     return fail(Fault::usage, fmt::format("'{}' is not a valid {}", text, what), help);
 }
 
-Result<CubeImages> load_environment(const World& world, const std::string& folder,
+bool is_panorama(const std::string& environment) {
+    return environment.empty() || environment.ends_with(".exr");
+}
+
+Result<CubeImages> load_environment(const World& world, const std::string& path,
                                     const std::vector<Interface>& interfaces) {
     const bool is_wanted = std::ranges::any_of(interfaces, looks_up_environment);
-    if (folder.empty()) return is_wanted ? shipped_environment(world) : CubeImages{};
+    if (path.empty() && !is_wanted) return CubeImages{};
     CubeImages images;  // read, and told of, even where no key looks them up
+    if (is_panorama(path)) {
+        GOBO_TRY(images, environment_from_panorama(world, path));
+        return is_wanted ? images : CubeImages{};
+    }
     for (const auto& [sampler, file] :
          {std::pair("diffuseMap", "diffuse.exr"), std::pair("specularMap", "specular.exr")}) {
-        auto image = read_image(world.disk, folder + "/" + file);
-        if (!image) return with_help(image.error(), "name a folder that gobo probe wrote");
+        auto image = read_image(world.disk, path + "/" + file);
+        if (!image) return with_help(image.error(), kEnvironmentHelp);
         images.emplace(sampler, std::move(*image));
     }
     return is_wanted ? images : CubeImages{};

@@ -74,11 +74,20 @@ Result<PictureOptions> picture_options(const RenderOptions& options) {
     return pictures;
 }
 
-/// Gives `cubes` the maps of the environment, where an interface looks any up.
-Result<void> add_environment(const World& world, const std::string& folder,
-                             const std::vector<Interface>& interfaces, CubeMaps& cubes) {
-    GOBO_TRY(const auto environment, load_environment(world, folder, interfaces));
-    for (const auto& [sampler, image] : environment) GOBO_TRY_DO(cubes.add(sampler, image));
+constexpr const char* kBrdfTable = "environmentBrdfTable";
+
+bool looks_up_brdf_table(const std::vector<Interface>& interfaces) {
+    return std::ranges::any_of(interfaces, [](const Interface& interface) {
+        return std::ranges::count(interface.samplers, kBrdfTable, &Sampler::name) > 0;
+    });
+}
+
+/// Gives `maps` those of the environment and the table that goes with them, where an interface looks any up.
+Result<void> add_environment(const World& world, const std::string& path,
+                             const std::vector<Interface>& interfaces, EnvironmentMaps& maps) {
+    GOBO_TRY(const auto environment, load_environment(world, path, interfaces));
+    for (const auto& [sampler, image] : environment) GOBO_TRY_DO(maps.add(sampler, image));
+    if (looks_up_brdf_table(interfaces)) maps.add_table(kBrdfTable, environment_brdf_image());
     return {};
 }
 
@@ -158,9 +167,9 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     const std::vector<Interface> interfaces = interfaces_of(composition, validated);
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
     if (shadow_pass) pictures.depth_pass = &shadow_pass->pass;
-    CubeMaps cubes(context);
-    GOBO_TRY_DO(add_environment(world, options.environment, interfaces, cubes));
-    pictures.textures = cubes.textures();
+    EnvironmentMaps maps(context);
+    GOBO_TRY_DO(add_environment(world, options.environment, interfaces, maps));
+    pictures.textures = maps.textures();
     return render_selection(context, family.family, composition, interfaces, demo_objects(std::move(mesh)),
                             pictures, world.disk);
 }
@@ -179,6 +188,17 @@ Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<sc
     return fail(Fault::usage,
                 fmt::format("--camera: no node of '{}' holds a camera '{}'", scene.path, camera),
                 fmt::format("the file has {} cameras, numbered from 0", scene.cameras.size()));
+}
+
+/// A folder of gobo probe holds one lobe, which no roughness blurs further.
+Diagnostic warning_of_one_lobe(const std::string& folder, const std::string& scene) {
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.place.file = scene;
+    warning.message =
+        fmt::format("'{}/specular.exr' is mirrored equally sharp by surfaces of every roughness", folder);
+    warning.help = "give --environment the latitude-longitude map that it was made from, FILE.exr";
+    return warning;
 }
 
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
@@ -200,13 +220,17 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     scene::SceneTextures textures;
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, shaders.composition));
     if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
-    CubeMaps cubes(context);
-    GOBO_TRY_DO(add_environment(world, options.environment, shaders.interfaces, cubes));
-    if (options.environment.empty() && mirrors_by_roughness(shaders.interfaces)) {
-        GOBO_TRY(const auto levels, load_roughness_levels(world, kRoughnessLevels));
-        GOBO_TRY_DO(cubes.add("specularMap", levels));
+    EnvironmentMaps maps(context);
+    GOBO_TRY_DO(add_environment(world, options.environment, shaders.interfaces, maps));
+    if (mirrors_by_roughness(shaders.interfaces)) {
+        if (is_panorama(options.environment)) {
+            GOBO_TRY(const auto levels, load_roughness_levels(world, options.environment, kRoughnessLevels));
+            GOBO_TRY_DO(maps.add("specularMap", levels));
+        } else {
+            rendered.diagnostics.push_back(warning_of_one_lobe(options.environment, path));
+        }
     }
-    textures.given = cubes.textures();
+    textures.given = maps.textures();
     GOBO_TRY(const Picture picture,
              scene::draw_scene(context, scene, shaders, family.family.render, view, textures));
     // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
@@ -235,6 +259,8 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
     GOBO_TRY(const auto environment, load_environment(world, options.environment, interfaces));
     vulkan::PictureOptions own{pictures.view, pictures.format, pictures.folder, pictures.smooth};
     for (const auto& [sampler, image] : environment) own.textures[sampler] = vulkan::cube_texels(image);
+    if (looks_up_brdf_table(interfaces))
+        own.textures[kBrdfTable] = vulkan::table_texels(environment_brdf_image());
     vulkan::ShadowPass pass;
     if (shadow_pass) {
         pass.stages = {{StageKind::vertex, shadow_pass->vertex, {}},
@@ -316,9 +342,9 @@ Command render_command() {
               "Number in the file of the camera that sees the scenes; by default each one's first, or a view "
               "of everything",
               &options->camera, kNotNegative},
-             {"--environment", "DIR",
-              "What gobo probe wrote: the light of keys with ambient=image or reflection=image; by default a "
-              "studio",
+             {"--environment", "FILE.exr|DIR",
+              "The light of ambient=image and reflection=image: a latitude-longitude map, or what gobo probe "
+              "wrote, which no roughness blurs; by default a studio",
               &options->environment},
              dialect_option(options->dialect)},
             {selection_options(*options)},

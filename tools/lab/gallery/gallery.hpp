@@ -20,7 +20,7 @@ struct Scene {
     std::vector<Object> objects;
     View view;
     DepthPass depth_pass;  ///< draws the maps of keys with shadows; no stages: there are none
-    std::map<std::string, Image> cube_maps;  ///< of samplers, as CubeMaps::add() takes them
+    std::map<std::string, Image> cube_maps;  ///< of samplers, as EnvironmentMaps::add() takes them
 };
 
 /// From a little above, so that the ground fills the picture.

@@ -216,7 +216,15 @@ glm::dvec3 Lobe::around(const glm::dvec3& direction) const {
             sum += weighted * environment_.at(column, row);
         }
     }
-    return weights > 0 ? sum / weights : sum;
+    return weights > 0 ? sum / weights : nearest(direction);
+}
+
+glm::dvec3 Lobe::nearest(const glm::dvec3& direction) const {
+    const double down = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi;
+    const double along = (1 - std::atan2(direction.x, direction.z) / std::numbers::pi) / 2;
+    const int row = static_cast<int>(down * environment_.height);
+    const int column = static_cast<int>(along * environment_.width);
+    return environment_.at(std::min(column, environment_.width - 1), std::min(row, environment_.height - 1));
 }
 
 std::vector<Image> roughness_maps(const Environment& environment, int side, int levels, int jobs) {

@@ -78,7 +78,8 @@ class Lobe {
     /// elsewhere. `exponent` is at least 1.
     Lobe(const Environment& environment, double exponent);
 
-    /// The mean around a unit vector.
+    /// The mean around a unit vector; the nearest texel where the lobe is so narrow that it falls between
+    /// them.
     [[nodiscard]] glm::dvec3 around(const glm::dvec3& direction) const;
 
     /// The rows of the reduced environment.
@@ -100,6 +101,7 @@ class Lobe {
     void tabulate(double needed_rows, const std::function<double(double)>& shape);
 
     [[nodiscard]] double weight(double cosine) const;
+    [[nodiscard]] glm::dvec3 nearest(const glm::dvec3& direction) const;
 
     Environment environment_;
     double exponent_;

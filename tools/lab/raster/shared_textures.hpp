@@ -21,7 +21,8 @@ class SharedTextures {
     explicit SharedTextures(const Context& context) : flat_(context), cubes_(context) {}
 
     /// Of each samplerCube that `cubes` names the picture, of each sampler2D for which `values` name a source
-    /// the texels of that. Other samplers are left to with_plain_textures(). Errors of CubeMaps::add().
+    /// the texels of that. Other samplers are left to with_plain_textures(). Errors of
+    /// EnvironmentMaps::add().
     [[nodiscard]] Result<void> add(const Interface& interface, const std::vector<RenderValue>& values,
                                    const Pictures& cubes);
 
@@ -30,7 +31,7 @@ class SharedTextures {
 
   private:
     GlResources flat_;
-    CubeMaps cubes_;
+    EnvironmentMaps cubes_;
     GivenTextures given_;
     evaluate::Images images_;
 };

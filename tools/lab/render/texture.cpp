@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gobo/environment_brdf.hpp>
 
 namespace gobo {
 namespace {
@@ -174,7 +175,37 @@ std::optional<Texture> make_texture(const Context& context, const std::string& s
     return texture;
 }
 
-Result<void> CubeMaps::add(const std::string& sampler, const std::vector<Image>& levels) {
+Image environment_brdf_image() {
+    constexpr int kTableSide = 32;
+    const std::vector<float> table = environment_brdf_table(kTableSide);
+    Image image(kTableSide, kTableSide, 4);
+    for (int y = 0; y < kTableSide; ++y)
+        for (int x = 0; x < kTableSide; ++x) {
+            const auto entry = 2 * static_cast<std::size_t>(y * kTableSide + x);
+            const Texel texel = {table[entry], table[entry + 1], 0, 1};
+            std::copy(texel.begin(), texel.end(), &image.at(x, y, 0));
+        }
+    return image;
+}
+
+void EnvironmentMaps::add_table(const std::string& sampler, const Image& table) {
+    const Context& context = resources_.context();
+    context.make_current();
+    const GladGLContext& gl = context.gl();
+    const Texture texture{resources_.make(&GladGLContext::GenTextures, &GladGLContext::DeleteTextures),
+                          GL_TEXTURE_2D};
+    gl.BindTexture(texture.target, texture.name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(texture.target, 0, GL_RGBA32F, table.width, table.height, 0, GL_RGBA, GL_FLOAT,
+                  table.values.data());
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl.TexParameteri(texture.target, filter, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl.TexParameteri(texture.target, wrap, GL_CLAMP_TO_EDGE);
+    textures_[sampler] = texture;
+}
+
+Result<void> EnvironmentMaps::add(const std::string& sampler, const std::vector<Image>& levels) {
     for (const Image& faces : levels)
         if (faces.height != 6 * faces.width || faces.width < 1 || faces.channels < 3) {
             return fail(Fault::input,

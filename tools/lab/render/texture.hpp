@@ -60,10 +60,13 @@ enum class TextureLevels { all, one };
 /// Levels of an environment that is blurred by roughness, which rises evenly from 0 to 1.
 inline constexpr int kRoughnessLevels = 7;
 
-/// Cube maps made from pictures, deleted together: for pictures lit by an environment.
-class CubeMaps {
+/// What environmentBrdfTable looks up, in four channels: A, B, 0, 1 (see environment_brdf_table()).
+[[nodiscard]] Image environment_brdf_image();
+
+/// Textures made from pictures, deleted together: for pictures lit by an environment.
+class EnvironmentMaps {
   public:
-    explicit CubeMaps(const Context& context) : resources_(context) {}
+    explicit EnvironmentMaps(const Context& context) : resources_(context) {}
 
     /// A picture of side x 6 side texels, the faces +x -x +y -y +z -z one below the other, as the texture of
     /// a samplerCube of that name; its alpha is 1. Fault::input where the picture has another shape.
@@ -72,6 +75,8 @@ class CubeMaps {
     }
     /// The same level by level, each half as wide as the one before; lookups between two blend them.
     [[nodiscard]] Result<void> add(const std::string& sampler, const std::vector<Image>& levels);
+    /// A table of four channels as the texture of a sampler2D, looked up from its first texel to its last.
+    void add_table(const std::string& sampler, const Image& table);
     [[nodiscard]] const GivenTextures& textures() const { return textures_; }
 
   private:

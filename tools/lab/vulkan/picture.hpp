@@ -48,6 +48,8 @@ using Textures = std::map<std::string, TextureTexels>;
                                                         const TextureSource& source, TextureLevels levels);
 /// Six faces, one below the other.
 [[nodiscard]] TextureTexels cube_texels(const Image& faces);
+/// A table of four channels, looked up from its first texel to its last.
+[[nodiscard]] TextureTexels table_texels(const Image& table);
 /// Shadow maps, as draw_shadow_maps() draws them.
 [[nodiscard]] TextureTexels depth_texels(const std::vector<Image>& layers);
 

@@ -48,6 +48,15 @@ TextureTexels cube_texels(const Image& faces) {
     return texels;
 }
 
+TextureTexels table_texels(const Image& table) {
+    TextureTexels texels;
+    texels.repeats = false;
+    texels.width = table.width;
+    texels.height = table.height;
+    texels.values = table.values;
+    return texels;
+}
+
 TextureTexels depth_texels(const std::vector<Image>& layers) {
     TextureTexels texels;
     texels.shape = TextureTexels::Shape::array;
