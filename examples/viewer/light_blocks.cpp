@@ -33,6 +33,7 @@ void fill(const SeenLight& seen, Light& to) {
     if constexpr (requires { to.direction; }) to.direction = -seen.shines_along;
     if constexpr (requires { to.position; }) {
         to.position = seen.position;
+        to.position.w = static_cast<float>(1 / seen.light.range);  // `pbr` reads it, `lit` does not
         to.attenuation = glm::vec3(seen.light.attenuation);
     }
     if constexpr (requires { to.axis; }) {

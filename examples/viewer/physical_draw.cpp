@@ -39,6 +39,7 @@ constexpr Call kCalls[] = {
     {"fog", "linear", [](State& s) { s.fog = pbr::Fog::linear; }},
     {"fog", "exponential", [](State& s) { s.fog = pbr::Fog::exponential; }},
     {"fog", "exponential_squared", [](State& s) { s.fog = pbr::Fog::exponential_squared; }},
+    {"light_range", "windowed", [](State& s) { s.light_range = pbr::LightRange::windowed; }},
     {"directional", "", [](State& s) { ++s.directional; }},
     {"point", "", [](State& s) { ++s.point; }},
     {"spot", "", [](State& s) { ++s.spot; }},

@@ -252,6 +252,11 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"picture_cut_short", masked(R"({"uri": "data:;base64,iVBORw0KGgoAAAA="})"),
                "images[0] is no PNG that can be decoded: PNG file is smaller than a PNG header"},
         Broken{"picture_nowhere", masked("{}"), "images[0] has neither uri nor bufferView"},
+        Broken{"picture_twice", masked(R"({"uri": "quad.bin", "bufferView": 0})"),
+               "images[0] has both uri and bufferView\n  help: leave one out"},
+        Broken{"emits_more_than_1", put("/materials/0/emissiveFactor", "[0, 2, 0]"),
+               "materials[0].emissiveFactor holds a number that is not between 0 and 1\n  help: "
+               "KHR_materials_emissive_strength states more"},
         Broken{"instances_of_two_sizes", instanced(R"({"TRANSLATION": 0, "SCALE": 3})"),
                "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE has 2 elements, but there are 4 "
                "instances"},

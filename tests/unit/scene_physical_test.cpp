@@ -7,6 +7,7 @@
 #include <jpeglib.h>
 #include <lodepng.h>
 
+#include "scene/draw_values.hpp"
 #include "scene/effects.hpp"
 #include "scene/picture.hpp"
 #include "scene/read_scene.hpp"
@@ -189,6 +190,67 @@ TEST(PhysicalScene, LeavesOutPicturesThatChangeNothing) {
         const Result<Scene> scene = read_physical_scene(scene_with(row.material, png(row.texel, 1, 1)));
         ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
         EXPECT_EQ(verdict(*scene, row.effect), row.verdict) << row.name;
+    }
+}
+
+/// The lamp of quad.gltf stands 2 above the middle of the quad.
+TEST(PhysicalScene, EndsLocalLightsAtTheirRange) {
+    struct Row {
+        const char* name;
+        const char* light;
+        const char* verdict;
+        std::vector<double> position;  ///< of the first point light
+    };
+    const Row rows[] = {
+        {"without", R"({"type": "point"})", "no local light with a range is in", {0, 0, 2, 0}},
+        {"with", R"({"type": "point", "range": 4})", "in: point 0 ends at 4", {0, 0, 2, 0.25}},
+        {"beyond", R"({"type": "point", "range": 1})", "no local light with a range is in", {}},
+        {"directional", R"({"type": "directional", "range": 4})", "no local light with a range is in", {}}};
+    for (const Row& row : rows) {
+        nlohmann::json json = scene_with("{}", png({9, 9, 9, 255}, 1, 1));
+        json["extensions"]["KHR_lights_punctual"]["lights"][0] = nlohmann::json::parse(row.light);
+        const Result<Scene> scene = read_physical_scene(json);
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        EXPECT_EQ(verdict(*scene, "light_range"), row.verdict) << row.name;
+        std::vector<double> position;
+        for (const RenderValue& value : values_of_draw(*scene, required_effects(*scene, {}, {}).front()))
+            if (value.name == "PointLights.lights[0].position" && value.source == "eye_point_and")
+                position = value.numbers;
+        EXPECT_EQ(position, row.position) << row.name;
+    }
+}
+
+TEST(PhysicalScene, TellsWhatTheMeshDoesNotLetBeDrawn) {
+    struct Row {
+        const char* name;
+        const char* material;
+        const char* target;  ///< an attribute that its morph targets have
+        const char* lost;
+        const char* verdict;
+    };
+    const Row rows[] = {
+        {"set 1", R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}})", nullptr,
+         "base_color_map of a mesh without TEXCOORD_1", "its mesh has no texture coordinates of set 1"},
+        {"set 0", R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", nullptr,
+         "base_color_map of a mesh without TEXCOORD_0", "its mesh has no texture coordinates of set 0"},
+        {"brushed", R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}})", nullptr,
+         "anisotropy of a mesh with neither tangents nor texture coordinates", "it has none"},
+        {"morphed colours", "{}", "COLOR_0", "morph targets of COLOR_0", "it has none"},
+        {"morphed places", "{}", "TEXCOORD_0", "morph targets of TEXCOORD_0", "it has none"},
+    };
+    for (const Row& row : rows) {
+        nlohmann::json json = scene_with(row.material, png({9, 9, 9, 255}, 1, 1));
+        nlohmann::json& primitive = json["meshes"][0]["primitives"][0];
+        if (row.name != std::string("set 1")) primitive["attributes"].erase("TEXCOORD_0");
+        if (row.target != nullptr) primitive["targets"] = {{{row.target, 0}}};
+        const Result<Scene> scene = read_physical_scene(json);
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        EXPECT_THAT(verdict(*scene, row.lost), testing::StartsWith("in: ")) << row.name;
+        EXPECT_EQ(verdict(*scene, "base_color_map"), row.verdict) << row.name;
+        for (const Row& other : rows) {
+            if (&other == &row) continue;
+            EXPECT_EQ(verdict(*scene, other.lost), "not judged") << row.name;
+        }
     }
 }
 

@@ -36,17 +36,17 @@ double one_minus_cosine(double angle) {
     return 2 * sine * sine;
 }
 
-glm::dvec3 position_of(const Scene& scene, const PlacedLight& placed) {
-    return glm::dvec3(scene.nodes[placed.node].world[3]);
-}
-
-void add_light(const PlacedLight& placed, const glm::dvec3& position, const std::string& name,
-               Values& values) {
+void add_light(const Scene& scene, const PlacedLight& placed, const std::string& name, Values& values) {
     const Light& light = *placed.light;
     values.set(name + ".color", light.color);
     if (light.kind == LightKind::directional)
         return values.set_direction(name + ".direction", -placed.direction);
-    values.set(name + ".position", position, "eye_point");
+    const glm::dvec3 position(scene.nodes[placed.node].world[3]);
+    if (scene.is_physical)  // w is 1 / range
+        values.set(name + ".position", {position.x, position.y, position.z, 1 / light.range},
+                   "eye_point_and");
+    else
+        values.set(name + ".position", position, "eye_point");
     values.set(name + ".attenuation", light.attenuation);
     if (light.kind != LightKind::spot) return;
     values.set(name + ".exponent", light.exponent);
@@ -61,8 +61,7 @@ void add_lights(const Scene& scene, const Draw& draw, Values& values) {
     const std::vector<PlacedLight> lights = place_lights(scene);
     for (const std::size_t i : lights_in_order(draw, lights)) {
         const auto kind = static_cast<std::size_t>(lights[i].light->kind);
-        add_light(lights[i], position_of(scene, lights[i]),
-                  fmt::format("{}.lights[{}]", blocks[kind], counts[kind]++), values);
+        add_light(scene, lights[i], fmt::format("{}.lights[{}]", blocks[kind], counts[kind]++), values);
     }
 }
 

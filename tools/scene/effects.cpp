@@ -38,6 +38,10 @@ struct Verdict {
 /// by more.
 constexpr double kRelativeMargin = 1e-5;
 
+bool has_end(const Light& light) {
+    return light.kind != LightKind::directional && std::isfinite(light.range);
+}
+
 double brightest(const Light& light) {
     return std::max({light.color.r, light.color.g, light.color.b});
 }
@@ -299,6 +303,10 @@ bool says_only(const TextureImage& picture, const std::array<int, 4>& expected, 
     return true;
 }
 
+std::string why_not_placed(std::int64_t set) {
+    return fmt::format("its mesh has no texture coordinates of set {}", set);
+}
+
 /// A picture of a metallic-roughness material: out where it changes nothing.
 Effect judge_map(const Subject& subject, MapKind kind) {
     const PhysicalMaterial& material = subject.material.physical;
@@ -322,15 +330,15 @@ Effect judge_map(const Subject& subject, MapKind kind) {
             objections.end(),
             {{use->set > 1,
               fmt::format("its texture coordinates are set {}, of which 0 and 1 are read", use->set)},
-             {places.empty() && use->set <= 1, "its mesh has no texture coordinates"},
-             {is_normal && primitive.tangents.empty(), "its mesh has no tangents"},
+             {is_normal && primitive.tangents.empty() && !places.empty(), "its mesh has no tangents"},
              {is_normal && material.normal_scale == 0, "its scale is 0"},
              {is_normal && !is_lit, "no light is in"},
              {kind == MapKind::occlusion && material.occlusion_strength == 0, "its strength is 0"},
              {kind == MapKind::emissive && is_black(subject.material.emission), "its material emits nothing"},
              {kind != MapKind::base_color && subject.material.unlit, "its material is unlit"},
              {says_only(picture, expected, channels[number], is_normal ? 1 : 0),
-              is_normal ? "it is flat" : "it is white"}});
+              is_normal ? "it is flat" : "it is white"},
+             {places.empty(), why_not_placed(use->set)}});
     }
     return decide(feature, feature, value, objections,
                   use ? fmt::format("{} x {} texels", subject.scene.pictures[use->picture].width,
@@ -338,9 +346,42 @@ Effect judge_map(const Subject& subject, MapKind kind) {
                       : "");
 }
 
+/// What the material or the morph targets state, but the mesh gives nothing to draw it by: told as effects
+/// that no family has.
+void add_losses_of_mesh(const Subject& subject, std::vector<Effect>& effects) {
+    const Primitive& primitive = subject.primitive;
+    const auto lose = [&](const std::string& name, std::string reason) {
+        effects.push_back({name, name, "", true, std::move(reason)});
+    };
+    for (const std::string& attribute : primitive.targets_not_read)
+        lose("morph targets of " + attribute, "its mesh has them");
+    for (std::size_t map = 0; map < kMapFeatures.size(); ++map) {
+        const std::optional<TextureUse>& use = subject.material.physical.maps[map];
+        const auto is_lost = [&](const Effect& effect) {
+            return effect.name == kMapFeatures[map] && effect.reason == why_not_placed(use->set);
+        };
+        if (use && std::ranges::any_of(effects, is_lost))
+            lose(fmt::format("{} of a mesh without TEXCOORD_{}", kMapFeatures[map], use->set),
+                 "its material states it");
+    }
+    const bool is_brushed = subject.material.physical.of_extensions.at("Material.anisotropy").front() > 0;
+    if (is_brushed && !subject.material.unlit && primitive.tangents.empty())
+        lose("anisotropy of a mesh with neither tangents nor texture coordinates", "its material states it");
+}
+
+/// The end of local lights, where any is in that has one. `effects` begin with the lights'.
+Effect judge_light_range(const std::vector<PlacedLight>& lights, const std::vector<Effect>& effects) {
+    std::size_t first = 0;
+    while (first < lights.size() && !(effects[first].is_in && has_end(*lights[first].light))) ++first;
+    const bool is_in = first < lights.size();
+    return decide(
+        "light_range", "light_range", "windowed", {{!is_in, "no local light with a range is in"}},
+        is_in ? fmt::format("{} ends at {:.3g}", lights[first].label, lights[first].light->range) : "");
+}
+
 /// What a metallic-roughness material decides, once the lights are judged.
-void judge_physical_surface(const Subject& subject, const EyePlace& eye, double fog_threshold,
-                            std::vector<Effect>& effects) {
+void judge_physical_surface(const Subject& subject, const std::vector<PlacedLight>& lights,
+                            const EyePlace& eye, double fog_threshold, std::vector<Effect>& effects) {
     const Overrides& overrides = subject.overrides;
     const Material& material = subject.material;
     const PhysicalMaterial& physical = material.physical;
@@ -362,7 +403,7 @@ void judge_physical_surface(const Subject& subject, const EyePlace& eye, double 
         {decide("texture_placement", "texture_placement", "placed",
                 {{!is_placed, "all pictures lie by the first texture coordinates"}},
                 "a picture is transformed, or lies by the second texture coordinates"),
-         judge_fog(subject, eye, fog_threshold),
+         judge_light_range(lights, effects), judge_fog(subject, eye, fog_threshold),
          decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
                 "its material is marked doubleSided"),
          decide("cutout", "cutout", "threshold",
@@ -388,6 +429,7 @@ void judge_physical_surface(const Subject& subject, const EyePlace& eye, double 
     }
     for (const std::string& name : physical.not_drawn)
         effects.push_back({name, name, "", true, "its material states it"});
+    add_losses_of_mesh(subject, effects);
     for (const auto& [feature, value] : overrides.quality)
         effects.push_back({feature, feature, value, true, "asked for"});
 }
@@ -544,7 +586,7 @@ std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, cons
         judge_lights(subject, lights, thresholds.light, draw.effects);
         subject.is_lit = std::ranges::any_of(draw.effects, &Effect::is_in);
         if (scene.is_physical)
-            judge_physical_surface(subject, eye, thresholds.fog, draw.effects);
+            judge_physical_surface(subject, lights, eye, thresholds.fog, draw.effects);
         else
             judge_surface(subject, eye, thresholds.fog, draw.effects);
         judge_shadows(subject, lights, draws, draw.effects);

@@ -89,6 +89,9 @@ Material read_material(const Value& value, Textures& textures, bool is_physical)
     Material material;
     value["name"].read(material.name);
     value["emissiveFactor"].read_color(material.emission);
+    if (glm::clamp(material.emission, 0.0, 1.0) != material.emission)
+        value["emissiveFactor"].fail_with("KHR_materials_emissive_strength states more",
+                                          "holds a number that is not between 0 and 1");
     value["doubleSided"].read(material.double_sided);
     material.alpha_mode = static_cast<AlphaMode>(value["alphaMode"].choice({"OPAQUE", "MASK", "BLEND"}, 0));
     value["alphaCutoff"].read(material.alpha_cutoff, kNotNegative);

@@ -72,6 +72,8 @@ void read_targets(const Value& value, Accessors& accessors, Primitive& primitive
         primitive.target_positions.push_back(read_vectors<glm::vec3>(attributes, "POSITION", kTriples));
         // Zero for a target of normals only.
         primitive.target_positions.back().resize(primitive.positions.size(), glm::vec3(0));
+        for (const char* name : {"COLOR_0", "TEXCOORD_0", "TEXCOORD_1"})
+            if (target[name]) primitive.targets_not_read.insert(name);
         // Without normals at rest there is nothing to add to: they are computed from what is morphed.
         if (!primitive.normals.empty())
             primitive.target_normals.push_back(read_vectors<glm::vec3>(attributes, "NORMAL", kTriples));

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -186,9 +187,10 @@ struct Primitive {
     std::vector<std::uint32_t> indices;      ///< three per triangle
     std::vector<std::vector<glm::vec3>> target_positions;  ///< per morph target, one per position
     std::vector<std::vector<glm::vec3>> target_normals;    ///< per morph target, one per position, or none
-    std::vector<std::vector<Influence>> influences;        ///< one list per position, or none
-    std::size_t material = 0;       ///< the last of the scene is glTF's default material
-    bool has_flat_normals = false;  ///< they were computed
+    std::set<std::string> targets_not_read = {};     ///< attributes of morph targets that are not morphed
+    std::vector<std::vector<Influence>> influences;  ///< one list per position, or none
+    std::size_t material = 0;                        ///< the last of the scene is glTF's default material
+    bool has_flat_normals = false;                   ///< they were computed
 };
 
 /// The unit normals of triangles that share no vertex, three positions each; zero where one has no area.

@@ -61,6 +61,7 @@ bool Textures::is_plain(const Value& info, const Value& texture) const {
 }
 
 std::string Textures::bytes_of(const Value& image) const {
+    if (image["bufferView"] && image["uri"]) image.fail_with("leave one out", "has both uri and bufferView");
     if (const auto view = accessors_.view(image["bufferView"])) return std::string(*view);
     if (const Value uri = image["uri"]) return read_uri(disk_, uri, scene_);
     image.fail("has neither uri nor bufferView");
