@@ -466,6 +466,30 @@ const Row places[] = {
      "void main() { c = lamps[1].tint + sky.tint; }\n",
      Mesa::links,
      {"tiny.frag:3: warning: the blocks 'Sky' and 'Lamp[1]' (tiny.frag:2) share binding 2"}},
+    {"attribute_behind_the_start_of_a_matrix",
+     "330 core",
+     "layout(location = 0) in mat4 m;\nlayout(location = 2) in vec4 q;\nvoid main() { gl_Position = m * q; "
+     "}\n",
+     color,
+     Mesa::links,
+     {"tiny.vert:3: warning: the attributes 'vec4 q' and 'mat4 m' (tiny.vert:2) share location 2: OpenGL "
+      "takes "
+      "it only where no path reads both"}},
+    {"two_attributes_of_one_location",
+     "450",
+     "layout(location = 1) in vec4 p;\nlayout(location = 1) in vec4 q;\nvoid main() { gl_Position = p + q; "
+     "}\n",
+     color,
+     Mesa::links,
+     {"tiny.vert:3: warning: the attributes 'vec4 q' and 'vec4 p' (tiny.vert:2) share location 1"}},
+    {"attributes_that_are_apart",
+     "450",
+     "layout(location = 0) in mat3 m;\nlayout(location = 3) in vec2 p;\n"
+     "layout(location = 3, component = 2) in vec2 q;\nlayout(location = 1) in vec4 unread;\n"
+     "void main() { gl_Position = vec4(m[2], 1.0) + vec4(p, q); }\n",
+     color,
+     Mesa::links,
+     {}},
     {"sampler_on_an_element",
      "450",
      plain,

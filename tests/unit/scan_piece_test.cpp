@@ -148,6 +148,8 @@ TEST(ScanPiece, WarnsOfUniformBlocksWithoutALayout) {
         {"layout(std140) uniform; uniform A { float a; };", 0},
         {"layout(std140) uniform A { float a; }; uniform B { float b; };", 1},
         {"uniform float a; void f() { { } }", 0},
+        {"uniform struct { vec3 a; float b; } s;", 0},
+        {"uniform struct S { vec3 a; float b; } s;", 0},
     };
     for (const auto& [text, count] : rows)
         EXPECT_EQ(scan_piece(text, "a.glsl").value().unstated_layouts.size(), count) << text;

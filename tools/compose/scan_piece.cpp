@@ -61,7 +61,7 @@ Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_v
         const std::string_view token = tokens.front();
         if (token == "std140") is_stated = true;
         if (are(tokens, {"uniform", ";"}) && is_stated) return {};  // for all blocks
-        if (are(tokens, {"uniform", "name", "{"}) && !is_stated) {
+        if (are(tokens, {"uniform", "name", "{"}) && tokens[1] != "struct" && !is_stated) {
             const int line = line_at(code, tokens[1].data());
             warnings.push_back(warning(
                 {path, line, 0}, line_of(text, line),

@@ -66,8 +66,9 @@ class LanguageCheck {
         put_at(diagnostic, piece, line);
     }
     void warn(const Piece& piece, int line, std::string message, std::string help) {
+        const std::size_t known = found_.size();
         refuse(piece, line, std::move(message), std::move(help));
-        found_.back().severity = Severity::warning;
+        if (found_.size() > known) found_.back().severity = Severity::warning;
     }
     void refuse(const Token& token, std::string message, std::string help) {
         refuse(*token.piece, token.line, std::move(message), std::move(help));
@@ -152,10 +153,19 @@ class LanguageCheck {
                        "take the '#' out: GLSL has no strings, only ## to join names");
         }
         const std::vector<std::string_view> tokens = tokens_of(rest);
+        if (is_any(word, {"define", "if", "elif"}))
+            for (const std::string_view token : tokens) check_own_line(token, piece, number);
         constexpr std::array<std::string_view, 5> invariant_all = {"STDGL", "invariant", "(", "all", ")"};
         if (word == "pragma" && kind_ == StageKind::fragment && std::ranges::equal(tokens, invariant_all))
             refuse(piece, number, "a fragment stage cannot state #pragma STDGL invariant(all)",
                    "state it in the vertex stage alone");
+    }
+
+    /// Pieces are joined before a driver counts their lines.
+    void check_own_line(std::string_view token, const Piece& piece, int line) {
+        if (is_shipped_ && token == "__LINE__")
+            warn(piece, line, "'__LINE__' is another number to each driver",
+                 "write the number itself: files are joined, and drivers count the lines in their own ways");
     }
 
     [[nodiscard]] std::string_view at(std::size_t index) const {
@@ -169,6 +179,7 @@ class LanguageCheck {
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
         if (!is_identifier(token.text)) return;
+        check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
         // A member may be called so.
         if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")

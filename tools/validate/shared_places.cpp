@@ -20,6 +20,7 @@ class SharedPlaces {
         check_units();
         check_uniform_locations();
         check_counters();
+        check_attributes();
         return std::move(found_);
     }
 
@@ -133,6 +134,27 @@ class SharedPlaces {
                 fmt::format("the uniforms '{}' and '{}' ({}) share location {}", one.name, other.name,
                             declared(other).text(), location),
                 "an array takes a location for each element: count on behind it");
+        });
+    }
+
+    /// OpenGL links attributes that share a location, if no path through the stage reads both
+    /// (OpenGL 4.6, 11.1.1).
+    void check_attributes() {
+        const StageView& first = stages_.front();
+        if (first.kind != StageKind::vertex) return;
+        std::vector<Taken> places;
+        for (const Variable& input : first.interface.inputs)
+            // Those of other components share a location by right.
+            if (input.location >= 0 && input.component == 0 && !input.usage.unused)
+                places.push_back({input.name, input.type, input.location,
+                                  location_count(input.type, input.array), &first});
+        for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t location) {
+            add(declared(one), Severity::warning,
+                fmt::format("the attributes '{} {}' and '{} {}' ({}) share location {}: OpenGL takes it only "
+                            "where no path reads both",
+                            one.type, one.name, other.type, other.name, declared(other).text(), location),
+                "give each a location of its own: a matrix takes one for each column, an array for each "
+                "element");
         });
     }
 
