@@ -25,8 +25,11 @@ struct Drawn {
         object.indices = mesh.indices;
         object.width = object.height = kSide;
         object.fragments = raster::rasterise(object.positions, mesh.indices, kSide, kSide);
-        std::erase_if(object.fragments,
-                      [](const raster::Fragment& fragment) { return !fragment.is_covered; });
+        // Beside a triangle seen edge on, which rasterisers cover to 1/256 pixel, its plane is behind the
+        // eye.
+        std::erase_if(object.fragments, [](const raster::Fragment& fragment) {
+            return !fragment.is_covered || !(fragment.weights.inverse_w > 0);
+        });
         for (const std::uint32_t vertex : raster::drop_unseen_triangles(object))
             vertices.push_back(at_vertex(draw, mesh, vertex));
         object.vertices.count = vertices.size();
