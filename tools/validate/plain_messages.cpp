@@ -168,7 +168,7 @@ Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
         if (!diagnostic.help.empty() || !message.starts_with('\'') || (is_written && !is_syntax)) continue;
         for (const std::string_view token : tokens)
             if (const auto macro = macros.find(token);
-                macro != macros.end() && macro->second.file != diagnostic.place.file)
+                macro != macros.end() && text_of(macro->second) != text_of(diagnostic.place))
                 diagnostic.help =
                     fmt::format("'{}' is a macro here: {} defines it", token, text_of(macro->second));
     }

@@ -16,7 +16,7 @@ using PieceList = std::vector<const Piece*>;
 [[nodiscard]] Diagnostics with_places(Diagnostics found, const PieceList& pieces,
                                       const PieceList& earlier = {});
 
-/// For messages of parsing: names the macro of another file where a line does not read as it is written,
+/// For messages of parsing: names the macro of another line where a line does not read as it is written,
 /// and the dialect that takes what is Vulkan's alone.
 [[nodiscard]] Diagnostics with_macros(Diagnostics found, const PieceList& pieces);
 
