@@ -51,9 +51,12 @@ void replace_all(std::string& text, std::string_view old, std::string_view by) {
         text.replace(at, old.size(), by);
 }
 
-bool states_extension(std::string_view line) {
+/// What asks for an extension, or defines such a macro itself, which no compiler takes.
+bool keeps_its_names(std::string_view line) {
     const std::vector<std::string_view> tokens = tokens_of(line);
-    return tokens.size() > 1 && tokens[0] == "#" && tokens[1] == "extension";
+    if (tokens.size() < 3 || tokens[0] != "#") return false;
+    const bool is_definition = tokens[1] == "define" || tokens[1] == "undef";
+    return tokens[1] == "extension" || (is_definition && is_foreign_macro(tokens[2]));
 }
 
 }  // namespace
@@ -89,7 +92,7 @@ std::string without_foreign_macros(std::string_view text) {
         const std::string_view line = text.substr(0, text.find('\n'));
         const std::size_t size = std::min(line.size() + 1, text.size());
         Substitutions renamed;
-        if (line.find("GL_") != std::string_view::npos && !states_extension(line))
+        if (line.find("GL_") != std::string_view::npos && !keeps_its_names(line))
             for (const std::string_view name : identifiers_of(line))
                 if (is_foreign_macro(name))
                     renamed.emplace_back(name, fmt::format("{}{}", kUndefinedPrefix, name));
