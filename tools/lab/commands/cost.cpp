@@ -445,6 +445,9 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
     GOBO_TRY(const std::vector<cost::Chip> chips, cost::chips_named(gpus));
+    if (chips.empty())
+        return fail(Fault::usage, "--gpu names no chip",
+                    "name some, such as navi21,vega10; --gpu list has all");
     if (options.names.empty())
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");

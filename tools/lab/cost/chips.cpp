@@ -56,7 +56,8 @@ Result<std::vector<Chip>> chips_named(const std::vector<std::string>& names) {
         const auto is_it = [&](const Chip& chip) { return chip.name == name; };
         const auto chip = std::find_if(chips().begin(), chips().end(), is_it);
         if (chip == chips().end()) {
-            std::vector<std::string> known = {"list"};
+            std::vector<std::string> known;
+            if (names.size() == 1) known.emplace_back("list");  // which stands alone
             for (const Chip& each : chips()) known.emplace_back(each.name);
             return fail(Fault::usage, fmt::format("unknown GPU '{}'", name), suggestion(name, known));
         }
