@@ -155,15 +155,18 @@ TEST(Verify, WritesAFailingPointAsAnInputOfEval) {
               "\n[uniforms]\n\"Fog.start\" = 2\n");
 }
 
+/// The fragment stage of the first key.
+evaluate::Program fragment_of(const Family& family, const std::vector<Key>& keys) {
+    const Composition composition = compose_lit(family, keys, {}).value();
+    const Validated validated = validate(family, composition, {.keep_spirv = true});
+    return evaluate::decode(validated.stage(composition.permutations[0].stages[StageKind::fragment]).spirv)
+        .value();
+}
+
 TEST(Verify, AsksTheOracleAboutAnyInvocation) {
     Family family = lit_family();
     const auto keys = keys_of(family, {"depth=any directional=2 fog=linear point=1 specular=phong spot=2"});
-    const Composition composition = compose_lit(family, keys, {}).value();
-    ValidateOptions options;
-    options.keep_spirv = true;
-    const Validated validated = validate(family, composition, options);
-    const auto fragment = static_cast<std::size_t>(composition.permutations[0].stages[StageKind::fragment]);
-    const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
+    const evaluate::Program program = fragment_of(family, keys);
     const oracle::Model model = oracle::model_of(family, keys[0]).value();
     const auto samples = verify::make_samples(model, StageKind::fragment, 1, 3);
     const auto invocation = verify::bind_inputs(program, samples).value();
@@ -183,12 +186,7 @@ TEST(Verify, AsksTheOracleAboutAnyInvocation) {
 TEST(Verify, BoundsFloatsWhoseInputsNoFloatHolds) {
     const Family family = lit_family();
     const auto keys = keys_of(family, {"point=1"});
-    const Composition composition = compose_lit(family, keys, {}).value();
-    ValidateOptions options;
-    options.keep_spirv = true;
-    const Validated validated = validate(family, composition, options);
-    const auto fragment = static_cast<std::size_t>(composition.permutations[0].stages[StageKind::fragment]);
-    const auto program = evaluate::decode(validated.stages[fragment].spirv).value();
+    const evaluate::Program program = fragment_of(family, keys);
     const oracle::Model model = oracle::model_of(family, keys[0]).value();
     auto invocation =
         verify::bind_inputs(program, verify::make_samples(model, StageKind::fragment, 1, 3)).value();

@@ -196,10 +196,15 @@ TexelPlace place_of(const ImageCall& call, const ImageRequest& request, Register
     return place;
 }
 
-constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
+template <class T>
+ImageCall call_of(const Operation& operation, const Registers<T>& registers) {
     ImageWords words;
     std::copy_n(registers.words(operation), words.size(), words.begin());
-    const auto call = std::bit_cast<ImageCall>(words);
+    return std::bit_cast<ImageCall>(words);
+}
+
+constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
+    const ImageCall call = call_of(operation, registers);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
         const ImageRequest request = request_of(call, registers, lane);
@@ -222,9 +227,7 @@ constexpr Execution kAsk = kRun<[]<class T>(const Operation& operation, Register
 }>;
 
 constexpr Execution kWrite = kRun<[]<class T>(const Operation& operation, Registers<T>& registers) {
-    ImageWords words;
-    std::copy_n(registers.words(operation), words.size(), words.begin());
-    const auto call = std::bit_cast<ImageCall>(words);
+    const ImageCall call = call_of(operation, registers);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (!has_lane(registers.active() & registers.callers_lanes, lane)) continue;
         const ImageRequest request = request_of(call, registers, lane);
