@@ -335,15 +335,26 @@ TEST(Pictures, AreDrawnThroughStagesBetween) {
     }
 }
 
+/// A vertex and a fragment stage of which one has a subroutine uniform `shade`, that is `red` or `blue`.
+struct SubroutineRow {
+    const char* name;
+    const char* vertex;
+    const char* fragment;
+    std::vector<std::string> kept;  ///< what both keys' texts hold
+};
+
 /// A choice between the functions of a subroutine uniform, and Mesa's verdict on each.
-TEST(SubroutineUniforms, BecomeChoices) {
+class SubroutineUniforms : public testing::TestWithParam<SubroutineRow> {};
+
+TEST_P(SubroutineUniforms, BecomeChoices) {
     const MemoryFileSystem disk(std::map<std::string, std::string, std::less<>>{
-        {"tiny.vert", std::string("#version 430 core\n") + plain},
+        {"tiny.vert", std::string("#version 430 core\n") + GetParam().vertex},
         {"tiny.frag",
-         "#version 430 core\nsubroutine vec4 Shade(float x);\nsubroutine uniform Shade shade;\n"
-         "out vec4 c;\nlayout(index = 1) subroutine(Shade) vec4 red(float x) { return vec4(x, 0, 0, 1); }\n"
-         "subroutine (Shade)\nvec4 blue(float x) { return vec4(0, 0, x, 1); }\n"
-         "void main() { c = shade(0.5); }\n"}});
+         std::string("#version 430 core\nsubroutine vec4 Shade(float x);\n"
+                     "subroutine uniform Shade shade;\nout vec4 c;\n"
+                     "layout(index = 1) subroutine(Shade) vec4 red(float x) { return vec4(x, 0, 0, 1); }\n"
+                     "subroutine (Shade)\nvec4 blue(float x) { return vec4(0, 0, x, 1); }\n") +
+             GetParam().fragment}});
     SearchPath search;
     search.add(disk, "", "", false);
     const Family family = family_of("[features.shade]\nvalues = [\"red\", \"blue\"]\ndefine = \"shade\"\n");
@@ -355,14 +366,46 @@ TEST(SubroutineUniforms, BecomeChoices) {
     for (const Permutation& permutation : composition.permutations) {
         const Result<Program> program = link_program(*context, stages_of(composition, permutation));
         EXPECT_TRUE(program) << first_text(program.error());
+        std::string text;
+        for (const StageNames& names : kStages)
+            if (const int stage = permutation.stages[names.kind]; stage >= 0)
+                text += source_of(composition, composition.stage(stage));
+        for (const std::string& kept : GetParam().kept) EXPECT_NE(text.find(kept), std::string::npos) << text;
     }
     EXPECT_NE(composition.permutations[0].stages, composition.permutations[1].stages);
 }
+
+const SubroutineRow with_subroutines[] = {
+    {"called", plain, "void main() { c = shade(0.5); }\n", {}},
+    {"attribute_of_the_name",
+     "in vec4 shade;\nvoid main() { gl_Position = shade; }\n",
+     "void main() { c = shade(0.5); }\n",
+     {"in vec4 shade;"}},
+    {"vertex_function_of_the_name",
+     "vec4 shade(float x) { return vec4(x); }\nvoid main() { gl_Position = shade(1.0); }\n",
+     "void main() { c = shade(0.5); }\n",
+     {"vec4 shade(float x) {"}},
+    {"member_of_the_name",
+     plain,
+     "struct Light { vec4 shade; vec4 red; };\nuniform Light light;\n"
+     "void main() { c = shade(0.5) * light.shade * light.red; }\n",
+     {"vec4 shade; vec4 red;", "light.shade * light.red"}},
+    {"locals_of_both_names",
+     plain,
+     "void main() { float red = 0.5; float blue = red; vec4 shade = shade(red); c = shade * blue; }\n",
+     {"float red = 0.5; float blue = red; vec4 shade = shade(red);"}},
+    {"parameters_of_both_names",
+     plain,
+     "float half_of(float shade, float red, float blue) { return 0.5 * shade * red * blue; }\n"
+     "void main() { c = shade(half_of(1.0, 2.0, 3.0)); }\n",
+     {"half_of(float shade, float red, float blue)"}},
+};
 
 const auto name_of_row = [](const auto& row) { return std::string(row.param.name); };
 INSTANTIATE_TEST_SUITE_P(Geometry, Stages, testing::ValuesIn(with_geometry), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Tessellation, Stages, testing::ValuesIn(with_tessellation), name_of_row);
 INSTANTIATE_TEST_SUITE_P(Compute, Stages, testing::ValuesIn(with_compute), name_of_row);
+INSTANTIATE_TEST_SUITE_P(All, SubroutineUniforms, testing::ValuesIn(with_subroutines), name_of_row);
 
 }  // namespace
 }  // namespace gobo

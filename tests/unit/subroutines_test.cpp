@@ -18,7 +18,41 @@ TEST(Subroutines, AreFoundWithTheirFunctions) {
     EXPECT_EQ(uniforms[0].functions, (std::vector<std::string>{"white", "black"}));
     EXPECT_EQ(uniforms[1].name, "fog");
     EXPECT_EQ(uniforms[1].functions, (std::vector<std::string>{"thick"}));
+    const auto pair = subroutine_uniforms("subroutine uniform Shade front,\n    back;\n");
+    ASSERT_EQ(pair.size(), 2U);
+    EXPECT_EQ(pair[1].name, "back");
+    EXPECT_EQ(pair[1].type, "Shade");
+    EXPECT_EQ(pair[0].line, 2);
     EXPECT_TRUE(subroutine_uniforms("uniform vec4 subroutines;\n").empty());
+}
+
+struct TypeRow {
+    const char* name;
+    const char* type;
+    const char* expected;  ///< the function that calls another
+};
+
+TEST(Subroutines, BecomeFunctionsThatCallTheChosenOne) {
+    const TypeRow rows[] = {
+        {"nothing", "subroutine void Shade(void);", "void shade() { toon(); }"},
+        {"unnamed", "subroutine vec4 Shade(vec3, float);",
+         "vec4 shade(vec3 argument_0, float argument_1) { return toon(argument_0, argument_1); }"},
+        {"parameter_named_as_the_function", "subroutine vec4 Shade(vec3 toon);",
+         "vec4 shade(vec3 argument_0) { return toon(argument_0); }"},
+        {"qualified", "subroutine highp float Shade(const in vec3 n, inout mediump float sum);",
+         "highp float shade(const in vec3 argument_0, inout mediump float argument_1) { return "
+         "toon(argument_0, argument_1); }"},
+        {"arrays", "subroutine vec4 Shade(vec3 n[2], float[N] weights, float[N]);",
+         "vec4 shade(vec3 argument_0[ 2 ], float [ N ] argument_1, float [ N ] argument_2) { return "
+         "toon(argument_0, argument_1, argument_2); }"},
+    };
+    for (const TypeRow& row : rows) {
+        SCOPED_TRACE(row.name);
+        const std::vector<SubroutineType> types = subroutine_types(row.type);
+        ASSERT_EQ(types.size(), 1U);
+        EXPECT_EQ(types[0].name, "Shade");
+        EXPECT_EQ(call_of({"shade", "Shade", {}}, types[0], "toon"), row.expected);
+    }
 }
 
 struct Row {

@@ -25,7 +25,9 @@ class Composer {
           composition_(composition_for(dialect)),
           library_(family, search, comments, composition_),
           placer_(family, library_, composition_),
-          specializer_(family, dialect) {}
+          specializer_(family, dialect) {
+        library_.are_subroutines(subroutines_of_all_keys(family, search, dialect));
+    }
 
     Result<void> add(const Key& key) {
         // The fragment stage comes first: the vertex stage writes what it reads.

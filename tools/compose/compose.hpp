@@ -28,4 +28,9 @@ using LiteralCounts = std::map<Key, std::set<int>>;
                                                                          const SearchPath& search,
                                                                          Dialect dialect);
 
+/// The subroutine uniforms that stages of any key may hold and that choices of the family name. Their macros
+/// are none: other stages may use the name otherwise.
+[[nodiscard]] std::set<std::string> subroutines_of_all_keys(const Family& family, const SearchPath& search,
+                                                            Dialect dialect);
+
 }  // namespace gobo

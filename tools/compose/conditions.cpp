@@ -323,7 +323,7 @@ Result<Known> Conditions::value_of(const Directive& directive) const {
 
 Result<void> Conditions::apply(const Directive& directive) {
     const std::string& word = directive.word;
-    if (word == "pragma") return {};
+    if (word == "pragma" || word == "subroutine") return {};
     if (word == "define" || word == "undef") {
         if (!is_active()) return {};
         if (word == "define")

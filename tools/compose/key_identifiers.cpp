@@ -1,4 +1,4 @@
-// Every identifier that the shaders of any key may hold.
+// What the shaders of any key may hold: identifiers, and the subroutine uniforms that features choose.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -70,5 +70,21 @@ std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family,
         for (const Source* source : reachable(family, library, stage.kind))
             for (const int piece : source->pieces) add(composition.piece(piece).text);
     return identifiers;
+}
+
+std::set<std::string> subroutines_of_all_keys(const Family& family, const SearchPath& search,
+                                              Dialect dialect) {
+    const bool may_have_some = std::ranges::any_of(family.features, [](const Feature& feature) {
+        return feature.kind == FeatureKind::choice && !feature.macro.empty();
+    });
+    if (!may_have_some) return {};
+    Composition composition;
+    composition.dialect = dialect;
+    PieceLibrary library(family, search, Comments::remove, composition);
+    std::set<std::string> names;
+    for (const StageNames& stage : kStages)
+        for (const Source* source : reachable(family, library, stage.kind))
+            for (const SubroutineUniform& uniform : source->subroutines) names.insert(uniform.name);
+    return names;
 }
 }  // namespace gobo

@@ -7,7 +7,6 @@
 #include "compose/conditions.hpp"
 #include "compose/piece_marks.hpp"
 #include "compose/specialized_counts.hpp"
-#include "compose/subroutines.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -131,7 +130,17 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
         return fail({piece.path, line, 0}, line_of(piece, line),
                     "an array of subroutine uniforms cannot be a feature: each of its elements chooses anew",
                     "declare a uniform, and a feature, for each element");
-    choose_subroutines(scanned.text, scanned.code, chosen_functions_);
+    std::vector<SubroutineUniform> subroutines = subroutine_uniforms(scanned.code);
+    std::vector<SubroutineType> types = subroutine_types(scanned.code);
+    if (!choose_subroutines(scanned.text, scanned.code, chosen_functions_)) subroutines.clear();
+    for (const SubroutineUniform& uniform : subroutines) {
+        const auto behind = std::ranges::find_if(
+            scanned.directives, [&](const auto& next) { return next.place.line > uniform.line; });
+        scanned.directives.insert(behind, {"subroutine",
+                                           uniform.name,
+                                           {piece.path, uniform.line, 0},
+                                           std::string(line_of(piece, uniform.line))});
+    }
     composition_.stated_bindings.merge(scanned.bindings);
     Diagnostics& warnings = composition_.warnings;
     if (!is_spirv(composition_.dialect))  // in SPIR-V every offset is stated
@@ -141,6 +150,8 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
     source.name = piece.name;
     source.folder = std::move(folder);
     source.root = std::move(root);
+    source.subroutines = std::move(subroutines);
+    source.subroutine_types = std::move(types);
     add_pieces(source, piece, scanned);
     source.version = std::move(scanned.version);
     source.version_line = std::move(scanned.version_line);
@@ -193,8 +204,8 @@ void PieceLibrary::add_pieces(Source& source, const Piece& file, const ScannedPi
         line = last + 1;
     };
     for (const Directive& directive : scanned.directives) {
-        const bool parts =
-            directive.word == "include" || (directive.word == "pragma" && family_.unrolls_loops);
+        const bool parts = directive.word == "include" || directive.word == "subroutine" ||
+                           (directive.word == "pragma" && family_.unrolls_loops);
         if (parts) add_up_to(directive.place.line);
         if (parts || directive.word == "extension" || feature_defined_by(directive, family_) != nullptr)
             source.is_fixed = false;

@@ -16,6 +16,7 @@
 #include "compose/rewrite.hpp"
 #include "compose/scan_piece.hpp"
 #include "compose/search_path.hpp"
+#include "compose/subroutines.hpp"
 #include "family/family.hpp"
 
 namespace gobo {
@@ -43,6 +44,8 @@ struct Source {
     Extensions extensions;
     bool is_once = false;
     std::string guard;
+    std::vector<SubroutineUniform> subroutines;  ///< those that become functions
+    std::vector<SubroutineType> subroutine_types;
     /// Directives, by number, that mention a count which is to be specialised, by feature.
     std::vector<std::pair<int, std::size_t>> asks_for_counts;
     /// Whatever the macros are: one piece, its extensions under no condition, no macro of a feature defined.
@@ -71,6 +74,10 @@ class PieceLibrary {
 
     /// The piece with one round of its loop in the loop's place.
     int round(int piece, const LoopHead& head, int index);
+
+    /// Features whose macros are subroutine uniforms of some stage: none of them is a macro.
+    void are_subroutines(std::set<std::string> macros) { subroutines_ = std::move(macros); }
+    [[nodiscard]] bool is_subroutine(const std::string& macro) const { return subroutines_.contains(macro); }
 
     /// What the composition is warned of when all of it is put together.
     void add_warnings();
@@ -138,6 +145,7 @@ class PieceLibrary {
     std::map<Substitutions, int> variants_;
     int variant_ = 0;
     bool has_substitutions_ = false;
+    std::set<std::string> subroutines_;
     std::set<std::string> chosen_functions_;  ///< macros of choices: where a file has them as subroutines
     /// Root, path and variant; also what is known to be absent.
     std::map<std::tuple<std::string, std::string, int>, std::optional<int>> by_path_;

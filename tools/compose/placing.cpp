@@ -44,6 +44,7 @@ Result<void> Placer::follow_templates(Placement& placement) {
     }
     placement.behind_prologue = placement.placed.size();
     for (const std::string& path : paths) GOBO_TRY_DO(follow(placement, asked(path), nullptr));
+    place_called_functions(placement);
     return family_.compatibility ? place_legacy(placement) : Result<void>();
 }
 
@@ -173,6 +174,10 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
             GOBO_TRY(Include include, read_include(directive));
             include.at_top = false;
             GOBO_TRY_DO(follow(placement, include, &source));
+        } else if (directive.word == "subroutine") {
+            place_piece(placement, *piece++);
+            if (conditions.is_active()) GOBO_TRY_DO(place_subroutine(placement, source, directive));
+            placement.walked = placement.placed.size();
         } else if (directive.word == "extension") {
             if (conditions.is_active())
                 add_extension(placement.extensions, directive, conditions.is_certain());
@@ -185,6 +190,41 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
     place_piece(placement, *piece);
     placement.walked = placement.placed.size();
     return {};
+}
+
+Result<void> Placer::place_subroutine(Placement& placement, const Source& source, const Directive& declared) {
+    const SubroutineUniform& uniform =
+        *std::ranges::find(source.subroutines, declared.rest, &SubroutineUniform::name);
+    std::vector<int> files = placement.files;  // that of the type is among them, or being placed
+    files.insert(files.end(), placement.open.begin(), placement.open.end());
+    for (auto file = files.rbegin(); file != files.rend(); ++file) {
+        const std::vector<SubroutineType>& types = library_.source(*file).subroutine_types;
+        const auto type = std::ranges::find(types, uniform.type, &SubroutineType::name);
+        if (type == types.end()) continue;
+        placement.subroutines.push_back({uniform, *type, declared});
+        Piece piece{"subroutines", "subroutines", prototype_of(uniform, *type) + ";\n"};
+        piece.moved_lines[1] = {declared.place, declared.line};
+        place_piece(placement, library_.generated(std::move(piece)));
+        return {};
+    }
+    return fail_at(declared, fmt::format("no subroutine type '{}' is declared before this", uniform.type),
+                   fmt::format("write subroutine RESULT {}(PARAMETERS); before it, or include the file that "
+                               "does",
+                               uniform.type));
+}
+
+void Placer::place_called_functions(Placement& placement) {
+    Piece piece{"subroutines", "subroutines", ""};
+    int line = 0;
+    for (const ChosenSubroutine& chosen : placement.subroutines) {
+        const auto feature = std::ranges::find(family_.features, chosen.uniform.name, &Feature::macro);
+        const auto index = static_cast<std::size_t>(feature - family_.features.begin());
+        const std::optional<std::string> function = feature->text_of(placement.key[index]);
+        if (!function) continue;
+        piece.text += call_of(chosen.uniform, chosen.type, *function) + "\n";
+        piece.moved_lines[++line] = {chosen.declared.place, chosen.declared.line};
+    }
+    if (!piece.text.empty()) place_piece(placement, library_.generated(std::move(piece)));
 }
 
 Result<void> Placer::place_rounds(Placement& placement, int piece, const Directive& start) {

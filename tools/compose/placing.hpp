@@ -11,6 +11,13 @@
 
 namespace gobo {
 
+/// A subroutine uniform that a feature chooses the function of.
+struct ChosenSubroutine {
+    SubroutineUniform uniform;
+    SubroutineType type;
+    Directive declared;
+};
+
 /// A stage being put together: the pieces placed so far and the includes that lead to the one being placed.
 struct Placement {
     const Key& key;
@@ -25,6 +32,7 @@ struct Placement {
     Extensions extensions = {};
     std::string version = {};  ///< the family's, else the template's, else the first that a file states
     std::string version_beside = {};  ///< that of another stage of the program, for one that states none
+    std::vector<ChosenSubroutine> subroutines = {};
     std::optional<Conditions> conditions = {};
     std::size_t walked = 0;  ///< the pieces whose directives `conditions` has taken in
 };
@@ -53,6 +61,10 @@ class Placer {
     void place_piece(Placement& placement, int piece);
     /// Places a file's pieces, with what it includes below its top between them.
     Result<void> place_text(Placement& placement, const Source& source);
+    /// Declares the function that a subroutine uniform becomes.
+    Result<void> place_subroutine(Placement& placement, const Source& source, const Directive& declared);
+    /// Behind all else, what those functions call.
+    void place_called_functions(Placement& placement);
     /// Places a piece that is a loop as many times as that goes round.
     Result<void> place_rounds(Placement& placement, int piece, const Directive& start);
     /// Lets the conditions take in the directives of all that is placed.

@@ -13,7 +13,8 @@ namespace {
 
 /// The macros of the features that the stage mentions, or that the text of another one does.
 std::vector<std::string> macros_of(const Family& family, Dialect dialect, const Placement& placement,
-                                   const Mentions& mentions, const std::map<int, int>& specialized) {
+                                   const Mentions& mentions, const PieceLibrary& library,
+                                   const std::map<int, int>& specialized) {
     std::vector<std::string> definitions(family.features.size());
     std::set<std::string, std::less<>> mentioned;  // by texts
     for (bool goes_on = true; std::exchange(goes_on, false);) {
@@ -21,6 +22,7 @@ std::vector<std::string> macros_of(const Family& family, Dialect dialect, const 
             const Feature& feature = family.features[i];
             const bool is_in_stage =
                 feature.stages.empty() || std::ranges::count(feature.stages, name_of(placement.stage)) > 0;
+            if (library.is_subroutine(feature.macro)) continue;
             if (feature.macro.empty() || !definitions[i].empty() || !is_in_stage) continue;
             if (!mentions(feature.macro) && !mentioned.contains(feature.macro)) continue;
             const std::optional<std::string> text = feature.text_of(placement.key[i]);
@@ -49,7 +51,8 @@ std::string stage_prologue(const Family& family, Dialect dialect, const Placemen
     std::string text = dialect_prologue(
         dialect, placement.stage, placement.version.empty() ? placement.version_beside : placement.version,
         placement.extensions, mentions, places);
-    for (const std::string& definition : macros_of(family, dialect, placement, mentions, specialized))
+    for (const std::string& definition :
+         macros_of(family, dialect, placement, mentions, library, specialized))
         text += definition;
     return text;
 }
