@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "lab/raster/pipeline.hpp"
 #include "lab/raster/random.hpp"
 #include "lab/render/render.hpp"
 #include "lit_library.hpp"
+#include "spirv/module.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -92,6 +94,22 @@ TEST(CrossCheck, FindsDisagreements) {
             << row.name << ": wrong pixels are measured";
         EXPECT_EQ(report->actual.width, 64) << row.name << ": the pictures are kept";
     }
+}
+
+/// llvmpipe takes all as fine ones, so that no picture here shows the other way.
+TEST(CrossCheck, KnowsTheWaysInWhichDriversTakeDerivatives) {
+    const auto module_of = [](const std::vector<spv::Op>& opcodes) {
+        std::vector<std::uint32_t> words = {spv::MagicNumber, 0x10000, 0, 100, 0};
+        for (const spv::Op opcode : opcodes)
+            words.insert(words.end(), {4U << 16U | static_cast<std::uint32_t>(opcode), 1, 2, spv::OpDPdx});
+        return words;
+    };
+    using enum raster::Derivatives;
+    const auto module = module_of({spv::OpDPdx, spv::OpDPdyCoarse, spv::OpFwidth, spv::OpDPdxFine});
+    EXPECT_EQ(raster::with_derivatives(module, fine),
+              module_of({spv::OpDPdxFine, spv::OpDPdyFine, spv::OpFwidthFine, spv::OpDPdxFine}));
+    EXPECT_EQ(raster::with_derivatives(module, coarse),
+              module_of({spv::OpDPdxCoarse, spv::OpDPdyCoarse, spv::OpFwidthCoarse, spv::OpDPdxFine}));
 }
 
 TEST(CrossCheck, PassesWhatAgreesAndHasSeenTheScene) {

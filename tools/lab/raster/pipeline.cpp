@@ -1,6 +1,8 @@
 #include "lab/raster/pipeline.hpp"
 
+#include <algorithm>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,24 @@ bool is_derivative(spv::Op opcode) {
            opcode == spv::OpImageSampleImplicitLod || opcode == spv::OpImageSampleDrefImplicitLod ||
            opcode == spv::OpImageSampleProjImplicitLod || opcode == spv::OpImageSampleProjDrefImplicitLod ||
            opcode == spv::OpImageQueryLod;
+}
+
+/// The fine or coarse form of a derivative that is not fine already.
+std::optional<spv::Op> form_of(spv::Op opcode, Derivatives derivatives) {
+    const bool is_fine = derivatives == Derivatives::fine;
+    switch (opcode) {
+        case spv::OpDPdx:
+        case spv::OpDPdxCoarse:
+            return is_fine ? spv::OpDPdxFine : spv::OpDPdxCoarse;
+        case spv::OpDPdy:
+        case spv::OpDPdyCoarse:
+            return is_fine ? spv::OpDPdyFine : spv::OpDPdyCoarse;
+        case spv::OpFwidth:
+        case spv::OpFwidthCoarse:
+            return is_fine ? spv::OpFwidthFine : spv::OpFwidthCoarse;
+        default:
+            return std::nullopt;
+    }
 }
 
 /// Takes from the fragment stage's decorations and execution modes what decoding leaves out. The result is
@@ -74,6 +94,16 @@ Result<Pipeline> pipeline_of(std::span<const std::uint32_t> vertex, std::span<co
     GOBO_TRY(evaluate::Program first, evaluate::decode(vertex));
     GOBO_TRY(evaluate::Program second, evaluate::decode(fragment));
     return join(std::move(first), std::move(second), fragment);
+}
+
+std::vector<std::uint32_t> with_derivatives(std::span<const std::uint32_t> module, Derivatives derivatives) {
+    constexpr std::size_t kHeaderWords = 5;
+    constexpr std::uint32_t kOpcodeBits = 0xffff;
+    std::vector<std::uint32_t> words(module.begin(), module.end());
+    for (std::size_t at = kHeaderWords; at < words.size(); at += std::max(words[at] >> 16U, 1U))
+        if (const auto form = form_of(static_cast<spv::Op>(words[at] & kOpcodeBits), derivatives))
+            words[at] = (words[at] & ~kOpcodeBits) | static_cast<std::uint32_t>(*form);
+    return words;
 }
 
 }  // namespace gobo::raster

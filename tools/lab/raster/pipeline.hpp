@@ -43,4 +43,14 @@ struct Pipeline {
 [[nodiscard]] Result<Pipeline> pipeline_of(std::span<const std::uint32_t> vertex,
                                            std::span<const std::uint32_t> fragment);
 
+/// How a driver takes the derivatives that GLSL leaves to it: all but dFdxFine() and its like.
+enum class Derivatives {
+    fine,    ///< of each line and column of a quad by itself
+    coarse,  ///< once for a quad, at its first pixel
+};
+
+/// The fragment stage with its derivatives taken so.
+[[nodiscard]] std::vector<std::uint32_t> with_derivatives(std::span<const std::uint32_t> module,
+                                                          Derivatives derivatives);
+
 }  // namespace gobo::raster

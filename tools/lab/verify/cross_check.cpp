@@ -291,17 +291,29 @@ Result<SpirvModule> module_of(const Validated& validated, const Permutation& per
     return spirv::specialized(words, values);
 }
 
+Result<raster::PictureReport> compare(const Drawn& drawn, const SpirvModule& vertex,
+                                      const SpirvModule& fragment, const CrossCheckScene& scene,
+                                      bool rows_run_down) {
+    GOBO_TRY(const auto pipeline, raster::pipeline_of(vertex, fragment));
+    GOBO_TRY(auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values,
+                                                     scene.view, drawn.images));
+    for (raster::RasterObject& object : objects) object.rows_run_down = rows_run_down;
+    return raster::compare_picture(drawn.picture, pipeline, objects, scene.view.background);
+}
+
+/// The picture is right where all of it agrees with one of the ways in which a driver may take derivatives.
 Result<raster::PictureReport> compare(const Validated& validated, const Permutation& permutation,
                                       const Result<Drawn>& maybe_drawn, const CrossCheckScene& scene,
                                       bool rows_run_down) {
     GOBO_TRY(const Drawn& drawn, maybe_drawn);
     GOBO_TRY(const SpirvModule vertex, module_of(validated, permutation, StageKind::vertex));
     GOBO_TRY(const SpirvModule fragment, module_of(validated, permutation, StageKind::fragment));
-    GOBO_TRY(const auto pipeline, raster::pipeline_of(vertex, fragment));
-    GOBO_TRY(auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values,
-                                                     scene.view, drawn.images));
-    for (raster::RasterObject& object : objects) object.rows_run_down = rows_run_down;
-    return raster::compare_picture(drawn.picture, pipeline, objects, scene.view.background);
+    const SpirvModule fine = raster::with_derivatives(fragment, raster::Derivatives::fine);
+    GOBO_TRY(auto report, compare(drawn, vertex, fine, scene, rows_run_down));
+    const SpirvModule coarse = raster::with_derivatives(fragment, raster::Derivatives::coarse);
+    if (!report.fails() || coarse == fine) return report;
+    GOBO_TRY(auto other, compare(drawn, vertex, coarse, scene, rows_run_down));
+    return other.fails() ? report : other;
 }
 
 /// Every light that casts shadows in any of the keys: of each kind, as many as in the key that has most.
