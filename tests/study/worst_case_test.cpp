@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "budget/budget.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "lab/oracle/model.hpp"
 #include "lab/study/qualities.hpp"
+#include "lab/study/worst_inputs.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {
@@ -68,13 +72,60 @@ TEST(WorstCase, FindsWhatATableOfTheEnvironmentBrdfGivesBack) {
     EXPECT_GT(found[0].error, 0.1);
 }
 
-/// A light's error shows whole where the others are dark.
-TEST(WorstCase, IsNoLessAmongMoreLights) {
-    const auto many = searched({"directional=1 fog=exponential point=1 specular=blinn spot=1"}, {}, 16384);
-    for (const char* quality :
-         {"power=near_exact", "power=gaussian_fitted", "power=gaussian", "power=lyon", "power=schlick"})
+struct Lights {
+    const char* name;
+    const char* effects;
+};
+
+class WorstCaseOfLights : public testing::TestWithParam<Lights> {};
+
+/// A light's error shows whole where the others are dark, however many there are.
+TEST_P(WorstCaseOfLights, IsNoLessAmongMoreLights) {
+    const auto many = searched({GetParam().effects}, {}, 16384);
+    for (const char* quality : {"power=near_exact", "power=gaussian_fitted", "power=gaussian", "power=lyon",
+                                "power=schlick", "normal=interpolated", "viewer=infinite"})
         EXPECT_GT(worst_of(many, quality), 0.6 * worst_of(all_cases(), quality)) << quality;
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, WorstCaseOfLights,
+    testing::Values(Lights{"of_each_kind", "directional=1 fog=exponential point=1 specular=blinn spot=1"},
+                    Lights{"eight_directional", "directional=8 specular=blinn"},
+                    Lights{"eight_point", "point=8 specular=blinn"},
+                    Lights{"eight_spot", "specular=blinn spot=8"},
+                    Lights{"eight_of_either_kind", "directional_or_point=8 specular=blinn"}),
+    [](const auto& row) { return row.param.name; });
+
+/// How far points stand from the middle of the view, in degrees.
+struct ViewAngle {
+    const char* name;
+    double from;
+    double to;
+};
+
+class WorstInputsInView : public testing::TestWithParam<ViewAngle> {};
+
+TEST_P(WorstInputsInView, AreAtEveryAngle) {
+    const auto model = oracle::model_of(lit_under_study().family, lit_key("directional=1 spot=1")).value();
+    SearchRandom random(1);
+    int count = 0;
+    for (verify::Sample& sample : verify::make_samples(model, StageKind::fragment, 4000, 1)) {
+        const double before = glm::distance(sample.surface.position, sample.scene.spot[0].position);
+        bring_to_edges(sample, random);
+        EXPECT_NEAR(glm::distance(sample.surface.position, sample.scene.spot[0].position), before,
+                    1e-9 * (1 + before + glm::length(sample.surface.position)));
+        const glm::dvec3 to = glm::normalize(sample.surface.position);
+        const double angle = std::atan2(glm::length(glm::dvec2(to)), -to.z) * 180 / std::numbers::pi;
+        if (angle >= GetParam().from && angle < GetParam().to) ++count;
+    }
+    EXPECT_GE(count, 40);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, WorstInputsInView,
+                         testing::Values(ViewAngle{"a_tenth", 0.05, 0.2}, ViewAngle{"one", 0.5, 2},
+                                         ViewAngle{"ten", 5, 20}, ViewAngle{"thirty", 25, 35},
+                                         ViewAngle{"sixty", 50, 70}, ViewAngle{"beside", 85, 95}),
+                         [](const auto& row) { return row.param.name; });
 
 TEST(WorstCase, IsNoneWhereVerticesComputeTheLight) {
     for (const WorstCase& one : searched({"point=1 diffuse=toon"})) {

@@ -4,23 +4,17 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <gobo/environment_brdf.hpp>
 
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
-#include "lab/oracle/oracle.hpp"
-#include "lab/raster/random_numbers.hpp"
 #include "lab/study/parallel_results.hpp"
 #include "lab/study/qualities.hpp"
+#include "lab/study/worst_inputs.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/inputs.hpp"
-#include "lab/verify/random_points.hpp"
 
 namespace gobo::study {
 namespace {
@@ -29,126 +23,6 @@ using verify::Sample;
 
 constexpr std::size_t kPortion = 512;
 constexpr std::size_t kKept = 24;  ///< worst inputs that are varied, with one lamp and with all
-
-class Random : public RandomNumbers<Xoshiro256> {
-  public:
-    using RandomNumbers::RandomNumbers;
-    bool one_in(std::size_t n) { return index(n) == 0; }
-    double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
-};
-
-/// Puts the sample where models have their edges: any shininess, narrow cones, the point beside their edge.
-void bring_to_edges(Sample& sample, Random& random) {
-    sample.scene.material.shininess =
-        random.one_in(2) ? random.log_between(0.1, 10) : random.log_between(0.1, 1e6);
-    for (oracle::SpotLight& light : sample.scene.spot) {
-        const double outer = random.log_between(1e-3, std::numbers::pi);
-        const double inner = outer * (random.one_in(2) ? random.unit() : 1 - random.log_between(1e-3, 1));
-        light.outer_one_minus_cosine = 2 * std::pow(std::sin(outer / 2), 2);
-        light.inner_one_minus_cosine = 2 * std::pow(std::sin(inner / 2), 2);
-        const glm::dvec3 ray = sample.surface.position - light.position;
-        if (glm::length(ray) == 0) continue;
-        // Turned away from the point by an angle within the soft edge.
-        const double angle = inner + (outer - inner) * random.unit();
-        const glm::dvec3 to_point = glm::normalize(ray);
-        glm::dvec3 aside{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
-        aside = glm::cross(to_point, aside);
-        if (glm::length(aside) == 0) continue;
-        light.axis = std::cos(angle) * to_point + std::sin(angle) * glm::normalize(aside);
-    }
-}
-
-/// Gives the sample what the table of the environment BRDF holds at its roughness and n.v, as an application
-/// makes it (gobo/environment_brdf.hpp): any other table would be another model.
-void look_up_table(const oracle::Model& model, Sample& sample) {
-    constexpr int kSize = 32;
-    static const std::vector<float> kTexels = environment_brdf_table(kSize);
-    const double nv = glm::dot(oracle::shading_direction(model, sample.surface.normal),
-                               oracle::to_viewer(model, sample.surface.position));
-    const auto place = [](double coordinate) {
-        return static_cast<std::size_t>(std::clamp(coordinate * kSize, 0.0, kSize - 1.0));
-    };
-    const std::size_t texel = kSize * place(sample.scene.material.roughness) + place(std::abs(nv));
-    sample.scene.environment_brdf = {kTexels[2 * texel], kTexels[2 * texel + 1]};
-}
-
-/// Puts out all light but that of one lamp, and fog that thins to nothing: alone a light's error shows whole.
-void leave_one_light(oracle::Scene& scene, Random& random) {
-    std::vector<glm::dvec3*> colors;
-    for (oracle::DirectionalLight& light : scene.directional) colors.push_back(&light.color);
-    for (oracle::PointLight& light : scene.point) colors.push_back(&light.color);
-    for (oracle::SpotLight& light : scene.spot) colors.push_back(&light.color);
-    for (oracle::DirectionalOrPointLight& light : scene.directional_or_point) colors.push_back(&light.color);
-    if (colors.empty()) return;
-    const std::size_t lit = random.index(colors.size());
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        if (i != lit) *colors[i] = glm::dvec3(0);
-    scene.ambient = scene.material.emission = glm::dvec3(0);
-    std::ranges::fill(scene.light_ambients, glm::dvec3(0));
-    scene.fog.density = 0;
-}
-
-/// A number, vector or matrix that the stage reads.
-struct SearchedField {
-    verify::Field field;
-    std::string name;
-    std::optional<Domain> domain;
-
-    [[nodiscard]] bool is_of_length() const { return domain && domain->of_length; }
-};
-
-std::vector<SearchedField> fields_of(const evaluate::Program& program, const std::vector<Domain>& domains) {
-    std::vector<SearchedField> fields;
-    for (const auto* ports : {&program.inputs, &program.uniforms})
-        for (const evaluate::Port& port : *ports) {
-            const auto field = verify::field_of(port.name);
-            if (!field || port.scalar != evaluate::Scalar::float32) continue;
-            const Domain* domain = verify::domain_of(domains, port.name);
-            fields.push_back({*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain)});
-        }
-    return fields;
-}
-
-double nearest_in(const Domain& domain, double number) {
-    return std::ranges::find(domain.also, number) != domain.also.end()
-               ? number
-               : std::clamp(number, domain.low, domain.high);
-}
-
-/// A domain's length is of all numbers but a last one that has a range of its own.
-void bring_into_domain(const SearchedField& field, Sample& sample) {
-    if (!field.domain) return;
-    const Domain& domain = *field.domain;
-    std::vector<double> numbers = field.field.get(sample);
-    const std::span<double> first(numbers.data(), numbers.size() - (domain.last.empty() ? 0 : 1));
-    if (domain.of_length) {
-        double square = 0;
-        for (const double number : first) square += number * number;
-        const double length = std::sqrt(square);
-        if (length > 0)
-            for (double& number : first) number *= nearest_in(domain, length) / length;
-    } else {
-        for (double& number : first) number = nearest_in(domain, number);
-    }
-    if (!domain.last.empty()) numbers.back() = std::clamp(numbers.back(), domain.last[0], domain.last[1]);
-    field.field.set(sample, numbers);
-}
-
-/// Puts one of the numbers at an end of its domain, or makes it one of those allowed besides.
-void bring_to_end(const SearchedField& field, Sample& sample, Random& random) {
-    if (!field.domain) return;
-    std::vector<double> numbers = field.field.get(sample);
-    if (numbers.empty()) return;
-    std::vector<double> ends = field.domain->also;
-    ends.push_back(field.domain->low);
-    ends.push_back(field.domain->high);
-    const double end = random.pick(ends);
-    if (field.is_of_length())
-        for (double& number : numbers) number *= end;
-    else
-        numbers[random.index(numbers.size())] = end;
-    field.field.set(sample, numbers);
-}
 
 /// One key against the oracle's most accurate model.
 class Search {
@@ -160,7 +34,7 @@ class Search {
           own_model_(own_model),
           options_(options),
           random_(options.seed),
-          fields_(fields_of(variant.program.fragment, family.domains)) {}
+          fields_(searched_fields(variant.program.fragment, family.domains)) {}
 
     Result<WorstCase> run() {
         for (std::size_t done = 0; done < options_.points && worst_.error <= options_.enough;
@@ -193,9 +67,8 @@ class Search {
                                                            static_cast<int>(count), ++draws_ + options_.seed);
         for (Sample& sample : samples) {
             if (!random_.one_in(4)) bring_to_edges(sample, random_);
-            while (!fields_.empty() && random_.one_in(3))
-                bring_to_end(random_.pick(fields_), sample, random_);
             if (is_alone) leave_one_light(sample.scene, random_);
+            while (!fields_.empty() && random_.one_in(3)) bring_to_end(lit_field(sample), sample, random_);
         }
         return samples;
     }
@@ -209,9 +82,18 @@ class Search {
         return samples;
     }
 
+    /// A field that is not of a light that is out; after some tries any: of many lights only one may shine.
+    const SearchedField& lit_field(const Sample& sample) {
+        const SearchedField* field = &random_.pick(fields_);
+        for (std::size_t tries = 0; tries < 2 * fields_.size() && is_of_dark_light(*field, sample.scene);
+             ++tries)
+            field = &random_.pick(fields_);
+        return *field;
+    }
+
     void change(Sample& sample) {
         if (fields_.empty()) return;
-        const SearchedField& field = random_.pick(fields_);
+        const SearchedField& field = lit_field(sample);
         if (random_.one_in(16)) return bring_to_end(field, sample, random_);
         std::vector<double> numbers = field.field.get(sample);
         if (numbers.empty()) return;
@@ -276,7 +158,7 @@ class Search {
     const oracle::Model& model_;
     const oracle::Model& own_model_;
     const WorstCaseOptions& options_;
-    Random random_;
+    SearchRandom random_;
     std::uint64_t draws_ = 0;
     std::vector<SearchedField> fields_;
     std::vector<Kept> kept_;
