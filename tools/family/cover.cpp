@@ -86,10 +86,15 @@ class Coverer {
                 touching_[combination.features[i]].push_back({&combination, combination.strides[i]});
     }
 
-    std::vector<Key> run() {
+    /// Nothing where it would take too long: what the keys so far took tells.
+    std::optional<std::vector<Key>> run() {
+        const auto most_left = std::ranges::max_element(combinations_, {}, &Combination::left);
+        const std::size_t fewest_keys = most_left == combinations_.end() ? 0 : most_left->left;
         std::vector<Key> keys;
         PartialKey start;
         while (next_start(start)) {
+            if (!keys.empty() && looks_ / keys.size() * std::max(fewest_keys, keys.size()) > most_looks)
+                return std::nullopt;
             OpenPaths paths = nothing_decided_;
             for (std::size_t i = 0; i < start.size(); ++i)
                 if (start[i] >= 0) paths.decide(i, start[i]);
@@ -108,6 +113,10 @@ class Coverer {
   private:
     /// Orders of features tried for each key; more gave covers smaller by under one per cent.
     static constexpr int attempts = 6;
+
+    /// At nodes of the space, each some 25 ns. The covers of `lit` by triples and by fours take 25 and some
+    /// 250 million.
+    static constexpr std::size_t most_looks = 2'000'000'000;
 
     /// A key, and how many open tuples it has besides the one that it began with.
     struct Attempt {
@@ -132,6 +141,7 @@ class Coverer {
     }
 
     Attempt complete(const PartialKey& start, OpenPaths paths) {
+        const std::size_t looks_before = paths.looks();
         Attempt attempt{start, 0};
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < start.size(); ++i)
@@ -141,6 +151,7 @@ class Coverer {
             attempt.gain += decide_best(attempt.key, feature, paths);
             paths.decide(feature, attempt.key[feature]);
         }
+        looks_ += paths.looks() - looks_before;
         return attempt;
     }
 
@@ -161,8 +172,8 @@ class Coverer {
     }
 
     /// Per value of the feature: how many open tuples it makes up with what is decided already.
-    [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey key, std::size_t feature) const {
-        key[feature] = 0;
+    [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey& key, std::size_t feature) const {
+        key[feature] = 0;  // only for the index of the first tuple
         std::vector<std::size_t> gains(space_.value_count(feature), 0);
         for (const auto& [combination, stride] : touching_[feature]) {
             const std::optional<std::size_t> first = tuple_index(*combination, key);
@@ -170,6 +181,7 @@ class Coverer {
             for (std::size_t value = 0; value < gains.size(); ++value)
                 gains[value] += combination->open[*first + value * stride];
         }
+        key[feature] = -1;
         return gains;
     }
 
@@ -196,13 +208,14 @@ class Coverer {
     std::vector<std::vector<Touch>> touching_;  ///< per feature
     OpenPaths nothing_decided_;
     std::size_t cursor_ = 0;
+    std::size_t looks_ = 0;       ///< at nodes of the space, over all attempts
     std::mt19937 random_{20231};  // a fixed seed: the same cover everywhere
 };
 
 }  // namespace
 
-std::vector<Key> cover(const KeySpace& space, int strength) {
-    if (space.count() == 0 || strength < 1) return {};
+std::optional<std::vector<Key>> cover(const KeySpace& space, int strength) {
+    if (space.count() == 0 || strength < 1) return std::vector<Key>{};
     if (static_cast<std::size_t>(strength) >= space.feature_count()) return space.keys();
     return Coverer(space, static_cast<std::size_t>(strength)).run();
 }

@@ -195,6 +195,7 @@ class KeySpace::Builder {
         }
         space.node_counts_.push_back(states.size());
         space.merge_equal_nodes();
+        space.find_previous();
         return space;
     }
 
@@ -266,6 +267,22 @@ void KeySpace::merge_equal_nodes() {
     }
 }
 
+void KeySpace::find_previous() {
+    for (std::size_t level = 0; level < feature_count(); ++level) {
+        std::vector<std::vector<int>> found(node_counts_[level + 1]);
+        for (std::size_t node = 0; node < node_counts_[level]; ++node)
+            for (const int below : next(level, node))
+                if (below != dead && (found[below].empty() || found[below].back() != static_cast<int>(node)))
+                    found[below].push_back(static_cast<int>(node));
+        std::vector<int>& all = previous_.emplace_back();
+        std::vector<std::size_t>& starts = previous_starts_.emplace_back(1, 0);
+        for (const std::vector<int>& nodes : found) {
+            all.insert(all.end(), nodes.begin(), nodes.end());
+            starts.push_back(all.size());
+        }
+    }
+}
+
 WholeNumber KeySpace::count() const {
     std::vector<WholeNumber> below(node_counts_.back(), 1);
     for (std::size_t level = feature_count(); level-- > 0;) {
@@ -308,33 +325,50 @@ OpenPaths::OpenPaths(const KeySpace& space)
 std::vector<char> OpenPaths::allowed(std::size_t feature) const {
     const std::size_t level = levels_[feature];
     std::vector<char> result(space_->value_count(feature), 0);
+    std::vector<std::size_t> missing(result.size());
+    std::iota(missing.begin(), missing.end(), 0);
     for (const int node : open_[level]) {
+        if (missing.empty()) break;
         const std::span<const int> next = space_->next(level, node);
-        for (std::size_t value = 0; value < next.size(); ++value)
-            if (next[value] != KeySpace::dead && is_open_[level + 1][next[value]] != 0) result[value] = 1;
+        std::erase_if(missing, [&](std::size_t value) {
+            const bool is_allowed = next[value] != KeySpace::dead && is_open_[level + 1][next[value]] != 0;
+            if (is_allowed) result[value] = 1;
+            return is_allowed;
+        });
     }
     return result;
 }
 
-bool OpenPaths::close(std::size_t level, bool below) {
-    const std::size_t closed = level + (below ? 1 : 0);
-    std::vector<char> kept(is_open_[closed].size(), 0);
-    for (const int node : open_[level]) {
-        const std::span<const int> next = space_->next(level, node);
-        for (const int way : decided_[level] < 0 ? next : next.subspan(decided_[level], 1))
-            if (way != KeySpace::dead && is_open_[level + 1][way] != 0) kept[below ? way : node] = 1;
-    }
-    for (const int node : open_[closed]) is_open_[closed][node] = kept[node];
-    return std::erase_if(open_[closed], [&](int node) { return kept[node] == 0; }) > 0;
+bool OpenPaths::leads_on(std::size_t level, int node) const {
+    const std::span<const int> next = space_->next(level, node);
+    const auto is_open = [&](int way) { return way != KeySpace::dead && is_open_[level + 1][way] != 0; };
+    return decided_[level] < 0 ? std::ranges::any_of(next, is_open) : is_open(next[decided_[level]]);
+}
+
+bool OpenPaths::is_reached(std::size_t level, int node) const {
+    const int value = decided_[level - 1];
+    return std::ranges::any_of(space_->previous(level, node), [&](int before) {
+        return is_open_[level - 1][before] != 0 &&
+               (value < 0 || space_->next(level - 1, before)[value] == node);
+    });
+}
+
+bool OpenPaths::close(std::size_t level, const auto& hold) {
+    looks_ += open_[level].size();
+    return std::erase_if(open_[level], [&](int node) {
+               if (hold(node)) return false;
+               is_open_[level][node] = 0;
+               return true;
+           }) > 0;
 }
 
 void OpenPaths::decide(std::size_t feature, int value) {
     const std::size_t start = levels_[feature];
     decided_[start] = value;
-    for (std::size_t level = start; level < levels_.size() && close(level, true); ++level) {
-    }
-    for (std::size_t level = start + 1; level-- > 0 && close(level, false);) {
-    }
+    for (std::size_t level = start + 1; level < open_.size(); ++level)
+        if (!close(level, [&](int node) { return is_reached(level, node); })) break;
+    for (std::size_t level = start + 1; level-- > 0;)
+        if (!close(level, [&](int node) { return leads_on(level, node); })) break;
 }
 
 }  // namespace gobo

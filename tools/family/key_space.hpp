@@ -60,15 +60,24 @@ class KeySpace {
         return std::span(branches_[level]).subspan(node * count, count);
     }
 
+    /// The nodes of the level before that some value leads from to the node; the level is not 0.
+    [[nodiscard]] std::span<const int> previous(std::size_t level, std::size_t node) const {
+        const std::vector<std::size_t>& starts = previous_starts_[level - 1];
+        return std::span(previous_[level - 1]).subspan(starts[node], starts[node + 1] - starts[node]);
+    }
+
   private:
     class Builder;
     KeySpace() = default;
     void merge_equal_nodes();
+    void find_previous();
 
     std::vector<int> feature_at_;             ///< per level
     std::vector<std::size_t> value_counts_;   ///< per feature
     std::vector<std::size_t> node_counts_;    ///< per level
     std::vector<std::vector<int>> branches_;  ///< per level: next() of all nodes
+    std::vector<std::vector<int>> previous_;  ///< per level but the first: previous() of all nodes
+    std::vector<std::vector<std::size_t>> previous_starts_;  ///< and where each node's begin, and the end
 };
 
 /// The keys of a key space that agree with what is decided so far, while features are decided in any order.
@@ -85,16 +94,25 @@ class OpenPaths {
     /// Gives the feature the value.
     void decide(std::size_t feature, int value);
 
+    /// How many nodes deciding has looked at so far, in what this is a copy of too: a measure of time.
+    [[nodiscard]] std::size_t looks() const { return looks_; }
+
   private:
-    /// Closes the nodes of a level, or of the one `below` it, that no way between the two joins to an open
-    /// one; whether there were any.
-    bool close(std::size_t level, bool below);
+    /// Whether what is decided leaves a way from the node of the level to an open one of the next.
+    [[nodiscard]] bool leads_on(std::size_t level, int node) const;
+
+    /// Whether it leaves a way to the node of the level from an open one of the level before.
+    [[nodiscard]] bool is_reached(std::size_t level, int node) const;
+
+    /// Closes the open nodes of a level that do not `hold`; whether there were any.
+    bool close(std::size_t level, const auto& hold);
 
     const KeySpace* space_;
     std::vector<std::size_t> levels_;         ///< of the features
     std::vector<int> decided_;                ///< per level: a value, or -1
     std::vector<std::vector<int>> open_;      ///< per level: the nodes on the way of some key that agrees
     std::vector<std::vector<char>> is_open_;  ///< per level and node: the same
+    std::size_t looks_ = 0;
 };
 
 }  // namespace gobo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -96,6 +97,29 @@ double combinations(const KeySpace& space, std::size_t strength) {
     return of[strength];
 }
 
+/// The number of values of the features that an expression looks at.
+std::size_t values_of(const Family& family, const Expression& expression) {
+    std::size_t count = 0;
+    for (const std::vector<int>& features : {expression.features, expression.subtracted})
+        for (const int feature : features) count += family.features[feature].values.size();
+    for (const Expression& part : expression.parts) count += values_of(family, part);
+    return count;
+}
+
+/// ", most by the rule in FILE:LINE": that whose condition looks at most values; empty where there are no
+/// rules.
+std::string widest_rule(const Family& family, std::string_view dialect) {
+    const Rule* widest = nullptr;
+    std::size_t most = 0;
+    for (const Rule& rule : family.rules) {
+        const std::size_t values = applies_in(rule, dialect) ? values_of(family, rule.when) : 0;
+        if (values > most) widest = &rule;
+        most = std::max(most, values);
+    }
+    if (widest == nullptr) return "";
+    return fmt::format(", most by the rule in {}:{}", widest->place.file, widest->place.line);
+}
+
 /// What `all` and `cover` give.
 Result<std::vector<Key>> keys_of_space(const Family& family, const Selection& selection,
                                        const KeySpaceLimits& limits, std::string_view dialect) {
@@ -117,7 +141,11 @@ Result<std::vector<Key>> keys_of_space(const Family& family, const Selection& se
                     fmt::format("--cover {} means {:.1e} combinations of values, more than {:.0e}",
                                 selection.cover, combinations(space, selection.cover), most_combinations),
                     help);
-    return cover(space, selection.cover);
+    if (std::optional<std::vector<Key>> keys = cover(space, selection.cover)) return *std::move(keys);
+    return fail(Fault::usage,
+                fmt::format("family '{}' ties so many values together that --cover {} takes too long{}",
+                            family.name, selection.cover, widest_rule(family, dialect)),
+                help);
 }
 
 }  // namespace
