@@ -3,13 +3,16 @@
 #                       [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
 #                       [MAX_ERROR x] [DOMAIN file] [TYPICAL] [MAX_COST y] [STUDY file]
 #                       [INCLUDE folder...] [NAMESPACE name] [DIALECT 450|330|es300|vulkan|gl_spirv]
-#                       [OPTIMIZE] [DEBUG] [COMMENTS] [LIBRARY folder])
+#                       [OPTIMIZE] [DEBUG] [COMMENTS] [SPLIT] [LIBRARY folder])
 #
 # Has gobo write the header of the selected permutations and puts it on the include path of TARGET (or of what TARGET is an
 # alias of): of it alone (PRIVATE), of those who link it too (PUBLIC), or of those alone (INTERFACE). By default an executable's
 # is PRIVATE, a library's PUBLIC. The header is NAME.hpp after the family's name, or HEADER, which may begin with folders:
 # "engine/shaders.hpp". FAMILY is a shipped name or a .toml file. The selection is that of `gobo build`; none means the family's default set. INCLUDE folders are searched for
 # pieces before the family's own. LIBRARY holds shader_lib and templates, by default those that came with gobo.
+#
+# With SPLIT the header's tables of keys and texts go into a source file, which is compiled into TARGET: the header stays light for
+# the files that include it, however many permutations it has.
 #
 # The shaders' comments stay out of the header unless COMMENTS is given. DIALECT vulkan and gl_spirv put SPIR-V into it: OPTIMIZE makes
 # that faster, DEBUG keeps names and lines in it.
@@ -30,7 +33,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutations target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;OPTIMIZE;DEBUG;TYPICAL;PRIVATE;PUBLIC;INTERFACE"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALL;EXCLUDED;COMMENTS;SPLIT;OPTIMIZE;DEBUG;TYPICAL;PRIVATE;PUBLIC;INTERFACE"
                         "FAMILY;HEADER;COVER;WHERE;MAX_ERROR;MAX_COST;STUDY;DOMAIN;NAMESPACE;DIALECT;LIBRARY"
                         "KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_arguments()
@@ -53,6 +56,11 @@ function(gobo_add_permutations target)
     set(cache --cache "${cache}")
   endif()
 
+  set(source "")
+  if(arg_SPLIT)
+    set(source "${folder}${header_folder}/${header_name}.cpp")
+  endif()
+
   # Make compares times and would run gobo again for ever where the header stays untouched: the stamp is what has been
   # made. A changed command line must run it too, and Make knows of that by a file alone.
   set(stamp "${folder}/${header_name}.stamp")
@@ -60,7 +68,7 @@ function(gobo_add_permutations target)
   _gobo_write("${folder}/${header_name}.arguments" "${argument_lines}\n")
   add_custom_command(
     OUTPUT "${stamp}"
-    BYPRODUCTS "${folder}${header_folder}/${header_name}.hpp" "${folder}${header_folder}/${header_name}.json"
+    BYPRODUCTS "${folder}${header_folder}/${header_name}.hpp" "${folder}${header_folder}/${header_name}.json" ${source}
     COMMAND ${program} build ${arguments} ${cache} -o "${folder}${header_folder}" --header "${header_name}.hpp" --depfile-target "${stamp}" --quiet
     COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
     DEPENDS ${program} ${inputs} "${folder}/${header_name}.arguments"
@@ -204,7 +212,7 @@ function(_gobo_command_line arguments_variable inputs_variable)
     get_filename_component(include "${include}" ABSOLUTE)
     add(-I "${include}")
   endforeach()
-  foreach(option ALL EXCLUDED COMMENTS OPTIMIZE DEBUG TYPICAL)
+  foreach(option ALL EXCLUDED COMMENTS SPLIT OPTIMIZE DEBUG TYPICAL)
     if(arg_${option})
       string(TOLOWER "--${option}" flag)
       list(APPEND arguments ${flag})
@@ -249,6 +257,14 @@ function(_gobo_use_header)
     set(scope PRIVATE)
   else()
     set(scope PUBLIC)
+  endif()
+  if(source)
+    # Whoever links the target has the tables with it; of an interface library they are compiled there.
+    if(scope STREQUAL "PUBLIC")
+      target_sources(${target} PRIVATE "${source}")
+    else()
+      target_sources(${target} ${scope} "$<BUILD_INTERFACE:${source}>")
+    endif()
   endif()
   target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${folder}>")
   target_link_libraries(${target} ${scope} gobo::headers)

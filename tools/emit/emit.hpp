@@ -42,6 +42,15 @@ struct EmitInput {
     std::vector<Domain> narrowed = {};
     /// By stage of the composition, for dialects of SPIR-V: what the header holds instead of texts.
     std::vector<std::span<const std::uint32_t>> modules = {};
+    /// The header's file name where its tables of keys, texts and permutations go into a source file; empty:
+    /// they stay in the header.
+    std::string split_from = {};
+};
+
+/// What `gobo build` gives to a C++ compiler.
+struct EmittedCpp {
+    std::string header;
+    std::string source;  ///< empty where the header holds all
 };
 
 /// The templates that a generated header is filled from, by name: "header", and "struct" and others for what
@@ -53,9 +62,9 @@ using HeaderTemplates = std::map<std::string, TextTemplate, std::less<>>;
 [[nodiscard]] Result<HeaderTemplates> read_header_templates(const FileSystem& files,
                                                             const std::string& folder);
 
-/// The text of the header: C++17, constant data only. The same input gives the same bytes. A namespace that
-/// is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
-[[nodiscard]] Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates);
+/// The text of the header, and of its source file: C++17, constant data only. The same input gives the same
+/// bytes. A namespace that is none is Fault::usage; a block that no C++ struct can mirror is Fault::input.
+[[nodiscard]] Result<EmittedCpp> emit_header(const EmitInput& input, const HeaderTemplates& templates);
 
 /// For programs that are not C++, as docs/formats.md tells. JSON: "family", "dialect", "features",
 /// "interface" (as `gobo reflect --json`, with the header's bindings and locations), "pieces" (names),

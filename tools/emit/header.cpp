@@ -87,10 +87,11 @@ std::string promises_text(const EmitInput& input) {
 
 Result<HeaderTemplates> read_header_templates(const FileSystem& files, const std::string& folder) {
     HeaderTemplates templates;
-    for (const char* name : {"bytes", "check", "elements", "header", "modules", "spirv", "spirv_tables",
-                             "struct", "taker", "texts"}) {
+    for (const char* name : {"bytes", "check", "elements", "header", "modules", "source", "spirv",
+                             "spirv_tables", "struct", "taker", "texts"}) {
         TextTemplate& part = templates[name];
-        part.name = fmt::format("{}/{}.hpp.in", folder, name);
+        part.name =
+            fmt::format("{}/{}.{}.in", folder, name, name == std::string_view("source") ? "cpp" : "hpp");
         GOBO_TRY(part.text, files.read(part.name));
     }
     return templates;
@@ -113,10 +114,12 @@ void add_table(TemplateValues& values, const std::string& name, const std::vecto
     values[name + "s"] = cpp_list(rows);
 }
 
-Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
+Result<EmittedCpp> emit_header(const EmitInput& input, const HeaderTemplates& templates) {
     const Family& family = input.family;
     TemplateValues values;
     values["family"] = cpp_comment(family.name);
+    // Functions that read tables of a source file cannot be constant.
+    values["lookup"] = input.split_from.empty() ? "constexpr" : "inline";
     GOBO_TRY(values["namespace"], namespace_of(input));
     const Dialect dialect = input.composition.dialect;
     values["dialect"] = dialect == Dialect::vulkan     ? "SPIR-V for Vulkan"
@@ -140,11 +143,16 @@ Result<std::string> emit_header(const EmitInput& input, const HeaderTemplates& t
     GOBO_TRY_DO(block_section(interface, family.domains, declarations, templates, scope, values));
     interface_section(interface, family.domains, declarations, dialect, values);
     declaration_section(declarations, interface, values);
-    GOBO_TRY_DO(permutation_section(input.composition, key, declarations, input.modules, templates, values));
+    GOBO_TRY_DO(permutation_section(input, key, declarations, templates, values));
     GOBO_TRY_DO(spirv_section(input, interface, key, declarations, templates, values));
     values["promises"] = promises_text(input);
     values["contents"] = contents_name(templates, values);
-    return fill(templates.at("header"), values);
+    EmittedCpp emitted;
+    GOBO_TRY(emitted.header, fill(templates.at("header"), values));
+    if (input.split_from.empty()) return emitted;
+    values["header"] = input.split_from;
+    GOBO_TRY(emitted.source, fill(templates.at("source"), values));
+    return emitted;
 }
 
 }  // namespace gobo

@@ -41,8 +41,34 @@ std::string packed_text(const PackedKey& words) {
 constexpr std::size_t kDigits = 64;  ///< of NumberText in gobo/permutation.hpp: '0' to 'o'
 constexpr std::size_t kNumbersInRow = 4000;
 
-/// A NumberText of that name.
-std::string numbers_text(std::string_view name, Numbers numbers) {
+/// The tables that grow with the permutations: defined in struct Tables, or only declared there and defined
+/// in a source file.
+class GrowingTables {
+  public:
+    explicit GrowingTables(bool is_split) : is_split_(is_split) {}
+
+    /// What stands in struct Tables.
+    std::string add(std::string_view type, std::string_view name, std::string_view value) {
+        if (!is_split_) return fmt::format("static constexpr {} {}{{ {} }};", type, name, value);
+        definitions_ += fmt::format("const {} Tables::{}{{ {} }};\n", type, name, value);
+        return fmt::format("static const {} {};", type, name);
+    }
+    std::string add_rows(std::string_view type, std::string_view name, const std::vector<std::string>& rows) {
+        return add(fmt::format("std::array<{}, {}>", type, rows.size()), name, cpp_list(rows));
+    }
+    std::string add_numbers(std::string_view name, Numbers numbers);
+
+    /// Those of the source file, with what they need before them.
+    [[nodiscard]] std::string& definitions() { return definitions_; }
+    [[nodiscard]] bool is_split() const { return is_split_; }
+
+  private:
+    bool is_split_;
+    std::string definitions_;
+};
+
+/// As a NumberText.
+std::string GrowingTables::add_numbers(std::string_view name, Numbers numbers) {
     if (numbers.empty()) numbers.push_back(0);  // an array has at least one element
     std::size_t digits = 1;
     for (std::size_t most = std::ranges::max(numbers); most >= kDigits; most /= kDigits) ++digits;
@@ -54,8 +80,8 @@ std::string numbers_text(std::string_view name, Numbers numbers) {
         for (std::size_t digit = digits; digit-- > 0; numbers[i] /= kDigits)
             rows.back()[first + digit] = static_cast<char>('0' + numbers[i] % kDigits);
     }
-    return fmt::format("gobo::runtime::NumberText<{}, {}> {}{{ {{\n        R\"({})\"}} }}", digits,
-                       numbers.size(), name, fmt::join(rows, ")\",\n        R\"("));
+    return add(fmt::format("gobo::runtime::NumberText<{}, {}>", digits, numbers.size()), name,
+               fmt::format("{{\n        R\"({})\"}}", fmt::join(rows, ")\",\n        R\"(")));
 }
 
 /// The texts of pieces as rows of a table, each distinct one once.
@@ -163,40 +189,43 @@ using HeaderNumbers = std::map<int, std::size_t>;
 /// Each distinct module once.
 Result<HeaderNumbers> modules_section(const std::set<int>& used, bool some_lack,
                                       const std::vector<std::span<const std::uint32_t>>& modules,
-                                      const HeaderTemplates& templates, TemplateValues& values) {
+                                      const HeaderTemplates& templates, GrowingTables& tables,
+                                      TemplateValues& values) {
     constexpr std::size_t kWordsInRow = 12;
     HeaderNumbers numbers;
     std::map<std::vector<std::uint32_t>, std::size_t> by_words;
     std::vector<std::string> rows;
-    TemplateValues own;
+    std::string words_text;
     for (const int stage : used) {
         const std::span<const std::uint32_t> words = modules[static_cast<std::size_t>(stage)];
         const auto [place, is_new] =
             by_words.try_emplace(std::vector<std::uint32_t>(words.begin(), words.end()), rows.size());
         numbers.emplace(stage, place->second);
         if (!is_new) continue;
-        std::string& text = own["words"];
-        text += fmt::format("    static constexpr std::uint32_t words_{}[] = {{", rows.size());
+        words_text += fmt::format("    static constexpr std::uint32_t words_{}[] = {{", rows.size());
         for (std::size_t i = 0; i < words.size(); ++i) {
-            text += i % kWordsInRow == 0 ? "\n        " : " ";
-            text += fmt::format("{:#x},", words[i]);
+            words_text += i % kWordsInRow == 0 ? "\n        " : " ";
+            words_text += fmt::format("{:#x},", words[i]);
         }
-        text += "\n    };\n";
+        words_text += "\n    };\n";
         rows.push_back(fmt::format("{{words_{}, {}}}", rows.size(), words.size()));
     }
     if (some_lack) {
         numbers.emplace(-1, rows.size());
         rows.emplace_back("{nullptr, 0}");
     }
-    own.try_emplace("words", "");
-    add_table(own, "module", rows);
+    TemplateValues own;
+    own["words"] = tables.is_split() ? "" : words_text;
+    if (tables.is_split()) tables.definitions() += words_text;
+    own["modules"] = tables.add_rows("gobo::runtime::Module", "modules", rows);
     GOBO_TRY(values["stage_data"], fill(templates.at("modules"), own));
     return numbers;
 }
 
 /// Texts once, and stages as lists of them.
 Result<HeaderNumbers> texts_section(const Composition& composition, const std::set<int>& used, bool some_lack,
-                                    const HeaderTemplates& templates, TemplateValues& values) {
+                                    const HeaderTemplates& templates, GrowingTables& tables,
+                                    TemplateValues& values) {
     std::set<int> pieces;
     std::map<StageKind, std::vector<int>> by_kind;
     for (const int stage : used) {
@@ -213,13 +242,13 @@ Result<HeaderNumbers> texts_section(const Composition& composition, const std::s
     }
 
     HeaderNumbers stage_numbers;
-    std::vector<std::string> tables;
+    std::vector<std::string> stage_tables;
     Numbers digits;
     Numbers first_lists;
     Numbers list_begins;
     Numbers list_pieces;
     for (const auto& [kind, stages] : by_kind) {
-        tables.push_back(
+        stage_tables.push_back(
             fmt::format("{{{}, {}, {}, ", stage_numbers.size(), digits.size(), first_lists.size()));
         std::vector<Numbers> lists;
         for (const int stage : stages) {
@@ -229,7 +258,7 @@ Result<HeaderNumbers> texts_section(const Composition& composition, const std::s
                 std::ranges::copy(texts_of[piece], std::back_inserter(list));
         }
         const StageColumns table = columns_of(lists, kDigits);
-        tables.back() += fmt::format("{}}}", table.columns.size());
+        stage_tables.back() += fmt::format("{}}}", table.columns.size());
         for (const Numbers& row : table.rows) std::ranges::copy(row, std::back_inserter(digits));
         for (const std::vector<Numbers>& column : table.columns) {
             first_lists.push_back(list_begins.size());
@@ -241,26 +270,26 @@ Result<HeaderNumbers> texts_section(const Composition& composition, const std::s
     }
     list_begins.push_back(list_pieces.size());
     if (some_lack) {  // a stage without texts
-        tables.push_back(fmt::format("{{{}, 0, 0, 0}}", stage_numbers.size()));
+        stage_tables.push_back(fmt::format("{{{}, 0, 0, 0}}", stage_numbers.size()));
         stage_numbers.emplace(-1, stage_numbers.size());
     }
     TemplateValues own;
-    own["stage_digits"] = numbers_text("stage_digits", digits);
-    own["first_lists"] = numbers_text("first_lists", first_lists);
-    own["list_begins"] = numbers_text("list_begins", list_begins);
-    own["list_pieces"] = numbers_text("list_pieces", list_pieces);
-    add_table(own, "stage_table", tables);
-    add_table(own, "piece", texts.rows());
+    own["stage_digits"] = tables.add_numbers("stage_digits", digits);
+    own["first_lists"] = tables.add_numbers("first_lists", first_lists);
+    own["list_begins"] = tables.add_numbers("list_begins", list_begins);
+    own["list_pieces"] = tables.add_numbers("list_pieces", list_pieces);
+    own["stage_tables"] = tables.add_rows("gobo::runtime::StageTable", "stage_tables", stage_tables);
+    own["pieces"] = tables.add_rows("gobo::runtime::Piece", "pieces", texts.rows());
     GOBO_TRY(values["stage_data"], fill(templates.at("texts"), own));
     return stage_numbers;
 }
 
 }  // namespace
 
-Result<void> permutation_section(const Composition& composition, const CppKey& key,
-                                 const Declarations& declarations,
-                                 const std::vector<std::span<const std::uint32_t>>& modules,
+Result<void> permutation_section(const EmitInput& input, const CppKey& key, const Declarations& declarations,
                                  const HeaderTemplates& templates, TemplateValues& values) {
+    const Composition& composition = input.composition;
+    GrowingTables tables(!input.split_from.empty());
     std::set<int> used;  // stages
     std::vector<std::pair<PackedKey, const Permutation*>> sorted;
     for (const Permutation& permutation : composition.permutations) {
@@ -273,8 +302,8 @@ Result<void> permutation_section(const Composition& composition, const CppKey& k
     add_members(stages, values);
     GOBO_TRY(const HeaderNumbers stage_numbers,
              is_spirv(composition.dialect)
-                 ? modules_section(used, stages.some_lack, modules, templates, values)
-                 : texts_section(composition, used, stages.some_lack, templates, values));
+                 ? modules_section(used, stages.some_lack, input.modules, templates, tables, values)
+                 : texts_section(composition, used, stages.some_lack, templates, tables, values));
 
     std::vector<std::string> keys;
     std::vector<std::string> rows;
@@ -289,8 +318,14 @@ Result<void> permutation_section(const Composition& composition, const CppKey& k
             numbers += fmt::format(", {{{}}}", stage_numbers.at(permutation->stages[kind]));
         rows.push_back(fmt::format("{{{}{}{}}}", rows.size(), numbers, combination));
     }
-    values["keys"] = cpp_list(keys);
-    add_table(values, "permutation", rows);
+    values["keys"] = tables.add_rows("Packed", "keys", keys);
+    const std::string type = fmt::format("std::array<Permutation, {}>", rows.size());
+    const std::string definition = fmt::format("{} permutations{{ {} }};", type, cpp_list(rows));
+    values["permutation_count"] = std::to_string(rows.size());
+    values["permutations"] = tables.is_split() ? fmt::format("extern const {} permutations;", type)
+                                               : "inline constexpr " + definition;
+    values["permutations_definition"] = "const " + definition;
+    values["definitions"] = std::move(tables.definitions());
     return {};
 }
 

@@ -75,10 +75,9 @@ void declaration_section(const Declarations& declarations, const Interface& inte
 
 /// Packed keys, stages as lists of pieces, texts. Only stages and pieces that a permutation uses are written,
 /// in the order of the composition; permutations are sorted by packed key.
-/// Instead of texts each distinct module once where `modules` has them, by stage of the composition.
-[[nodiscard]] Result<void> permutation_section(const Composition& composition, const CppKey& key,
+/// Instead of texts each distinct module once where the input has them.
+[[nodiscard]] Result<void> permutation_section(const EmitInput& input, const CppKey& key,
                                                const Declarations& declarations,
-                                               const std::vector<std::span<const std::uint32_t>>& modules,
                                                const HeaderTemplates& templates, TemplateValues& values);
 
 /// What pipelines are made with, for dialects of SPIR-V; nothing for others. Two resources of different

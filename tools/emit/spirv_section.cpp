@@ -167,10 +167,10 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
         "    /// Values for `specialization_constants`, in their order: the key's counts, and the defaults "
         "of\n"
         "    /// others. What a stage does not have, Vulkan ignores.\n"
-        "    [[nodiscard]] constexpr std::array<std::uint32_t, {}> specialization() const {{\n"
+        "    [[nodiscard]] {} std::array<std::uint32_t, {}> specialization() const {{\n"
         "        [[maybe_unused]] const Key own = key();\n"
         "        return {{ {} }};\n    }}\n",
-        constants.size(), constants.empty() ? "" : "{" + constant_values + "}");
+        values.at("lookup"), constants.size(), constants.empty() ? "" : "{" + constant_values + "}");
     return {};
 }
 

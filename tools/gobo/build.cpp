@@ -17,12 +17,18 @@ namespace {
 
 /// The path of the header without its end, which those of the manifest and the depfile begin with, too.
 Result<std::string> stem_of(const BuildOptions& options, const Family& family) {
+    if (options.split && options.folder == kStandardOutput)
+        return fail(Fault::usage, "--split writes two files, which cannot both be printed",
+                    "name a folder with -o");
     if (options.folder == kStandardOutput) return family.name;
     if (options.header.empty()) return options.folder + "/" + family.name;
     const std::size_t size = options.header.size();
     if (!options.header.ends_with(".hpp") || size == 4 || options.header.find('/') != std::string::npos)
         return fail(Fault::usage, fmt::format("'{}' is not the name of a header", options.header),
                     "give a file name that ends in .hpp; --output says the folder");
+    if (options.split && options.header.find_first_of("\"\\\n\r") != std::string::npos)
+        return fail(Fault::usage, fmt::format("the source file cannot include '{}'", options.header),
+                    "give the header a name without quotes and backslashes");
     return options.folder + "/" + options.header.substr(0, size - 4);
 }
 
@@ -118,7 +124,8 @@ Result<Built> build(const BuildOptions& options, const World& world) {
                     std::move(qualities), united.differing, family.narrowed};
     if (is_spirv(family.dialect))
         for (const ValidatedStage& stage : validated.stages) input.modules.emplace_back(stage.spirv);
-    GOBO_TRY(const std::string header, emit_header(input, templates));
+    if (options.split) input.split_from = stem.substr(stem.rfind('/') + 1) + ".hpp";
+    GOBO_TRY(EmittedCpp emitted, emit_header(input, templates));
 
     std::set<std::string> files(family.files.begin(), family.files.end());
     files.insert(composition.files.begin(), composition.files.end());
@@ -140,10 +147,11 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     if (!is_printed || !options.depfile.empty())
         outcome.files.push_back({options.depfile.empty() ? stem + ".d" : options.depfile, depfile});
     if (is_printed) {
-        outcome.output = header;
+        outcome.output = std::move(emitted.header);
     } else {
         outcome.files.push_back({stem + ".json", manifest});
-        outcome.files.push_back({stem + ".hpp", header});
+        if (options.split) outcome.files.push_back({stem + ".cpp", std::move(emitted.source)});
+        outcome.files.push_back({stem + ".hpp", std::move(emitted.header)});
     }
     GOBO_TRY_DO(check_outputs(world.disk, outcome.files, files));
     append(outcome.diagnostics, warn_of_no_keys(composition, "nothing can be found in the header"));
@@ -168,6 +176,9 @@ std::vector<Option> build_arguments(BuildOptions& options) {
              "compare times",
              &options.depfile_target},
             comments_option(options.comments),
+            {"--split", "",
+             "Put the tables into FAMILY.cpp, which is compiled once; the header keeps types and functions",
+             &options.split},
             {"--optimize", "", "Let SPIRV-Tools' optimizer make the SPIR-V of vulkan and gl_spirv faster",
              &options.optimize},
             {"--debug", "", "Keep names and lines in the SPIR-V of vulkan and gl_spirv", &options.debug},

@@ -18,6 +18,7 @@ struct BuildOptions : SelectionOptions {
     std::string depfile_target;
     bool glslc_depfile = false;
     bool comments = false;
+    bool split = false;  ///< the tables in a source file beside the header
     bool optimize = false;
     bool debug = false;  ///< names and lines in SPIR-V
 };

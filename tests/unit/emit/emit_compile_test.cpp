@@ -22,12 +22,17 @@ class GeneratedHeader : public testing::TestWithParam<Compiler> {
     void write_header(const sample::Built& built, const std::string& name) {
         write_header(built, name, name);
     }
-    void write_header(const sample::Built& built, const std::string& name, const std::string& cpp_namespace) {
+    void write_header(const sample::Built& built, const std::string& name, const std::string& cpp_namespace,
+                      bool is_split = false) {
         const auto templates = read_header_templates(files_, GOBO_SOURCE_DIR "/templates/header");
         ASSERT_TRUE(templates) << to_text(templates.error().front());
-        const auto header = emit_header(built.input(cpp_namespace), *templates);
-        ASSERT_TRUE(header) << to_text(header.error().front());
-        ASSERT_TRUE(files_.write(fmt::format("{}/{}.hpp", folder_, name), *header));
+        EmitInput input = built.input(cpp_namespace);
+        if (is_split) input.split_from = name + ".hpp";
+        const auto emitted = emit_header(input, *templates);
+        ASSERT_TRUE(emitted) << to_text(emitted.error().front());
+        EXPECT_EQ(emitted->source.empty(), !is_split);
+        ASSERT_TRUE(files_.write(fmt::format("{}/{}.hpp", folder_, name), emitted->header));
+        ASSERT_TRUE(files_.write(fmt::format("{}/{}.cpp", folder_, name), emitted->source));
     }
 
     /// Compiles a caller with the headers and runs it: what both print; empty where all is well.
@@ -50,6 +55,12 @@ class GeneratedHeader : public testing::TestWithParam<Compiler> {
     DiskFileSystem files_;
     std::string folder_ = fmt::format("{}gobo_generated_header_{}", testing::TempDir(), GetParam().name);
 };
+
+TEST_P(GeneratedHeader, WithItsTablesInASourceFileAnswersTheSame) {
+    write_header(sample::lit(), "lit");
+    write_header(sample::lit(), "split", "split", true);
+    EXPECT_EQ(compile_and_run("split_caller", fmt::format("'{}/split.cpp'", folder_)), "");
+}
 
 TEST_P(GeneratedHeader, CompilesWithoutWarningsAndAnswersAsItShould) {
     write_header(sample::lit(), "lit");

@@ -18,7 +18,7 @@ HeaderTemplates templates() {
 }
 
 std::string header_of(const Built& built) {
-    return emit_header(built.input(), templates()).value();
+    return emit_header(built.input(), templates()).value().header;
 }
 
 struct NameRow {
@@ -237,7 +237,7 @@ TEST(EmitHeader, RefusesWhatIsNoNamespace) {
         EXPECT_EQ(exit_status(header.error()), 2);
     }
     EXPECT_TRUE(emit_header(built.input("game::log"), templates()));
-    EXPECT_NE(emit_header(built.input("game::shaders"), templates())->find("namespace game::shaders {"),
+    EXPECT_NE(emit_header(built.input("game::shaders"), templates())->header.find("namespace game::shaders {"),
               std::string::npos);
 }
 

@@ -82,7 +82,8 @@ std::string header_of(const sample::Built& built) {
     DiskFileSystem files;
     return emit_header(built.input("shaders"),
                        read_header_templates(files, GOBO_SOURCE_DIR "/templates/header").value())
-        .value();
+        .value()
+        .header;
 }
 
 /// C++ without its comments and literals, as a compiler with trigraphs sees it; names become `name`.

@@ -25,7 +25,7 @@ Result<bool> write_header(const std::string& name, const std::string& path) {
                                                    : sample::drawn();
     const auto header = emit_header(built.input(name), *templates);
     if (!header) return tl::make_unexpected(header.error());
-    return files.write(path, *header);
+    return files.write(path, header->header);
 }
 
 }  // namespace
