@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lab/probe/environment.hpp"
+#include "lab/raster/shared_textures.hpp"
 #include "lab/render/texture.hpp"
 #include "oracle_colors.hpp"
 #include "scene/read_scene.hpp"
@@ -84,7 +85,8 @@ Result<Comparison> compare_scene(const ShippedFamily& pbr, const Studio& studio,
     GOBO_TRY(const auto programs, software_programs(shaders));
     const std::vector<Object> objects = objects_of(scene, shaders);
     SoftwareImages images = software_images(images_of(scene, shaders.draws), objects, kMapSide);
-    for (const auto& [sampler, levels] : studio.levels) images.cubes[sampler] = cube_image(levels);
+    for (const auto& [sampler, levels] : studio.levels)
+        images.cubes[sampler] = raster::colors_of_cube(levels);
     images.recolored = [&](std::size_t draw, const raster::RasterObject& object,
                            std::vector<raster::Shaded>& shaded) -> Result<void> {
         const std::size_t number = *shaders.permutation[draw];

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "lab/raster/shared_textures.hpp"
 #include "lab/scene_picture/picture_levels.hpp"
 
 namespace gobo::scene {
@@ -93,21 +92,6 @@ evaluate::Image picture_image(const PictureUse& use) {
         if (finer == held) return color;
         const Color coarser = sampled(finer + 1);
         for (std::size_t c = 0; c < 4; ++c) color[c] = std::lerp(color[c], coarser[c], held - finer);
-        return color;
-    };
-}
-
-evaluate::Image cube_image(const std::vector<Image>& levels) {
-    std::vector<evaluate::Image> images;
-    for (const Image& level : levels) images.push_back(raster::colors_of_cube(level));
-    return [images](const evaluate::ImageRequest& request) {
-        const double held = std::clamp(request.lod, 0.0, images.size() - 1.0);
-        const auto finer = static_cast<std::size_t>(held);
-        Color color = images[finer](request);
-        if (held == std::floor(held)) return color;
-        const Color coarser = images[finer + 1](request);
-        for (std::size_t c = 0; c < 4; ++c)
-            color[c] = std::lerp(color[c], coarser[c], held - std::floor(held));
         return color;
     };
 }

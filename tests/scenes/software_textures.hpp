@@ -13,7 +13,4 @@ namespace gobo::scene {
 /// the longer of the two), the two nearest blended, each filtered linearly.
 [[nodiscard]] evaluate::Image picture_image(const PictureUse& use);
 
-/// A cube map with its levels, faces one below the other; lookups say their level, and two are blended.
-[[nodiscard]] evaluate::Image cube_image(const std::vector<Image>& levels);
-
 }  // namespace gobo::scene

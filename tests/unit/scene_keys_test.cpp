@@ -169,16 +169,19 @@ TEST(SceneDemo, CallsForTwoPermutationsOfLit) {
     EXPECT_TRUE((*keys)[0]->missing.empty());
 }
 
-TEST(NotDrawn, IsSaidOnceForAFile) {
+TEST(NotesOnAScene, SayOnceWhatIsNotDrawn) {
     const Family family = small_family();
+    Scene scene;
+    scene.path = "x.gltf";
     std::vector<Draw> draws = {draw("a", {in("sheen")}), draw("b", {in("sheen"), in("fog", "linear")}),
                                draw("c", {in("fog", "volumetric")}), draw("d", {}), draw("e", {})};
     draws[3].excluded = draws[4].excluded = "its primitives are lines";
     const auto keys = keys_for_draws(family, draws, {}, "450");
     ASSERT_TRUE(keys);
-    EXPECT_EQ(not_drawn_text("x.gltf", draws, *keys),
-              "x.gltf: not drawn: fog, sheen, 2 draws (its primitives are lines)");
-    EXPECT_EQ(not_drawn_text("x.gltf", {draws[0]}, {std::nullopt}), "");
+    using Notes = std::vector<std::string>;
+    EXPECT_EQ(notes_on_scene(scene, draws, *keys),
+              Notes{"x.gltf: not drawn: fog, sheen, 2 draws (its primitives are lines)"});
+    EXPECT_EQ(notes_on_scene(scene, {draws[0]}, {std::nullopt}), Notes{});
 }
 
 }  // namespace

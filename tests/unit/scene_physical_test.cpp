@@ -11,6 +11,7 @@
 #include "scene/effects.hpp"
 #include "scene/picture.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene_support.hpp"
 
 namespace gobo::scene {
@@ -204,6 +205,11 @@ TEST(PhysicalScene, EndsLocalLightsAtTheirRange) {
     const Row rows[] = {
         {"without", R"({"type": "point"})", "no local light with a range is in", {0, 0, 2, 0}},
         {"with", R"({"type": "point", "range": 4})", "in: point 0 ends at 4", {0, 0, 2, 0.25}},
+        {"large", R"({"type": "point", "range": 200})", "in: point 0 ends at 200", {0, 0, 2, 0.005}},
+        {"vast",
+         R"({"type": "point", "range": 1000})",
+         "point 0 ends at 1e+03, too far away to dim it by a float's rounding",
+         {0, 0, 2, 0.001}},
         {"beyond", R"({"type": "point", "range": 1})", "no local light with a range is in", {}},
         {"directional", R"({"type": "directional", "range": 4})", "no local light with a range is in", {}}};
     for (const Row& row : rows) {
@@ -217,6 +223,36 @@ TEST(PhysicalScene, EndsLocalLightsAtTheirRange) {
             if (value.name == "PointLights.lights[0].position" && value.source == "eye_point_and")
                 position = value.numbers;
         EXPECT_EQ(position, row.position) << row.name;
+    }
+}
+
+TEST(PhysicalScene, IsOfferedToWhoReadsMetalsAndTexturesForLit) {
+    struct Row {
+        const char* name;
+        const char* material;
+        bool is_told;
+    };
+    const Row rows[] = {
+        {"metal", R"({"pbrMetallicRoughness": {"metallicFactor": 0.5}})", true},
+        {"a dielectric", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})", false},
+        {"nothing stated", "{}", false},
+        {"textured", R"({"normalTexture": {"index": 0}})", true},
+        {"unlit",
+         R"({"pbrMetallicRoughness": {"metallicFactor": 1}, "extensions": {"KHR_materials_unlit": {}}})",
+         false},
+        {"a model of lit",
+         R"({"pbrMetallicRoughness": {"metallicFactor": 1}, "extras": {"gobo": {"model": {"diffuse": [1, 1, 1]}}}})",
+         false}};
+    for (const Row& row : rows) {
+        const nlohmann::json json = scene_with(row.material, png({9, 9, 9, 255}, 1, 1));
+        const Result<Scene> scene = read_json(json);
+        const Result<Scene> physical = read_physical_scene(json);
+        ASSERT_TRUE(scene && physical) << row.name;
+        const std::vector<std::string> told = {
+            "quad.gltf: family pbr draws its textures and metals as they are"};
+        EXPECT_EQ(notes_on_scene(*scene, {}, {}), row.is_told ? told : std::vector<std::string>())
+            << row.name;
+        EXPECT_THAT(notes_on_scene(*physical, {}, {}), testing::IsEmpty()) << row.name;
     }
 }
 

@@ -32,7 +32,7 @@ verify::CrossCheckScene scene_of(const Family& family) {
     scene.values = family.render;
     scene.view.camera = demo_camera();
     scene.view.width = scene.view.height = 64;
-    for (const char* sampler : {"diffuseMap", "specularMap"}) scene.cubes[sampler] = patchwork();
+    for (const char* sampler : {"diffuseMap", "specularMap"}) scene.cubes[sampler] = {patchwork()};
     return scene;
 }
 

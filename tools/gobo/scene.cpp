@@ -193,7 +193,7 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
                  {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache})
             .diagnostics);
     outcome.output = options.json ? scene_json(report) : scene_text(report);
-    outcome.summary = scene::not_drawn_text(options.scene, draws, report.keys);
+    outcome.summary = join(scene::notes_on_scene(scene, draws, report.keys), "\n");
     return outcome;
 }
 

@@ -369,14 +369,28 @@ void add_losses_of_mesh(const Subject& subject, std::vector<Effect>& effects) {
         lose("anisotropy of a mesh with neither tangents nor texture coordinates", "its material states it");
 }
 
+/// Whether a float's 1 - (d / range)^4 may be less than 1 at some distance to the bounds: it rounds to 1
+/// where the power is below 2^-25, and half of that is asked for, as the distance is rounded too.
+bool may_dim(const PlacedLight& light, const std::optional<Box>& bounds) {
+    return !bounds ||
+           std::pow(greatest_distance(light.positions, *bounds) / light.light->range, 4) >= std::exp2(-26);
+}
+
 /// The end of local lights, where any is in that has one. `effects` begin with the lights'.
-Effect judge_light_range(const std::vector<PlacedLight>& lights, const std::vector<Effect>& effects) {
-    std::size_t first = 0;
-    while (first < lights.size() && !(effects[first].is_in && has_end(*lights[first].light))) ++first;
-    const bool is_in = first < lights.size();
-    return decide(
-        "light_range", "light_range", "windowed", {{!is_in, "no local light with a range is in"}},
-        is_in ? fmt::format("{} ends at {:.3g}", lights[first].label, lights[first].light->range) : "");
+Effect judge_light_range(const Subject& subject, const std::vector<PlacedLight>& lights,
+                         const std::vector<Effect>& effects) {
+    const PlacedLight* with_end = nullptr;
+    bool is_seen = false;
+    for (std::size_t i = 0; i < lights.size() && !is_seen; ++i) {
+        if (!effects[i].is_in || !has_end(*lights[i].light)) continue;
+        with_end = &lights[i];
+        is_seen = may_dim(lights[i], subject.draw.bounds);
+    }
+    if (with_end == nullptr)
+        return {"light_range", "light_range", "windowed", false, "no local light with a range is in"};
+    return {"light_range", "light_range", "windowed", is_seen,
+            fmt::format("{} ends at {:.3g}{}", with_end->label, with_end->light->range,
+                        is_seen ? "" : ", too far away to dim it by a float's rounding")};
 }
 
 /// What a metallic-roughness material decides, once the lights are judged.
@@ -403,7 +417,7 @@ void judge_physical_surface(const Subject& subject, const std::vector<PlacedLigh
         {decide("texture_placement", "texture_placement", "placed",
                 {{!is_placed, "all pictures lie by the first texture coordinates"}},
                 "a picture is transformed, or lies by the second texture coordinates"),
-         judge_light_range(lights, effects), judge_fog(subject, eye, fog_threshold),
+         judge_light_range(subject, lights, effects), judge_fog(subject, eye, fog_threshold),
          decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
                 "its material is marked doubleSided"),
          decide("cutout", "cutout", "threshold",

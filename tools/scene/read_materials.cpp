@@ -35,6 +35,7 @@ void read_surface(const Value& value, const Textures& textures, Material& materi
     if (glm::clamp(factor, 0.0, 1.0) != factor)
         model["baseColorFactor"].fail("holds a number that is not between 0 and 1");
     model["metallicFactor"].read(metallic, kUpToOne);
+    material.is_metal = model["metallicFactor"] && metallic > 0;
     model["roughnessFactor"].read(roughness, kUpToOne);
     const bool has_roughness_texture = textures.is_named(model["metallicRoughnessTexture"]);
     material.is_textured = textures.is_named(model["baseColorTexture"]) || has_roughness_texture;
@@ -79,6 +80,7 @@ void read_material_extras(const Value& value, Material& material) {
     model["diffuse"].read_color(material.diffuse);
     material.ambient = material.diffuse;
     material.strength = 1;
+    material.is_metal = false;
     model["ambient"].read_color(material.ambient);
     model["specular"].read_color(material.specular);
     model["shininess"].read(material.shininess, {0, 1e6});

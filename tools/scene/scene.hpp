@@ -128,6 +128,7 @@ struct Material {
     double shininess = 0;
     bool unlit = false;
     bool is_textured = false;
+    bool is_metal = false;  ///< its file states a metallicFactor above 0, and no model of `lit`
     bool double_sided = false;
     AlphaMode alpha_mode = AlphaMode::opaque;
     double alpha_cutoff = 0.5;

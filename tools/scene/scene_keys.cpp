@@ -115,8 +115,8 @@ Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
     return keys;
 }
 
-std::string not_drawn_text(const std::string& path, const std::vector<Draw>& draws,
-                           const std::vector<std::optional<DrawKey>>& keys) {
+std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Draw>& draws,
+                                        const std::vector<std::optional<DrawKey>>& keys) {
     std::set<std::string> effects;
     std::map<std::string, std::size_t> excluded;  // how often each reason holds
     for (const Draw& draw : draws)
@@ -128,7 +128,15 @@ std::string not_drawn_text(const std::string& path, const std::vector<Draw>& dra
     std::vector<std::string> parts(effects.begin(), effects.end());
     for (const auto& [reason, count] : excluded)
         parts.push_back(fmt::format("{} draw{} ({})", count, count == 1 ? "" : "s", reason));
-    return parts.empty() ? "" : one_line(fmt::format("{}: not drawn: {}", path, fmt::join(parts, ", ")));
+    std::vector<std::string> notes;
+    if (!parts.empty()) notes.push_back(fmt::format("{}: not drawn: {}", scene.path, fmt::join(parts, ", ")));
+    const auto needs_physical = [](const Material& material) {
+        return !material.unlit && (material.is_textured || material.is_metal);
+    };
+    if (!scene.is_physical && std::ranges::any_of(scene.materials, needs_physical))
+        notes.push_back(scene.path + ": family pbr draws its textures and metals as they are");
+    for (std::string& note : notes) note = one_line(note);
+    return notes;
 }
 
 std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws) {

@@ -42,10 +42,10 @@ struct DrawKey {
                                                                          const Buckets& buckets,
                                                                          std::string_view dialect);
 
-/// What of the scene is not drawn by these keys, each thing once: "FILE: not drawn: sheen, 2 draws of lines".
-/// Empty where all is.
-[[nodiscard]] std::string not_drawn_text(const std::string& path, const std::vector<Draw>& draws,
-                                         const std::vector<std::optional<DrawKey>>& keys);
+/// Lines on what these keys do not show of the scene, each thing once: "FILE: not drawn: sheen, 2 draws of
+/// lines"; and where its materials are read for `lit`, that `pbr` takes them as they are.
+[[nodiscard]] std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Draw>& draws,
+                                                      const std::vector<std::optional<DrawKey>>& keys);
 
 /// The distinct keys of draws, sorted.
 [[nodiscard]] std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws);

@@ -13,6 +13,7 @@
 #include "family/read_family.hpp"
 #include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
+#include "lab/render/texture.hpp"
 #include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/study/qualities.hpp"
@@ -32,10 +33,29 @@ Result<probe::Environment> load_panorama(const World& world, const std::string& 
     return probe::environment_of(*image, file);
 }
 
-Result<CubeImages> environment_from_panorama(const World& world, const std::string& path) {
+/// Whether --environment names a latitude-longitude map, not a folder: a file .exr, or where it is empty the
+/// shipped `studio`.
+bool is_panorama(const std::string& environment) {
+    return environment.empty() || environment.ends_with(".exr");
+}
+
+/// Whether some permutation mirrors an environment that is blurred by roughness.
+bool mirrors_by_roughness(const std::vector<Interface>& interfaces) {
+    return std::ranges::any_of(interfaces, [](const Interface& interface) {
+        return std::ranges::any_of(interface.blocks, [](const Block& block) {
+            return block.name == "Reflection" &&
+                   std::ranges::count(block.members, "roughestLevel", &Member::name) > 0;
+        });
+    });
+}
+
+Result<CubeImages> environment_from_panorama(const World& world, const std::string& path, bool by_roughness) {
     GOBO_TRY(const auto environment, load_panorama(world, path));
-    return CubeImages{{"diffuseMap", probe::lobe_map(environment, 1, 16, world.jobs())},
-                      {"specularMap", probe::lobe_map(environment, 48, 32, world.jobs())}};
+    const int jobs = world.jobs();
+    return CubeImages{
+        {"diffuseMap", {probe::lobe_map(environment, 1, 16, jobs)}},
+        {"specularMap", by_roughness ? probe::roughness_maps(environment, 64, kRoughnessLevels, jobs)
+                                     : std::vector{probe::lobe_map(environment, 48, 32, jobs)}}};
 }
 
 bool looks_up_environment(const Interface& interface) {
@@ -45,12 +65,6 @@ bool looks_up_environment(const Interface& interface) {
 }
 
 }  // namespace
-
-Result<std::vector<Image>> load_roughness_levels(const World& world, const std::string& panorama,
-                                                 int levels) {
-    GOBO_TRY(const auto environment, load_panorama(world, panorama));
-    return probe::roughness_maps(environment, 64, levels, world.jobs());
-}
 
 Result<Mesh> load_mesh(const World& world, const std::string& name) {
     if (name == "teapot") return read_obj(world.shipped, "data/meshes/teapot.obj");
@@ -76,26 +90,32 @@ Result<std::pair<int, int>> read_pair(const std::string& text, char separator, i
     return fail(Fault::usage, fmt::format("'{}' is not a valid {}", text, what), help);
 }
 
-bool is_panorama(const std::string& environment) {
-    return environment.empty() || environment.ends_with(".exr");
-}
-
 Result<CubeImages> load_environment(const World& world, const std::string& path,
                                     const std::vector<Interface>& interfaces) {
     const bool is_wanted = std::ranges::any_of(interfaces, looks_up_environment);
     if (path.empty() && !is_wanted) return CubeImages{};
     CubeImages images;  // read, and told of, even where no key looks them up
     if (is_panorama(path)) {
-        GOBO_TRY(images, environment_from_panorama(world, path));
+        GOBO_TRY(images, environment_from_panorama(world, path, mirrors_by_roughness(interfaces)));
         return is_wanted ? images : CubeImages{};
     }
     for (const auto& [sampler, file] :
          {std::pair("diffuseMap", "diffuse.exr"), std::pair("specularMap", "specular.exr")}) {
         auto image = read_image(world.disk, path + "/" + file);
         if (!image) return with_help(image.error(), kEnvironmentHelp);
-        images.emplace(sampler, std::move(*image));
+        images[sampler].push_back(std::move(*image));
     }
     return is_wanted ? images : CubeImages{};
+}
+
+Diagnostics warnings_of_environment(const std::string& path, const std::vector<Interface>& interfaces) {
+    if (is_panorama(path) || !mirrors_by_roughness(interfaces)) return {};
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.place.file = path + "/specular.exr";
+    warning.message = "it is mirrored equally sharp by surfaces of every roughness";
+    warning.help = "give --environment the latitude-longitude map that it was made from, FILE.exr";
+    return {warning};
 }
 
 std::vector<Interface> interfaces_of(const Composition& composition, const Validated& validated) {

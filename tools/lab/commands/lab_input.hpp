@@ -32,19 +32,15 @@ inline Result<std::pair<int, int>> read_size(const std::string& text) {
                      "write width x height, such as 640x480, each at most 16384");
 }
 
-/// Whether --environment names a latitude-longitude map, not a folder: a file .exr, or where it is empty the
-/// shipped `studio`.
-[[nodiscard]] bool is_panorama(const std::string& environment);
-/// The panorama as a metallic-roughness surface mirrors it, level by level of a cube map.
-[[nodiscard]] Result<std::vector<Image>> load_roughness_levels(const World& world,
-                                                               const std::string& panorama, int levels);
-
-/// Cube maps by the name of their sampler.
-using CubeImages = std::map<std::string, Image>;
+/// Cube maps by the name of their sampler, level by level.
+using CubeImages = std::map<std::string, std::vector<Image>>;
 /// The environment that pictures are lit by: diffuseMap and specularMap as gobo probe wrote them into the
-/// folder `path`, or made from it for a shininess of 48 where it is a panorama. None where no interface looks
-/// any up.
+/// folder `path`, or made from it where it is a panorama: specularMap level by level of roughness where an
+/// interface mirrors it so, else for a shininess of 48. None where no interface looks any up.
 [[nodiscard]] Result<CubeImages> load_environment(const World& world, const std::string& path,
+                                                  const std::vector<Interface>& interfaces);
+/// What is not to be seen of that environment: a folder holds one lobe, whatever a surface's roughness.
+[[nodiscard]] Diagnostics warnings_of_environment(const std::string& path,
                                                   const std::vector<Interface>& interfaces);
 [[nodiscard]] std::vector<Interface> interfaces_of(const Composition& composition,
                                                    const Validated& validated);

@@ -86,20 +86,9 @@ bool looks_up_brdf_table(const std::vector<Interface>& interfaces) {
 Result<void> add_environment(const World& world, const std::string& path,
                              const std::vector<Interface>& interfaces, EnvironmentMaps& maps) {
     GOBO_TRY(const auto environment, load_environment(world, path, interfaces));
-    for (const auto& [sampler, image] : environment) GOBO_TRY_DO(maps.add(sampler, image));
+    for (const auto& [sampler, levels] : environment) GOBO_TRY_DO(maps.add(sampler, levels));
     if (looks_up_brdf_table(interfaces)) maps.add_table(kBrdfTable, environment_brdf_image());
     return {};
-}
-
-/// Whether some permutation mirrors an environment that is blurred by roughness.
-bool mirrors_by_roughness(const std::vector<Interface>& interfaces) {
-    return std::ranges::any_of(interfaces, [](const Interface& interface) {
-        return std::ranges::any_of(interface.blocks, [](const Block& block) {
-            return std::ranges::any_of(block.members, [&](const Member& member) {
-                return block.name == "Reflection" && member.name == "roughestLevel";
-            });
-        });
-    });
 }
 
 /// The pictures of all permutations with errors and costs, on one page.
@@ -161,17 +150,22 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     const bool are_usual = std::ranges::all_of(composition.permutations, [](const Permutation& permutation) {
         return permutation.stages.is_usual_pair();
     });
-    if (makes_page(options) && are_usual)
-        return render_page(options, world, family, composition, validated, context, pictures,
-                           std::move(mesh));
     const std::vector<Interface> interfaces = interfaces_of(composition, validated);
+    if (makes_page(options) && are_usual) {
+        GOBO_TRY(auto page, render_page(options, world, family, composition, validated, context, pictures,
+                                        std::move(mesh)));
+        append(page.diagnostics, warnings_of_environment(options.environment, interfaces));
+        return page;
+    }
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
     if (shadow_pass) pictures.depth_pass = &shadow_pass->pass;
     EnvironmentMaps maps(context);
     GOBO_TRY_DO(add_environment(world, options.environment, interfaces, maps));
     pictures.textures = maps.textures();
-    return render_selection(context, family.family, composition, interfaces, demo_objects(std::move(mesh)),
-                            pictures, world.disk);
+    RenderedSelection rendered = render_selection(context, family.family, composition, interfaces,
+                                                  demo_objects(std::move(mesh)), pictures, world.disk);
+    append(rendered.diagnostics, warnings_of_environment(options.environment, interfaces));
+    return rendered;
 }
 
 Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<scene::Draw>& draws, int camera,
@@ -190,17 +184,6 @@ Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<sc
                 fmt::format("the file has {} cameras, numbered from 0", scene.cameras.size()));
 }
 
-/// A folder of gobo probe holds one lobe, which no roughness blurs further.
-Diagnostic warning_of_one_lobe(const std::string& folder, const std::string& scene) {
-    Diagnostic warning;
-    warning.severity = Severity::warning;
-    warning.place.file = scene;
-    warning.message =
-        fmt::format("'{}/specular.exr' is mirrored equally sharp by surfaces of every roughness", folder);
-    warning.help = "give --environment the latitude-longitude map that it was made from, FILE.exr";
-    return warning;
-}
-
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
 /// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
@@ -213,8 +196,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const scene::SceneView view, view_of(scene, draws, options.camera, pictures.view));
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
-    if (const std::string text = scene::not_drawn_text(path, draws, keys); !text.empty())
-        notes.push_back(text);
+    std::ranges::move(scene::notes_on_scene(scene, draws, keys), std::back_inserter(notes));
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
                                                           buckets, family.dialect, world.jobs()));
     scene::SceneTextures textures;
@@ -222,14 +204,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
     EnvironmentMaps maps(context);
     GOBO_TRY_DO(add_environment(world, options.environment, shaders.interfaces, maps));
-    if (mirrors_by_roughness(shaders.interfaces)) {
-        if (is_panorama(options.environment)) {
-            GOBO_TRY(const auto levels, load_roughness_levels(world, options.environment, kRoughnessLevels));
-            GOBO_TRY_DO(maps.add("specularMap", levels));
-        } else {
-            rendered.diagnostics.push_back(warning_of_one_lobe(options.environment, path));
-        }
-    }
+    append(rendered.diagnostics, warnings_of_environment(options.environment, shaders.interfaces));
     textures.given = maps.textures();
     GOBO_TRY(const Picture picture,
              scene::draw_scene(context, scene, shaders, family.family.render, view, textures));
@@ -258,7 +233,7 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
     GOBO_TRY(const auto environment, load_environment(world, options.environment, interfaces));
     vulkan::PictureOptions own{pictures.view, pictures.format, pictures.folder, pictures.smooth};
-    for (const auto& [sampler, image] : environment) own.textures[sampler] = vulkan::cube_texels(image);
+    for (const auto& [sampler, levels] : environment) own.textures[sampler] = vulkan::cube_texels(levels);
     if (looks_up_brdf_table(interfaces))
         own.textures[kBrdfTable] = vulkan::table_texels(environment_brdf_image());
     vulkan::ShadowPass pass;
@@ -271,8 +246,11 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
     }
     std::vector<std::span<const std::uint32_t>> modules;
     for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
-    return vulkan::render_selection(device, family.family, composition, modules, interfaces,
-                                    demo_objects(std::move(mesh)), own, world.disk);
+    RenderedSelection rendered =
+        vulkan::render_selection(device, family.family, composition, modules, interfaces,
+                                 demo_objects(std::move(mesh)), own, world.disk);
+    append(rendered.diagnostics, warnings_of_environment(options.environment, interfaces));
+    return rendered;
 }
 
 Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pictures,

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
 #include "core/file_system.hpp"
 #include "lab/raster/compare_picture.hpp"
+#include "lab/raster/shared_textures.hpp"
 #include "lab/render/render.hpp"
 #include "lab/study/measure.hpp"
 #include "validate/validate.hpp"
@@ -20,7 +20,7 @@ struct Scene {
     std::vector<Object> objects;
     View view;
     DepthPass depth_pass;  ///< draws the maps of keys with shadows; no stages: there are none
-    std::map<std::string, Image> cube_maps;  ///< of samplers, as EnvironmentMaps::add() takes them
+    raster::CubeMaps cube_maps;
 };
 
 /// From a little above, so that the ground fills the picture.

@@ -27,16 +27,6 @@ std::string encoded(const std::vector<Number>& numbers) {
     return encoded(std::as_bytes(std::span(numbers)));
 }
 
-/// Four channels of each texel, alpha 1 where it has none.
-std::vector<float> four_channels(const Image& image) {
-    std::vector<float> texels;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int channel = 0; channel < 4; ++channel)
-                texels.push_back(channel < image.channels ? image.at(x, y, channel) : 1.0F);
-    return texels;
-}
-
 /// Red, green and blue, row by row from the bottom, as WebGL reads pixels.
 std::vector<float> from_the_bottom(const Image& image) {
     std::vector<float> colors;
@@ -60,8 +50,14 @@ std::pair<Json, std::string> texture_of(const Sampler& sampler, const Drawing& d
         return texture("depths", maps.front(), static_cast<int>(maps.size()), encoded(depths));
     }
     const auto cube = scene.cube_maps.find(sampler.name);
-    if (sampler.type == "samplerCube" && cube != scene.cube_maps.end())
-        return texture("cube", cube->second, 6, encoded(four_channels(cube->second)));
+    if (sampler.type == "samplerCube" && cube != scene.cube_maps.end()) {
+        std::vector<float> texels;
+        for (const Image& level : cube->second) {
+            const std::vector<float> own = four_channels(level);
+            texels.insert(texels.end(), own.begin(), own.end());
+        }
+        return texture("cube", cube->second.front(), static_cast<int>(cube->second.size()), encoded(texels));
+    }
     if (sampler.type != "sampler2D" || !sampler.array.empty()) return texture("none", {}, 0, {});
     const Image texels = texture_texels(texture_source_of(sampler.name, drawing.values));
     return texture("flat", texels, 1, encoded(four_channels(texels)));

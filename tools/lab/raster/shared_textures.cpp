@@ -1,5 +1,8 @@
 #include "lab/raster/shared_textures.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "lab/evaluate/images.hpp"
 #include "lab/render/texture.hpp"
 
@@ -28,7 +31,7 @@ evaluate::Image image_of(Texels texels) {
 }  // namespace
 
 Result<void> SharedTextures::add(const Interface& interface, const std::vector<RenderValue>& values,
-                                 const Pictures& cubes) {
+                                 const CubeMaps& cubes) {
     for (const Sampler& sampler : interface.samplers) {
         if (given_.contains(sampler.name) || !sampler.array.empty()) continue;
         const RenderValue* value = find_value(values, sampler.name);
@@ -49,8 +52,20 @@ Result<void> SharedTextures::add(const Interface& interface, const std::vector<R
     return {};
 }
 
-evaluate::Image colors_of_cube(const Image& faces) {
-    return image_of(evaluate::CubeTexels{faces.width, colors_of(faces)});
+evaluate::Image colors_of_cube(const std::vector<Image>& levels) {
+    std::vector<evaluate::Image> images;
+    for (const Image& faces : levels)
+        images.push_back(image_of(evaluate::CubeTexels{faces.width, colors_of(faces)}));
+    return [images = std::move(images)](const evaluate::ImageRequest& request) {
+        const double held = std::clamp(request.lod, 0.0, static_cast<double>(images.size() - 1));
+        const auto finer = static_cast<std::size_t>(held);
+        std::array<double, 4> color = images[finer](request);
+        if (held == std::floor(held)) return color;
+        const std::array<double, 4> coarser = images[finer + 1](request);
+        for (std::size_t c = 0; c < 4; ++c)
+            color[c] = std::lerp(color[c], coarser[c], held - std::floor(held));
+        return color;
+    };
 }
 
 evaluate::Image colors_of_picture(const Image& picture) {

@@ -11,20 +11,20 @@
 
 namespace gobo::raster {
 
-/// Pictures by the name of their sampler: six faces, one below the other, where it is a samplerCube.
-using Pictures = std::map<std::string, Image>;
+/// By the name of their sampler, level by level: six faces, one below the other.
+using CubeMaps = std::map<std::string, std::vector<Image>>;
 
-/// The textures of a family's samplers, deleted together. Each has one level and is filtered between its
-/// texels; those of two dimensions repeat.
+/// The textures of a family's samplers, deleted together. Each is filtered between its texels; those of two
+/// dimensions have one level, and repeat.
 class SharedTextures {
   public:
     explicit SharedTextures(const Context& context) : flat_(context), cubes_(context) {}
 
-    /// Of each samplerCube that `cubes` names the picture, of each sampler2D for which `values` name a source
+    /// Of each samplerCube that `cubes` names the levels, of each sampler2D for which `values` name a source
     /// the texels of that. Other samplers are left to with_plain_textures(). Errors of
     /// EnvironmentMaps::add().
     [[nodiscard]] Result<void> add(const Interface& interface, const std::vector<RenderValue>& values,
-                                   const Pictures& cubes);
+                                   const CubeMaps& cubes);
 
     [[nodiscard]] const GivenTextures& given() const { return given_; }
     [[nodiscard]] const evaluate::Images& images() const { return images_; }
@@ -43,7 +43,8 @@ class SharedTextures {
 [[nodiscard]] evaluate::Image depths_of(const ShadowMaps& maps, const std::vector<ShadowLight>& lights);
 [[nodiscard]] evaluate::Image depths_of(const std::vector<Image>& layers);
 /// What a sampler of a cube map answers, of six faces one below the other, or of a flat picture that repeats.
-[[nodiscard]] evaluate::Image colors_of_cube(const Image& faces);
+/// Lookups of a cube map say their level, and two are blended.
+[[nodiscard]] evaluate::Image colors_of_cube(const std::vector<Image>& levels);
 [[nodiscard]] evaluate::Image colors_of_picture(const Image& picture);
 
 }  // namespace gobo::raster

@@ -229,6 +229,15 @@ float absolute_difference(float first, float second) {
     return std::isnan(difference) ? std::numeric_limits<float>::infinity() : difference;
 }
 
+std::vector<float> four_channels(const Image& image) {
+    std::vector<float> texels;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int channel = 0; channel < 4; ++channel)
+                texels.push_back(channel < image.channels ? image.at(x, y, channel) : 1.0F);
+    return texels;
+}
+
 Image shrunk(const Image& picture, int factor) {
     Image small(picture.width / factor, picture.height / factor, picture.channels);
     const float weight = 1 / static_cast<float>(factor * factor);

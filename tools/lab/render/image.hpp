@@ -42,6 +42,9 @@ struct Image {
 /// and two NaNs are none.
 [[nodiscard]] float absolute_difference(float first, float second);
 
+/// Red, green, blue and alpha of each texel; 1 for those that the picture has not.
+[[nodiscard]] std::vector<float> four_channels(const Image& image);
+
 /// The picture with each square of `factor` x `factor` pixels averaged to one. The sides must be multiples of
 /// it.
 [[nodiscard]] Image shrunk(const Image& picture, int factor);

@@ -19,7 +19,7 @@ struct CrossCheckScene {
     std::vector<Object> objects;
     std::vector<RenderValue> values;  ///< the family's [render] table
     View view;
-    raster::Pictures cubes;                   ///< what samplers of cube maps hold
+    raster::CubeMaps cubes;
     const Family* family = nullptr;           ///< of which the keys are; without it there are no shadows
     const ShadowPass* shadow_pass = nullptr;  ///< draws the shadow maps of keys that have shadows
 };

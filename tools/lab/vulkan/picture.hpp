@@ -34,6 +34,7 @@ struct TextureTexels {
     bool is_depth = false;  ///< compared as sampler2DShadow does: reference <= depth
     bool repeats = true;    ///< beyond 0 to 1; else the border's texels go on
     bool has_levels = false;
+    std::vector<std::vector<float>> smaller;  ///< the levels behind the first; empty: means of four texels
     int width = 1;
     int height = 1;
     int layers = 1;
@@ -46,8 +47,8 @@ using Textures = std::map<std::string, TextureTexels>;
 /// nothing where it has none of the type.
 [[nodiscard]] std::optional<TextureTexels> usual_texels(const std::string& sampler_type,
                                                         const TextureSource& source, TextureLevels levels);
-/// Six faces, one below the other.
-[[nodiscard]] TextureTexels cube_texels(const Image& faces);
+/// Level by level six faces, one below the other.
+[[nodiscard]] TextureTexels cube_texels(const std::vector<Image>& levels);
 /// A table of four channels, looked up from its first texel to its last.
 [[nodiscard]] TextureTexels table_texels(const Image& table);
 /// Shadow maps, as draw_shadow_maps() draws them.

@@ -121,7 +121,9 @@ Result<DeviceImage> Resources::make_texture(const TextureTexels& texels) {
     shape.width = static_cast<std::uint32_t>(texels.width);
     shape.height = static_cast<std::uint32_t>(texels.height);
     shape.layers = static_cast<std::uint32_t>(texels.layers);
-    if (texels.has_levels)
+    if (!texels.smaller.empty())
+        shape.levels = static_cast<std::uint32_t>(texels.smaller.size() + 1);
+    else if (texels.has_levels)
         shape.levels = static_cast<std::uint32_t>(std::bit_width(std::max(shape.width, shape.height)));
     GOBO_TRY(const DeviceImage image, make_image(shape));
     std::vector<float> all = texels.values;
@@ -137,7 +139,7 @@ Result<DeviceImage> Resources::make_texture(const TextureTexels& texels) {
         copies.push_back(copy);
         offset += level.size();
         if (number + 1 == shape.levels) break;
-        level = halved(level, width, height, shape.layers);
+        level = texels.smaller.empty() ? halved(level, width, height, shape.layers) : texels.smaller[number];
         all.insert(all.end(), level.begin(), level.end());
         width = std::max(width / 2, 1U);
         height = std::max(height / 2, 1U);

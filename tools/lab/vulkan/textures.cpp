@@ -36,15 +36,14 @@ std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const
     return texels;
 }
 
-TextureTexels cube_texels(const Image& faces) {
+TextureTexels cube_texels(const std::vector<Image>& levels) {
     TextureTexels texels;
     texels.shape = TextureTexels::Shape::cube;
-    texels.width = texels.height = faces.width;
+    texels.width = texels.height = levels.front().width;
     texels.layers = 6;
-    for (int y = 0; y < faces.height; ++y)
-        for (int x = 0; x < faces.width; ++x)
-            for (int channel = 0; channel < 4; ++channel)
-                texels.values.push_back(channel < faces.channels ? faces.at(x, y, channel) : 1.0F);
+    texels.has_levels = levels.size() > 1;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        (i == 0 ? texels.values : texels.smaller.emplace_back()) = four_channels(levels[i]);
     return texels;
 }
 
