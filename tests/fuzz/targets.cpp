@@ -23,6 +23,7 @@
 #include "lab/render/image.hpp"
 #include "reflect/reflect.hpp"
 #include "scene/effects.hpp"
+#include "scene/picture.hpp"
 #include "scene/read_scene.hpp"
 #include "spirv/module.hpp"
 #include "spirv/usage.hpp"
@@ -210,6 +211,13 @@ void read_gltf(std::string_view input) {
     }
 }
 
+void read_picture(std::string_view input) {
+    const auto picture = scene::decode_picture(input);
+    if (!picture) return require(!picture.error().message.empty());
+    require(picture->texels.size() == std::size_t{4} * static_cast<std::size_t>(picture->width) *
+                                          static_cast<std::size_t>(picture->height));
+}
+
 void read_exr(std::string_view input) {
     const Result<Image> image = decode_image(input, image_format_of("exr").value(), "a.exr");
     if (is_value(image))
@@ -228,7 +236,7 @@ void read_result(std::string_view input) {
 
 }  // namespace
 
-const std::array<Target, 11> kTargets = {{{"family", &read_a_family},
+const std::array<Target, 12> kTargets = {{{"family", &read_a_family},
                                           {"condition", &read_a_condition},
                                           {"selection", &select_keys},
                                           {"compose", &compose_files},
@@ -236,6 +244,7 @@ const std::array<Target, 11> kTargets = {{{"family", &read_a_family},
                                           {"spirv", &read_spirv},
                                           {"evaluate", &evaluate_spirv},
                                           {"gltf", &read_gltf},
+                                          {"picture", &read_picture},
                                           {"exr", &read_exr},
                                           {"png", &read_png},
                                           {"cache", &read_result}}};

@@ -98,6 +98,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Damaged{"png", ImageFormat::png, "not a picture at all",
                 "picture: error: this is not a readable PNG file: PNG file is smaller than a PNG header\n"},
+        Damaged{"png_huge", ImageFormat::png,
+                std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xff\xff\0\0\xff\xff\b\6\0\0\0\xb6\5\xd9P", 33),
+                "picture: error: this is not a readable PNG file: its size is 65535 x 65535\n"},
         Damaged{"exr", ImageFormat::exr, "not a picture at all",
                 "picture: error: this is not a readable EXR file: Cannot read image file \"memory\". File is "
                 "not an image file.\n"},

@@ -26,8 +26,8 @@ std::string png(const std::vector<unsigned char>& rgba, unsigned width, unsigned
     return "data:image/png;base64," + base64(std::string(bytes.begin(), bytes.end()));
 }
 
-/// 8 x 8 texels of one grey.
-std::string jpeg(unsigned char grey) {
+/// 8 x 8 texels of one grey; progressive in several scans.
+std::string jpeg(unsigned char grey, bool is_progressive = false) {
     jpeg_compress_struct info{};
     jpeg_error_mgr errors{};
     info.err = jpeg_std_error(&errors);
@@ -39,6 +39,7 @@ std::string jpeg(unsigned char grey) {
     info.input_components = 1;
     info.in_color_space = JCS_GRAYSCALE;
     jpeg_set_defaults(&info);
+    if (is_progressive) jpeg_simple_progression(&info);
     jpeg_start_compress(&info, TRUE);
     std::vector<unsigned char> row(8, grey);
     JSAMPROW rows[] = {row.data()};
@@ -418,6 +419,35 @@ TEST(PhysicalScene, RefusesAPictureThatIsCutShort) {
     const auto cut = decode_picture(whole.substr(0, whole.size() - 4));
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().message, "is no JPEG that can be decoded: Premature end of JPEG file");
+}
+
+TEST(PhysicalScene, RefusesAPictureOfManyScans) {
+    const std::string whole = jpeg(128, true);
+    EXPECT_TRUE(decode_picture(whole));
+    const std::size_t last = whole.rfind("\xff\xda");
+    std::string longer = whole.substr(0, last);
+    for (int i = 0; i < 200; ++i) longer += whole.substr(last, whole.size() - 2 - last);
+    const auto read = decode_picture(longer + whole.substr(whole.size() - 2));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().message, "is no JPEG that can be decoded: it has more than 100 scans");
+}
+
+TEST(PhysicalScene, RefusesAPictureThatHoldsMoreThanItsSize) {
+    std::vector<unsigned char> file, packed;
+    ASSERT_EQ(lodepng::encode(file, {1, 2, 3, 255}, 1, 1), 0U);
+    ASSERT_EQ(lodepng::compress(packed, std::vector<unsigned char>(1'000'000)), 0U);
+    constexpr std::size_t before_texels = 8 + 25, end = 12;  // the signature and chunk IHDR, chunk IEND
+    unsigned char* chunk = nullptr;
+    std::size_t size = 0;
+    ASSERT_EQ(lodepng_chunk_create(&chunk, &size, packed.size(), "IDAT", packed.data()), 0U);
+    std::string larger(file.begin(), file.begin() + before_texels);
+    larger.append(chunk, chunk + size).append(file.end() - end, file.end());
+    free(chunk);
+    const auto read = decode_picture(larger);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().message,
+              "is no PNG that can be decoded: tried to decompress zlib or deflate data larger than desired "
+              "max_output_size");
 }
 
 TEST(PhysicalScene, RefusesTextureCoordinatesBelowTheFirst) {

@@ -25,7 +25,9 @@ tl::expected<TextureImage, NoPicture> decode_png(std::string_view bytes) {
     TextureImage picture;
     unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
     if (error == 0 && std::size_t{width} * height > kMostTexels) return too_large(width, height);
-    if (error == 0) error = lodepng::decode(picture.texels, width, height, data, bytes.size());
+    // Enough for 16 bits a channel and for interlaced rows: a small file may hold a thousand times its size.
+    state.decoder.zlibsettings.max_output_size = std::size_t{8} * (width + 8) * (height + 8);
+    if (error == 0) error = lodepng::decode(picture.texels, width, height, state, data, bytes.size());
     if (error != 0)
         return tl::unexpected(
             NoPicture{fmt::format("is no PNG that can be decoded: {}", lodepng_error_text(error)), ""});
@@ -38,6 +40,7 @@ tl::expected<TextureImage, NoPicture> decode_png(std::string_view bytes) {
 struct JpegErrors {
     jpeg_error_mgr manager;  // first, so that libjpeg's pointer to it is one to this
     std::jmp_buf back;
+    jpeg_progress_mgr progress;
     char message[JMSG_LENGTH_MAX];
 };
 
@@ -54,11 +57,23 @@ void refuse_cut(j_common_ptr info, int level) {
     if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF) leap_back(info);
 }
 
+/// Encoders write some ten scans, one for each step of a picture that grows clearer; each takes as long as
+/// the whole picture, however short it is in the file.
+constexpr int kMostScans = 100;
+
+void refuse_many_scans(j_common_ptr info) {
+    if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMostScans) return;
+    auto* errors = reinterpret_cast<JpegErrors*>(info->err);
+    std::snprintf(errors->message, sizeof errors->message, "it has more than %d scans", kMostScans);
+    std::longjmp(errors->back, 1);
+}
+
 /// Nothing with a destructor lives between setjmp() and what leaps.
 bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_view bytes,
                  TextureImage& picture, bool& is_too_large) {
     if (setjmp(errors.back) != 0) return false;
     jpeg_create_decompress(&info);
+    info.progress = &errors.progress;
     jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&info, TRUE);
     picture.width = static_cast<int>(info.image_width);
@@ -84,6 +99,7 @@ tl::expected<TextureImage, NoPicture> decode_jpeg(std::string_view bytes) {
     errors.manager.error_exit = leap_back;
     errors.manager.output_message = say_nothing;
     errors.manager.emit_message = refuse_cut;
+    errors.progress.progress_monitor = refuse_many_scans;
     TextureImage picture;
     bool is_too_large = false;
     const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large);

@@ -51,12 +51,21 @@ tl::unexpected<Diagnostics> damaged(const std::string& path, ImageFormat format,
     return fail(Place{path}, {}, fmt::format("this is not a readable {} file: {}", name, why));
 }
 
+/// A picture above this many pixels is taken for a damaged header: 2^28 pixels are 4 GiB as floats.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+
 Result<Image> decode_png(std::string_view bytes, const std::string& path) {
     std::vector<unsigned char> values;
+    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
     unsigned width = 0;
     unsigned height = 0;
-    const unsigned error = lodepng::decode(
-        values, width, height, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    lodepng::State state;
+    unsigned error = lodepng_inspect(&width, &height, &state, data, bytes.size());
+    if (error == 0 && std::int64_t{width} * height > kMostPixels)
+        return damaged(path, ImageFormat::png, fmt::format("its size is {} x {}", width, height));
+    // Enough for 16 bits a channel and for interlaced rows: a small file may hold a thousand times its size.
+    state.decoder.zlibsettings.max_output_size = std::size_t{8} * (width + 8) * (height + 8);
+    if (error == 0) error = lodepng::decode(values, width, height, state, data, bytes.size());
     if (error != 0) return damaged(path, ImageFormat::png, lodepng_error_text(error));
     Image image(static_cast<int>(width), static_cast<int>(height), 4);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -126,8 +135,6 @@ Result<Image> decode_pfm(std::string_view bytes, const std::string& path) {
     return image;
 }
 
-/// A picture above this many pixels is taken for a damaged header: 2^28 pixels are 4 GiB as floats.
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 /// Nothing is compressed better: a picture of one colour takes a byte for some 500 pixels.
 constexpr std::int64_t kPixelsPerByte = 4096;
 
