@@ -1,0 +1,17 @@
+#include "core/result_cache.hpp"
+#include "results.hpp"
+#include "targets.hpp"
+#include "validate/batch.hpp"
+#include "validate/known_results.hpp"
+
+namespace gobo::fuzz {
+
+void read_declarations(std::string_view input) {
+    require(declarations_of(input).size() <= input.size());
+}
+
+void read_cache(std::string_view input) {
+    if (const auto result = result_of(input)) require(result_of(bytes_of(*result)).has_value());
+}
+
+}  // namespace gobo::fuzz
