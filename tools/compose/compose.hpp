@@ -23,10 +23,9 @@ using LiteralCounts = std::map<Key, std::set<int>>;
                                           Comments comments = Comments::remove,
                                           const LiteralCounts& literal = {});
 
-/// Every identifier that the shaders of any key may hold, of all dialects' conditions.
-[[nodiscard]] std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family,
-                                                                         const SearchPath& search,
-                                                                         Dialect dialect);
+/// The texts that the shaders of any key may hold, of all dialects' conditions.
+[[nodiscard]] std::vector<std::string> texts_of_all_keys(const Family& family, const SearchPath& search,
+                                                         Dialect dialect);
 
 /// The subroutine uniforms that stages of any key may hold and that choices of the family name. Their macros
 /// are none: other stages may use the name otherwise.

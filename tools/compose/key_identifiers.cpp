@@ -1,4 +1,4 @@
-// What the shaders of any key may hold: identifiers, and the subroutine uniforms that features choose.
+// What the shaders of any key may hold: texts, and the subroutine uniforms that features choose.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -53,15 +53,12 @@ std::set<const Source*> reachable(const Family& family, PieceLibrary& library, S
 
 }  // namespace
 
-std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family, const SearchPath& search,
-                                                           Dialect dialect) {
+std::vector<std::string> texts_of_all_keys(const Family& family, const SearchPath& search, Dialect dialect) {
     Composition composition;
     composition.dialect = dialect;
     PieceLibrary library(family, search, Comments::remove, composition);
-    std::set<std::string, std::less<>> identifiers;
-    const auto add = [&](std::string_view text) {
-        for (const std::string_view name : identifiers_of(text)) identifiers.emplace(name);
-    };
+    std::vector<std::string> texts;
+    const auto add = [&](const std::string& text) { texts.push_back(text); };
     for (const Feature& feature : family.features)
         for (const auto& [value, text] : feature.texts) add(text.value_or(""));
     for (const PrologueText& part : family.prologue) add(part.text);
@@ -69,7 +66,7 @@ std::set<std::string, std::less<>> identifiers_of_all_keys(const Family& family,
     for (const StageNames& stage : kStages)
         for (const Source* source : reachable(family, library, stage.kind))
             for (const int piece : source->pieces) add(composition.piece(piece).text);
-    return identifiers;
+    return texts;
 }
 
 std::set<std::string> subroutines_of_all_keys(const Family& family, const SearchPath& search,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "compose/compose.hpp"
+#include "compose/piece_marks.hpp"
 #include "compose/scan_piece.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
@@ -17,6 +18,7 @@ struct Named {
     std::string name;
     std::string table;
     Place place;
+    bool has_a_set = false;  ///< of a block, sampler or image
 };
 
 std::vector<Named> names_of(const Family& family) {
@@ -33,7 +35,7 @@ std::vector<Named> names_of(const Family& family) {
     }
     for (const DescriptorSet& set : family.descriptor_sets)
         for (const std::string& name : set.holds)
-            names.push_back({name, "[[descriptor_sets]]", set.holds_place});
+            names.push_back({name, "[[descriptor_sets]]", set.holds_place, true});
     std::erase_if(names, [&](const Named& named) { return named.place.file != family.path; });
     return names;
 }
@@ -54,36 +56,89 @@ bool joins_names(std::string_view text) {
     return false;
 }
 
+/// Whether a macro of the text's own declares a block, sampler or image.
+bool declares_by_macros(std::string_view text) {
+    bool declares = false;
+    for_each_line(text, [&](std::string_view line) {
+        const std::vector<std::string_view> tokens = tokens_of(line);
+        if (tokens.size() < 3 || tokens[0] != "#" || tokens[1] != "define") return true;
+        for (const std::string_view word : {"uniform", "buffer", "BLOCK", "SAMPLER"})
+            declares = declares || std::ranges::find(tokens, word) != tokens.end();
+        return !declares;
+    });
+    return declares;
+}
+
+/// Adds the names of the blocks, samplers and images that the text declares.
+void add_resources(std::string_view text, std::set<std::string, std::less<>>& names) {
+    const std::vector<std::string_view> tokens = tokens_of(text);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i] == "BLOCK" && i + 4 < tokens.size()) names.emplace(tokens[i + 4]);  // BLOCK(0, Lights)
+        if (tokens[i] != "uniform" && tokens[i] != "buffer" && tokens[i] != "SAMPLER") continue;
+        std::string_view last;
+        int depth = 0;  // of brackets: of a layout, or an array's size
+        for (++i; i < tokens.size(); ++i) {
+            const std::string_view token = tokens[i];
+            const bool ends = token == ";" || token == "{";
+            if (depth == 0 && !last.empty() && (ends || token == "," || token == "[")) names.emplace(last);
+            if (ends) break;
+            if (token == "(" || token == "[") ++depth;
+            if (token == ")" || token == "]") --depth;
+            if (depth == 0 && is_identifier(token)) last = token;
+        }
+    }
+}
+
 }  // namespace
 
 Diagnostics unknown_names(const Family& family, const SearchPath& search, const Composition& composition) {
     std::vector<Named> names = names_of(family);
     std::set<std::string, std::less<>> identifiers;
-    const auto drop_known = [&] {
-        std::erase_if(names,
-                      [&](const Named& named) { return unknown_part(named.name, identifiers).empty(); });
+    std::set<std::string, std::less<>> resources;
+    bool are_resources_known = true;
+    const auto add = [&](std::string_view text) {
+        for (const std::string_view name : identifiers_of(text)) identifiers.emplace(name);
+        are_resources_known = are_resources_known && !declares_by_macros(text);
+        add_resources(text, resources);
     };
+    const auto drop_known = [&] {
+        std::erase_if(names, [&](const Named& named) {
+            return named.has_a_set && are_resources_known ? resources.contains(named.name)
+                                                          : unknown_part(named.name, identifiers).empty();
+        });
+    };
+    std::set<int> prologues;
+    for (const Stage& stage : composition.stages) prologues.insert(stage.pieces.front());
     // What joins names by ## or replaces them has them nowhere in its text.
     bool is_rewritten = std::ranges::any_of(
         family.features, [](const Feature& feature) { return !feature.substituted.empty(); });
-    for (const Piece& piece : composition.pieces) {
-        for (const std::string_view name : identifiers_of(piece.text)) identifiers.emplace(name);
-        is_rewritten = is_rewritten || joins_names(piece.text);
+    for (std::size_t i = 0; i < composition.pieces.size(); ++i) {
+        const std::string& text = composition.pieces[i].text;
+        is_rewritten = is_rewritten || joins_names(text);
+        if (!prologues.contains(static_cast<int>(i)))
+            add(text);
+        else
+            for (const std::string_view name : identifiers_of(text)) identifiers.emplace(name);
     }
     drop_known();
     if (names.empty() || is_rewritten) return {};
-    identifiers.merge(identifiers_of_all_keys(family, search, composition.dialect));
+    for (const std::string& text : texts_of_all_keys(family, search, composition.dialect)) add(text);
     drop_known();
     Diagnostics errors;
     std::ranges::stable_sort(names, {}, [](const Named& named) { return named.place.line; });
     for (const Named& named : names) {
-        const std::string part = unknown_part(named.name, identifiers);
-        std::vector<std::string> known(identifiers.begin(), identifiers.end());
+        std::string part = unknown_part(named.name, identifiers);
+        const bool is_something_else = part.empty();
+        if (is_something_else) part = named.name;
+        const auto& candidates = named.has_a_set && are_resources_known ? resources : identifiers;
+        std::vector<std::string> known(candidates.begin(), candidates.end());
         std::ranges::stable_partition(known, [&](const std::string& name) { return name[0] == part[0]; });
         const auto near = nearest(part, known);
         const Diagnostics error =
             fail(named.place, "",
-                 fmt::format("'{}' under {} is in none of the shaders", named.name, named.table),
+                 fmt::format("'{}' under {} is {}", named.name, named.table,
+                             is_something_else ? "no block, sampler or image, which alone have a set"
+                                               : "in none of the shaders"),
                  near ? fmt::format("did you mean '{}'?", *near)
                       : "gobo reflect lists the names that there are")
                 .value();

@@ -183,6 +183,11 @@ Result<Family> family_of_files(const std::vector<std::string>& paths, const File
         search.add(files, folder_of(path), "", true);
         if (family.path.empty()) family.path = path;
     }
+    if (next != stages.end())
+        return fail(
+            Fault::usage,
+            fmt::format("-S {} is for no file: the other files' names tell their stages", name_of(*next)),
+            "leave it out, or name a file whose name does not tell its stage");
     return family;
 }
 

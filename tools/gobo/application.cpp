@@ -137,6 +137,22 @@ void become_lab(const std::vector<std::string>& arguments) {
     execvp("gobo-lab", passed.data());
 }
 
+/// What is searched for must be there: a folder whose name is misspelt holds nothing.
+Result<void> refuse_absent_folders(const CommonOptions& options) {
+    const auto is_absent = [](const std::string& folder) {
+        std::error_code error;
+        return !std::filesystem::is_directory(folder, error);
+    };
+    for (const std::string& folder : options.include_folders)
+        if (is_absent(folder))
+            return fail(Fault::file, fmt::format("-I '{}' is no folder", folder),
+                        "name one that holds pieces, or leave it out");
+    if (!options.library.empty() && is_absent(options.library))
+        return fail(Fault::file, fmt::format("--library '{}' is no folder", options.library),
+                    "name one that 'gobo library -o FOLDER' has written, or leave it out");
+    return {};
+}
+
 Result<Outcome> answer(const Application& application, const World& world, const UserFiles& disk,
                        const std::vector<std::string>& arguments) {
     const bool completes = arguments.size() > 1 && arguments.front() == "complete";
@@ -150,6 +166,7 @@ Result<Outcome> answer(const Application& application, const World& world, const
     if (name == "manual") return Outcome{manual_page(application)};
     GOBO_TRY(const CommandLine line, read_command_line(application, arguments));
     if (line.command == nullptr) return Outcome{line.text};
+    GOBO_TRY_DO(refuse_absent_folders(world.options));
     Diagnostics warnings;
     GOBO_TRY(Outcome outcome, run_with_cache(*line.command, world, application.name, arguments, warnings));
     append(outcome.diagnostics, warnings);

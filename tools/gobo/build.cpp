@@ -114,8 +114,6 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     validate_options.debug_information = options.debug;
     validate_options.strip = !options.debug;
     GOBO_TRY(Validated validated, compile(world, family, composition, validate_options));
-    if (Diagnostics errors = clashes_of_keys(family.family, composition, validated); !errors.empty())
-        return tl::unexpected(std::move(errors));
     append(validated.diagnostics, composition.notes);
     const United united = united_interface(composition, validated);
     GOBO_TRY(const HeaderTemplates templates,

@@ -13,8 +13,6 @@ Result<Outcome> run(const CheckOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     GOBO_TRY(Composition composition, compose_selection(world, family, options));
     GOBO_TRY(Validated validated, compile(world, family, composition, {.spirv_val = options.spirv_val}));
-    if (Diagnostics errors = clashes_of_keys(family.family, composition, validated); !errors.empty())
-        return tl::unexpected(std::move(errors));
     append(validated.diagnostics, composition.warnings);
     append(validated.diagnostics, same_programs(family.family, composition, validated));
     append(validated.diagnostics, warn_of_no_keys(composition, "nothing was checked"));

@@ -12,6 +12,7 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "compose/known_names.hpp"
+#include "compose/specialized_counts.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
@@ -39,13 +40,17 @@ bool is_embedded(const World& world, const std::string& family) {
     return family != "-" && !family.ends_with(".toml") && world.options.library.empty();
 }
 
+bool is_shipped_family(const World& world, const std::string& name) {
+    return world.library().is_file(world.in_library(fmt::format("templates/{}.toml", name)));
+}
+
 Result<FamilyText> find_family(const World& world, const std::string& name) {
     if (name == "-" || name.ends_with(".toml")) {
         GOBO_TRY(std::string text, read_input(world, name));
         return FamilyText{std::move(text), name == "-" ? "stdin" : name};
     }
     const std::string path = world.in_library(fmt::format("templates/{}.toml", name));
-    if (!world.library().is_file(path))
+    if (!is_shipped_family(world, name))
         return fail(
             Fault::usage, fmt::format("there is no shipped family '{}'", name),
             suggestion(name, shipped_families(world)) + " (a family of your own is named by its .toml file)");
@@ -298,6 +303,8 @@ Result<LoadedFamily> load_family(const World& world, const std::string& name, co
         return base;
     };
     GOBO_TRY(loaded.family, read_family(source.text, source.path, find_base));
+    for (const auto& [feature, id] : specialized_counts(loaded.family, loaded.dialect))
+        loaded.count_constants[id] = loaded.family.features[static_cast<std::size_t>(feature)].macro;
     add_include_folders(world, loaded.search);
     const bool is_on_disk = !is_embedded(world, name);
     if (is_on_disk) loaded.search.add(world.disk, folder, "", true);
@@ -430,6 +437,8 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, Compos
         return tl::unexpected(std::move(validated.diagnostics));
     }
     append(validated.diagnostics, unknown);
+    append(validated.diagnostics, clashes_with_counts(family, composition, validated));
+    append(validated.diagnostics, clashes_of_keys(family.family, composition, validated));
     if (exit_status(validated.diagnostics) != 0) return tl::unexpected(std::move(validated.diagnostics));
     return validated;
 }
@@ -483,7 +492,9 @@ Result<Subject> load_files(const World& world, const std::vector<std::string>& n
     if (is_vulkan) subject.family.dialect = Dialect::vulkan;
     const bool is_legacy = read_as_legacy(subject.composition, family);
     const bool has_subroutines = add_subroutines(subject.composition, family);
-    if (is_legacy) subject.family.search.add(world.shipped, "templates", "templates/", false);
+    if (is_legacy)
+        subject.family.search.add(world.library(), world.in_library("templates"), "templates/",
+                                  !world.options.library.empty());
     GOBO_TRY(const Key chosen, parse_key(family, key.empty() ? "default" : join(key, " ")));
     if (is_vulkan || is_legacy || has_subroutines) {
         const std::vector<Key> keys =
@@ -498,6 +509,12 @@ Result<Subject> load_files(const World& world, const std::vector<std::string>& n
 Result<Subject> load_subject(const World& world, const std::vector<std::string>& names,
                              const std::vector<std::string>& stages, const std::string& dialect,
                              const SelectionOptions* selection, Counts counts) {
+    const bool names_a_family =
+        names.size() == 1 && (names[0].ends_with(".toml") || is_shipped_family(world, names[0]));
+    if (!stages.empty() && names_a_family)
+        return fail(Fault::usage,
+                    fmt::format("-S tells the stage of a shader file, and '{}' is a family", names[0]),
+                    "leave it out");
     if (!stages.empty() || std::any_of(names.begin(), names.end(), is_shader_file)) {
         const std::string_view option = selection != nullptr ? first_given(*selection) : "";
         if (!option.empty())

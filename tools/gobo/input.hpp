@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "budget/budget.hpp"
@@ -74,6 +75,8 @@ struct LoadedFamily {
     SearchPath search;
     std::vector<std::string> files;     ///< on disk, for the depfile
     std::vector<Domain> narrowed = {};  ///< of its domains, those that --domain narrowed
+    /// By constant_id the constants of counts with `specialize = true`, which may be numbers at the moment.
+    std::map<int, std::string> count_constants = {};
     Dialect dialect = Dialect::own;
     Comments comments = Comments::remove;
 };

@@ -10,6 +10,9 @@
 #include "compose/specialized_counts.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "validate/batch.hpp"
+#include "validate/declaration.hpp"
+#include "validate/glslang_log.hpp"
 
 namespace gobo {
 namespace {
@@ -29,6 +32,20 @@ std::vector<Key> valid_with(const LoadedFamily& family, const std::vector<Key>& 
     return valid;
 }
 
+/// What is wrong with a constant, in a few words.
+std::string reason_of(const Diagnostic& error) {
+    constexpr std::string_view kSizes = "Array sizes must be compatible";
+    const std::string line = error.message.substr(0, error.message.find('\n'));
+    if (line.starts_with(kSizes)) {
+        // ... vertex stage: " vec3 rays[3]" fragment stage: " vec3 rays[3]"
+        const std::string_view before_size = std::string_view(line).substr(0, line.find('['));
+        return fmt::format("a constant cannot be the size of '{}', which one stage hands to the next",
+                           before_size.substr(before_size.rfind(' ') + 1));
+    }
+    if (is_of_stopped_glslang(error)) return "with a constant " + line;
+    return "with a constant: " + line;
+}
+
 /// Why keys have numbers: what is wrong with them as constants. A subject is a key, perhaps with how many
 /// more there are.
 Diagnostics notes_of(const Diagnostics& errors, const Family& family, const LiteralCounts& literal) {
@@ -43,10 +60,15 @@ Diagnostics notes_of(const Diagnostics& errors, const Family& family, const Lite
         Diagnostic& note = notes.emplace_back(error);
         note.severity = Severity::note;
         note.fault = Fault::input;
-        note.message =
-            fmt::format("no specialisation constant, but a stage for each number of {}; with a constant: {}",
-                        join(names, " and "), error.message.substr(0, error.message.find('\n')));
+        const std::string counts_text = join(names, " and ");
+        note.message = fmt::format("no specialisation constant, but a stage for each number of {}; {}",
+                                   counts_text, reason_of(error));
         note.help.clear();
+        if (is_of_stopped_glslang(error))
+            note.help = fmt::format(
+                "a constant can end a loop and be an array's size: look where the stage asks for {} "
+                "otherwise, such as at a case label",
+                counts_text);
     }
     return notes;
 }
@@ -89,6 +111,26 @@ Validated validate_with_counts(const LoadedFamily& family, Composition& composit
     const Diagnostics notes = notes_of(validated.diagnostics, family.family, literal);
     composition.notes.insert(composition.notes.end(), notes.begin(), notes.end());
     return validate(family.family, composition, options);
+}
+
+Diagnostics clashes_with_counts(const LoadedFamily& family, const Composition& composition,
+                                const Validated& validated) {
+    DiagnosticGroups groups(family.family);
+    for (const Permutation& permutation : composition.permutations)
+        for (const int number : permutation.stages.values) {
+            if (number < 0) continue;
+            for (const SpecializationConstant& constant :
+                 validated.stage(number).interface.specialization_constants) {
+                const auto count = family.count_constants.find(constant.id);
+                if (count == family.count_constants.end() || count->second == constant.name) continue;
+                groups.add(
+                    diagnostic_at(
+                        declaration_of(constant.name, "constant_id", pieces_of(composition, number)),
+                        Severity::error, id_of_count(constant.id, count->second), std::string(kIdsOfCounts)),
+                    permutation.key);
+            }
+        }
+    return groups.result();
 }
 
 }  // namespace gobo

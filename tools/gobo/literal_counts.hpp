@@ -12,4 +12,9 @@ namespace gobo {
 [[nodiscard]] Validated validate_with_counts(const LoadedFamily& family, Composition& composition,
                                              const ValidateOptions& options);
 
+/// Errors where a constant of the shaders' own has the constant_id of a count, even where the key's counts
+/// are numbers: in the other keys' stages they are not.
+[[nodiscard]] Diagnostics clashes_with_counts(const LoadedFamily& family, const Composition& composition,
+                                              const Validated& validated);
+
 }  // namespace gobo

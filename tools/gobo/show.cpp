@@ -4,6 +4,7 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/commands.hpp"
+#include "gobo/literal_counts.hpp"
 
 namespace gobo {
 namespace {
@@ -28,7 +29,12 @@ std::string shown(const Composition& composition, int index, bool names_pieces) 
 Result<Outcome> run(const ShowOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     if (options.comments) family.comments = Comments::keep;
-    GOBO_TRY(const Composition composition, compose_selection(world, family, {.keys = {options.key}}));
+    GOBO_TRY(Composition composition, compose_selection(world, family, {.keys = {options.key}}));
+    // Whether counts stay numbers shows when the stages are compiled; what else is wrong, gobo check tells.
+    if (!composition.permutations.front().specialized.empty())
+        static_cast<void>(validate_with_counts(
+            family, composition,
+            {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache}));
     const Permutation& permutation = composition.permutations.front();
     const std::optional<StageKind> only = stage_named(options.stage);
     if (only && permutation.stages[*only] < 0)
@@ -42,7 +48,7 @@ Result<Outcome> run(const ShowOptions& options, const World& world) {
         texts.push_back(only ? text
                              : fmt::format("{}{}:\n{}", options.pieces ? "" : "// ", stage.name, text));
     }
-    return Outcome{join(texts, "\n")};
+    return Outcome{join(texts, "\n"), std::move(composition.notes)};
 }
 
 }  // namespace

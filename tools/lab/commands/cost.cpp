@@ -1,47 +1,19 @@
 // gobo cost: what permutations cost on GPUs, as the compilers of their drivers estimate it.
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
-#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/commands/lab_input.hpp"
+#include "lab/commands/cost_pipelines.hpp"
 #include "lab/cost/baseline.hpp"
-#include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/study_cycles.hpp"
-#include "lab/render/render.hpp"
-#include "spirv/transform.hpp"
 
 namespace gobo {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-struct CostCommandOptions : SelectionOptions {
-    std::vector<std::string> names;  ///< FAMILY, or files
-    std::vector<std::string> stages;
-    std::vector<std::string> gpus;
-    std::string driver;  ///< find_driver()'s `where`
-    bool json = false;
-    bool csv = false;
-    bool isa = false;
-    bool cycles = false;
-    bool specialized = false;
-    std::string against;   ///< a key
-    std::string baseline;  ///< a CSV file
-    double tolerance = 2;  ///< percent
-    bool update = false;
-    std::string study;   ///< a study.csv
-    std::string folder;  ///< for SPIR-V that a driver does not take; empty: it is not kept
-};
-
-cost::CompileOptions compile_options(const CostCommandOptions& options, const World& world) {
-    return {.driver = options.driver, .jobs = world.jobs()};
-}
 
 Result<Outcome> list_chips(const CostCommandOptions& options, const World& world) {
     const auto answers =
@@ -71,158 +43,6 @@ Result<Outcome> list_chips(const CostCommandOptions& options, const World& world
                    "more chips: fetch a newer Mesa's drivers into a folder with tools/fetch_mesa.sh "
                    "(installed: share/gobo/tools) and name it with "
                    "--driver"};
-}
-
-/// A permutation's two stages, indices into Composition::stages, and the values of its specialisation
-/// constants by constant_id.
-struct Pair {
-    int vertex = 0;
-    int fragment = 0;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
-
-    friend auto operator<=>(const Pair&, const Pair&) = default;
-};
-
-/// What is compiled: each distinct pair once.
-struct Pairs {
-    std::vector<cost::Pipeline> pipelines;
-    std::map<Pair, std::size_t> numbers;  ///< index into pipelines
-    Diagnostics errors;                   ///< of pairs that are no pipeline
-};
-
-Pair pair_of(const Permutation& permutation) {
-    Pair pair{permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]};
-    for (const SpecializedCount& count : permutation.specialized)
-        pair.constants.emplace_back(count.id, count.value);
-    return pair;
-}
-
-Result<cost::Pipeline> pipeline_of(const Composition& composition, const Validated& validated,
-                                   const Permutation& permutation) {
-    const Pair pair = pair_of(permutation);
-    const ValidatedStage& vertex = validated.stage(pair.vertex);
-    const ValidatedStage& fragment = validated.stage(pair.fragment);
-    const bool is_vulkan = composition.dialect == Dialect::vulkan;
-    GOBO_TRY(cost::Pipeline pipeline, is_vulkan ? cost::pipeline_of_vulkan(vertex.spirv, fragment.spirv)
-                                                : cost::pipeline_of(vertex.spirv, fragment.spirv));
-    pipeline.constants = pair.constants;
-    for (const ValidatedStage* stage : {&vertex, &fragment})
-        for (const Block& block : stage->interface.push_constants)
-            pipeline.push_bytes = std::max(pipeline.push_bytes, static_cast<std::uint32_t>(block.size));
-    return pipeline;
-}
-
-/// "fog=linear", or the files' names, with the key where they have several.
-std::string text_of(const CostCommandOptions& options, const Subject& subject,
-                    const Permutation& permutation) {
-    const std::string key = key_text(subject.family.family, permutation.key);
-    if (!subject.are_files) return key;
-    const bool is_only = subject.composition.permutations.size() == 1;
-    return join(options.names, " ") + (is_only ? "" : " " + key);
-}
-
-/// Puts the error where one of the two stages first has the name.
-void put_at_name(Diagnostic& error, const Composition& composition, const Permutation& permutation,
-                 const std::string& name) {
-    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
-        for (const int number : composition.stage(permutation.stages[kind]).pieces) {
-            const std::string& text = composition.piece(number).text;
-            for (const std::string_view token : tokens_of(text)) {
-                if (token != name) continue;
-                const auto before = text.begin() + (token.data() - text.data());
-                return put_at(error, composition.piece(number),
-                              static_cast<int>(std::count(text.begin(), before, '\n')) + 1);
-            }
-        }
-}
-
-Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const Validated& validated) {
-    Pairs pairs;
-    std::map<Pair, bool> seen;
-    for (const Permutation& permutation : subject.composition.permutations) {
-        if (!seen.try_emplace(pair_of(permutation)).second) continue;
-        auto pipeline = pipeline_of(subject.composition, validated, permutation);
-        if (pipeline) {
-            pairs.numbers[pair_of(permutation)] = pairs.pipelines.size();
-            pairs.pipelines.push_back(*std::move(pipeline));
-            continue;
-        }
-        for (Diagnostic& error : pipeline.error()) {
-            put_at_name(error, subject.composition, permutation, error.subject);
-            error.subject = text_of(options, subject, permutation);
-            pairs.errors.push_back(std::move(error));
-        }
-    }
-    return pairs;
-}
-
-std::string_view bytes_of(const cost::Words& words) {
-    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])};
-}
-
-/// A pair that a driver did not compile, its SPIR-V where -o says.
-Diagnostics report_failure(const World& world, const CostCommandOptions& options, const cost::Chip& chip,
-                           const cost::Pipeline& pipeline, const std::string& key,
-                           const std::string& reason) {
-    Diagnostics diagnostics(1);
-    Diagnostic& error = diagnostics.front();
-    error.message = fmt::format("{} has no figures: the driver {}", chip.name, reason);
-    error.subject = key;
-    error.help = "keep its two stages as SPIR-V with -o DIR, for a report to the driver's makers";
-    if (options.folder.empty()) return diagnostics;
-    std::string name = picture_name(key);
-    std::replace(name.begin(), name.end(), '/', '+');  // of files
-    const std::string path = fmt::format("{}/{}.{}", options.folder, chip.name, name);
-    error.help =
-        fmt::format("its stages, for a report to the driver's makers: {0}.vert.spv, {0}.frag.spv", path);
-    for (const auto& [end, words] :
-         {std::pair(".vert.spv", &pipeline.vertex), {".frag.spv", &pipeline.fragment}})
-        if (const auto written = world.disk.write(path + end, bytes_of(*words)); !written)
-            append(diagnostics, written.error());
-    return diagnostics;
-}
-
-/// The costs of every permutation that a chip's driver compiles; what fails is added to `diagnostics`.
-std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOptions& options,
-                                     const Subject& subject, const Pairs& pairs,
-                                     const std::vector<cost::Chip>& chips, Diagnostics& diagnostics) {
-    std::vector<cost::ChipCost> costs;
-    if (pairs.pipelines.empty()) return costs;
-    const auto answers =
-        cost::compile_on_chips(world.disk, chips, pairs.pipelines, compile_options(options, world));
-    for (std::size_t i = 0; i < chips.size(); ++i) {
-        if (!answers[i]) {
-            append(diagnostics, answers[i].error());
-            continue;
-        }
-        std::vector<std::vector<cost::StageCost>> stages(pairs.pipelines.size());
-        for (std::size_t pair = 0; pair < stages.size(); ++pair) {
-            const cost::Pipeline& pipeline = pairs.pipelines[pair];
-            if (const auto& compiled = answers[i]->pipelines[pair])
-                for (const cost::CompiledStage& stage : *compiled)
-                    stages[pair].push_back(cost::cost_of(stage, chips[i],
-                                                         stage.stage == "vertex"
-                                                             ? pipeline.vertex_loop_varies
-                                                             : pipeline.fragment_loop_varies));
-        }
-        cost::ChipCost& cost = costs.emplace_back(cost::ChipCost{chips[i], answers[i]->driver, {}});
-        std::vector<bool> is_reported(stages.size());
-        for (const Permutation& permutation : subject.composition.permutations) {
-            const auto number = pairs.numbers.find(pair_of(permutation));
-            if (number == pairs.numbers.end()) continue;
-            const std::size_t pair = number->second;
-            const std::string key = text_of(options, subject, permutation);
-            if (const auto& compiled = answers[i]->pipelines[pair]) {
-                cost.keys.push_back({key, stages[pair]});
-            } else if (!is_reported[pair]) {
-                is_reported[pair] = true;
-                append(diagnostics, report_failure(world, options, chips[i], pairs.pipelines[pair], key,
-                                                   compiled.error()));
-            }
-        }
-        if (cost.keys.empty()) costs.pop_back();
-    }
-    return costs;
 }
 
 /// The names of the pieces of both stages.
@@ -324,102 +144,6 @@ Result<Outcome> cost_study(const World& world, const CostCommandOptions& options
     return Outcome{csv_text(cost::with_cycles(study, costs)), std::move(diagnostics)};
 }
 
-/// Distinct modules without their names, and their bytes.
-struct Modules {
-    std::set<cost::Words> distinct;
-    std::size_t bytes = 0;
-
-    Result<void> add(const SpirvModule& words) {
-        GOBO_TRY(cost::Words bare, spirv::without_names(words));
-        const std::size_t size = bare.size() * sizeof(bare[0]);
-        if (distinct.insert(std::move(bare)).second) bytes += size;
-        return {};
-    }
-};
-
-/// Every key twice: with its counts as literals, and with those that the family wants specialised as
-/// constants of the pipeline. What assembly the drivers make of both, and what is saved of SPIR-V.
-Result<Outcome> compare_specialized(const World& world, const CostCommandOptions& options,
-                                    const std::vector<cost::Chip>& chips) {
-    if (options.names.size() != 1)
-        return fail(Fault::usage, "--specialized goes with one family",
-                    "name it: gobo cost lit --specialized --gpu "
-                    "navi21");
-    struct Side {
-        Composition composition;
-        Validated validated;
-        Modules modules;
-    };
-    if (!options.dialect.empty() && options.dialect != "vulkan")
-        return fail(Fault::usage,
-                    fmt::format("--specialized does not compare in --dialect {}", options.dialect),
-                    "leave --dialect out, or name vulkan");
-    const auto compiled = [&](const std::string& dialect, Counts counts) -> Result<Side> {
-        GOBO_TRY(Subject subject, load_subject(world, options.names, {}, dialect, &options, counts));
-        GOBO_TRY_DO(
-            refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
-        Side side;
-        GOBO_TRY(side.validated, compile(world, subject, {.keep_spirv = true}));
-        for (const ValidatedStage& stage : side.validated.stages) GOBO_TRY_DO(side.modules.add(stage.spirv));
-        side.composition = subject.composition;
-        return side;
-    };
-    GOBO_TRY(const LoadedFamily family, load_family(world, options.names.front()));
-    const bool is_vulkan = !options.dialect.empty();
-    GOBO_TRY(const Side literal, compiled(is_vulkan ? "vulkan" : "450", Counts::literal));
-    GOBO_TRY(const Side specialized, compiled(is_vulkan ? "vulkan" : "gl_spirv", Counts::specialized));
-    // Of each permutation that has such counts the literal pipeline, then the specialised one.
-    std::vector<cost::Pipeline> pipelines;
-    std::vector<std::string> keys;
-    for (std::size_t i = 0; i < literal.composition.permutations.size(); ++i) {
-        const Permutation& counted = specialized.composition.permutations[i];
-        if (counted.specialized.empty()) continue;
-        keys.push_back(key_text(family.family, counted.key));
-        for (const Side* side : {&literal, &specialized}) {
-            GOBO_TRY(cost::Pipeline pipeline,
-                     pipeline_of(side->composition, side->validated, side->composition.permutations[i]));
-            pipelines.push_back(std::move(pipeline));
-        }
-    }
-    std::string text = fmt::format(
-        "{} keys, of which {} have specialised counts\n"
-        "{} modules of {} bytes instead of {} of {}\n",
-        literal.composition.permutations.size(), keys.size(), specialized.modules.distinct.size(),
-        specialized.modules.bytes, literal.modules.distinct.size(), literal.modules.bytes);
-    Diagnostics diagnostics;
-    const auto answers =
-        cost::compile_on_chips(world.disk, chips, pipelines, compile_options(options, world));
-    for (std::size_t chip = 0; chip < chips.size(); ++chip) {
-        if (!answers[chip]) {
-            append(diagnostics, answers[chip].error());
-            continue;
-        }
-        std::size_t same = 0;
-        std::size_t stages = 0;
-        std::string others;
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const auto& plain = answers[chip]->pipelines[2 * i];
-            const auto& counted = answers[chip]->pipelines[2 * i + 1];
-            for (const auto* answer : {&plain, &counted})
-                if (!*answer)
-                    append(diagnostics, report_failure(world, options, chips[chip],
-                                                       pipelines[2 * i + (answer == &plain ? 0 : 1)], keys[i],
-                                                       answer->error()));
-            if (!plain || !counted) continue;
-            for (std::size_t stage = 0; stage < std::min(plain->size(), counted->size()); ++stage) {
-                ++stages;
-                if ((*plain)[stage].assembly == (*counted)[stage].assembly)
-                    ++same;
-                else
-                    others += fmt::format("  {} stage of '{}'\n", (*plain)[stage].stage, keys[i]);
-            }
-        }
-        text += fmt::format("{}: {} of {} stages have the assembly of the literal counts ({})\n{}",
-                            chips[chip].name, same, stages, answers[chip]->driver, others);
-    }
-    return Outcome{std::move(text), std::move(diagnostics)};
-}
-
 /// An error where shader files are not of a vertex and a fragment stage.
 Result<void> refuse_other_files(const StageNumbers& stages) {
     const std::string help = "name a file of each of those two: gobo cost game.vert game.frag --gpu navi21";
@@ -499,38 +223,6 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
 }
 
 }  // namespace
-
-std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,
-                                           const CsvTable& study, const std::string& path,
-                                           const std::vector<cost::Chip>& chips, const std::string& driver,
-                                           Diagnostics& diagnostics) {
-    CostCommandOptions options;
-    options.driver = driver;
-    Subject subject{.family = family, .composition = {}};
-    std::vector<Key> keys;
-    const std::size_t at = study.column("key").value();
-    for (std::size_t i = 0; i < study.rows.size(); ++i) {
-        const auto key = parse_key(family.family, study.rows[i][at], {path, static_cast<int>(i) + 2, 0});
-        if (!key)
-            append(diagnostics, key.error());
-        else if (std::find(keys.begin(), keys.end(), *key) == keys.end())
-            keys.push_back(*key);
-    }
-    auto composition = compose_keys(family, keys);
-    if (!composition) {
-        append(diagnostics, composition.error());
-        return {};
-    }
-    subject.composition = *std::move(composition);
-    const auto validated = compile(world, subject, {.keep_spirv = true});
-    if (!validated) {
-        append(diagnostics, validated.error());
-        return {};
-    }
-    const Pairs pairs = pairs_of(options, subject, *validated);
-    append(diagnostics, pairs.errors);
-    return costs_of(world, options, subject, pairs, chips, diagnostics);
-}
 
 Option driver_option(std::string& driver) {
     return {"--driver", "FOLDER|FILE",

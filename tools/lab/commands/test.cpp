@@ -253,12 +253,11 @@ std::string totals_text(const raster::PictureReport& totals, std::size_t drawn, 
         totals.largest_error, totals.root_mean_square);
 }
 
-/// What there is to say of a picture that passes: its values, and whether it shows anything.
+/// What there is to say of a picture that passes: its values, and an error where it shows nothing.
 Diagnostics warnings_of(const raster::PictureReport& picture) {
     Diagnostics warnings = picture.warnings;
     if (picture.drawn > 0 || !picture.diagnostics.empty()) return warnings;
     Diagnostic nothing;
-    nothing.severity = Severity::warning;
     nothing.message = "no pixel is drawn, so nothing was compared";
     nothing.help = "give what gl_Position is computed from its values under [render] in the family file";
     warnings.push_back(std::move(nothing));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "lab/cost/chips.hpp"
 
 namespace gobo::cost {
 namespace {
@@ -21,6 +22,11 @@ struct BaselineRow {
     StageCost cost;
 };
 
+/// "the fragment stage of 'point=1' on navi21"
+std::string text_of(const RowName& row) {
+    return fmt::format("the {} stage of '{}' on {}", row[2], row[1], row[0]);
+}
+
 Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const std::string& path) {
     const auto missing = [&](std::string_view name) {
         return fail({path, 1, 0}, "", fmt::format("there is no column '{}'", name), kUpdate);
@@ -34,7 +40,18 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
     std::map<RowName, BaselineRow> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& cells = table.rows[i];
-        BaselineRow& row = rows[{cells[names[0]], cells[names[1]], cells[names[2]]}];
+        const auto unknown = [&](std::string_view what, const std::string& cell) {
+            return fail_at_row(path, i, fmt::format("'{}' is no {}", cell, what), kUpdate);
+        };
+        const RowName row_name = {cells[names[0]], cells[names[1]], cells[names[2]]};
+        if (std::ranges::find(chips(), row_name[0], &Chip::name) == chips().end())
+            return unknown("GPU that gobo knows", row_name[0]);
+        if (row_name[2] != "vertex" && row_name[2] != "fragment")
+            return unknown("stage that is costed", row_name[2]);
+        const auto [at, is_new] = rows.try_emplace(row_name);
+        if (!is_new)
+            return fail_at_row(path, i, fmt::format("{} is here a second time", text_of(row_name)), kUpdate);
+        BaselineRow& row = at->second;
         row.driver = cells[names[3]];
         const auto read = [&](std::string_view name, std::uint64_t& value) -> Result<void> {
             const auto column = table.column(name);
@@ -49,16 +66,13 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
         for (const Figure& figure : figures()) GOBO_TRY_DO(read(figure.name, row.cost.*figure.value));
         std::uint64_t has_loop = 0;
         GOBO_TRY_DO(read("loop", has_loop));
+        if (has_loop > 1)
+            return unknown("answer to whether there is a loop, 0 or 1", std::to_string(has_loop));
         row.cost.has_loop = has_loop != 0;
         for (std::size_t kind = 0; kind < kKindNames.size(); ++kind)
             GOBO_TRY_DO(read(kKindNames[kind], row.cost.kinds[kind]));
     }
     return rows;
-}
-
-/// "the fragment stage of 'point=1' on navi21"
-std::string text_of(const RowName& row) {
-    return fmt::format("the {} stage of '{}' on {}", row[2], row[1], row[0]);
 }
 
 /// "the fragment stage of 'point=1' on navi21 and 3 more"
