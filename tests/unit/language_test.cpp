@@ -108,6 +108,10 @@ const Row refused[] = {
     row("precision_before_const", "330 core", with_main("highp const float g = 1.0;\n", "g"),
         "'highp' stands before 'const', which came with GLSL 4.20"),
     row("precision_of_a_bool", "450", with_main("highp bool b = true;\n"), "'highp' before bool"),
+    row("precision_of_a_double", "450", with_main("mediump dvec3 d = dvec3(1.0);\n"),
+        "'mediump' before dvec3"),
+    row("lone_in", "450", with_main("in;\n"), "tiny.frag:2: error: 'in;' declares nothing"),
+    row("lone_uniform", "330 core", with_main("uniform;\n"), "'uniform;' declares nothing"),
     row("case_of_uint", "300 es",
         "out vec4 c;\nvoid main() {\n    c = vec4(1.0);\n    int i = 1;\n    switch (i) {\n"
         "    case 0u: break;\n    }\n}\n",

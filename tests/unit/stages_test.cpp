@@ -98,6 +98,9 @@ const std::string without_place =
     "layout(triangles) in;\nlayout(points, max_vertices = 1) out;\nvoid main() { EmitVertex(); }\n";
 const std::string without_primitive =
     "layout(points, max_vertices = 1) out;\nvoid main() { gl_Position = vec4(0.0); EmitVertex(); }\n";
+const std::string of_stream_1 =
+    "layout(points) in;\nlayout(points, max_vertices = 1) out;\nlayout(stream = 1) out vec3 m;\n"
+    "void main() { gl_Position = vec4(0.0); m = vec3(1.0); EmitStreamVertex(1); }\n";
 constexpr const char* block_out =
     "out Data { vec3 n; vec2 t; } data;\n"
     "void main() { data.n = vec3(1.0); data.t = vec2(1.0); gl_Position = vec4(0.0); }\n";
@@ -121,6 +124,15 @@ const Row with_geometry[] = {
      {{kVertex, normal_out}, {kGeometry, flat_in.c_str()}, {kFragment, normal_in}},
      false,
      {"tiny.geom:4: error: 'n' is flat here, but smooth in tiny.vert:2"}},
+    {"output_of_another_stream",
+     "450",
+     {{kVertex, plain}, {kGeometry, of_stream_1.c_str()}, {kFragment, normal_in}},
+     false,
+     {"tiny.frag:2: error: the fragment stage reads 'm', which belongs to stream 1 of the geometry stage"}},
+    {"unread_output_of_another_stream",
+     "450",
+     {{kVertex, plain}, {kGeometry, of_stream_1.c_str()}, {kFragment, white}},
+     true},
     {"input_that_nothing_writes",
      "330 core",
      {{kVertex, normal_out}, {kGeometry, unwritten.c_str()}, {kFragment, normal_in}},

@@ -13,12 +13,16 @@ namespace gobo {
 
 /// How stages declare and use an entry. Programs may differ in it, so it never makes two entries unequal.
 struct Usage {
-    bool unused = false;         ///< no stage reads it; an output: the stage never writes it
-    bool anonymous = false;      ///< of a block: it has no instance, so its members are names of their own
+    bool unused = false;     ///< no stage reads it; an output: the stage never writes it
+    bool anonymous = false;  ///< of a block, or an input or output in one: it has no instance, so its members
+                             ///< are names of their own
     std::string precision = {};  ///< "mediump"; empty but of plain uniforms, and of samplers, in OpenGL ES
     /// What linkers compare beside the type: of an image its format, "rgba8"; of a member of a storage block
-    /// how its memory is accessed, "coherent readonly".
+    /// how its memory is accessed, "coherent readonly"; of a geometry stage's output "stream 1", but not 0.
     std::string access = {};
+    /// What is stated though it holds without, and is compared all the same: "smooth" of an input or output,
+    /// "[]" of an array whose size its use gives, "offset" of a block's member.
+    std::string stated = {};
 
     friend bool operator==(const Usage&, const Usage&) { return true; }
 };

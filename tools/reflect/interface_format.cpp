@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
@@ -86,12 +87,6 @@ std::string table(const std::vector<Row>& rows) {
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + '\n';
     }
-    return text;
-}
-
-std::string with_extents(const std::string& name, const std::vector<int>& array) {
-    std::string text = name;
-    for (const int extent : array) text += extent == 0 ? "[]" : fmt::format("[{}]", extent);
     return text;
 }
 

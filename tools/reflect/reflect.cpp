@@ -91,17 +91,6 @@ std::int64_t alignment_of(const Member& member) {
     return alignment;
 }
 
-std::int64_t end_of(const std::vector<Member>& members);
-
-/// In bytes, from the strides. A row-major matrix is stored as an array of its rows.
-std::int64_t size_of(const Member& member) {
-    if (!member.array.empty()) return std::int64_t{member.array_stride} * member.array.front();
-    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member));
-    const GlslType type = glsl_type(member.type).value_or(GlslType{});
-    if (!type.is_matrix()) return type.column_size();
-    return std::int64_t{member.matrix_stride} * (member.row_major ? type.rows : type.columns);
-}
-
 /// From the start of what contains the members to the end of the one that ends last.
 std::int64_t end_of(const std::vector<Member>& members) {
     std::int64_t end = 0;
@@ -395,7 +384,10 @@ class Reflection {
             list[i].per_vertex = is_per_vertex;
             list[i].patch = is_of_patch;
             list[i].component = decorated(module_, spv::DecorationComponent, variable.id);
+            list[i].usage.anonymous = list[i].whole == Whole::block && module_.name(variable.id).empty();
             list[i].usage.unused = is_input ? !used_.reads(variable.id) : !used_.writes(variable.id);
+            if (const int stream = decorated(module_, spv::DecorationStream, variable.id); stream > 0)
+                list[i].usage.access = fmt::format("stream {}", stream);
             add_interpolation(list[i].interpolation, variable.id, kWhole);
         }
     }
@@ -450,6 +442,14 @@ class Reflection {
 };
 
 }  // namespace
+
+std::int64_t size_of(const Member& member) {
+    if (!member.array.empty()) return std::int64_t{member.array_stride} * member.array.front();
+    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member));
+    const GlslType type = glsl_type(member.type).value_or(GlslType{});
+    if (!type.is_matrix()) return type.column_size();
+    return std::int64_t{member.matrix_stride} * (member.row_major ? type.rows : type.columns);
+}
 
 bool is_built_in(const Module& module, const spirv::Variable& variable) {
     const Id structure = array_element(module, variable.type);

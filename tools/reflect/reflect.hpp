@@ -23,6 +23,9 @@ enum class Api { opengl, vulkan };
 [[nodiscard]] Result<Interface> reflect_stage(const spirv::Module& module, const spirv::Usage& usage,
                                               Api api = Api::opengl);
 
+/// Bytes of a member of a block, from its strides. A row-major matrix is stored as an array of its rows.
+[[nodiscard]] std::int64_t size_of(const Member& member);
+
 /// The variable is one of OpenGL's own: gl_Position, gl_PerVertex, gl_DepthRange.
 [[nodiscard]] bool is_built_in(const spirv::Module& module, const spirv::Variable& variable);
 

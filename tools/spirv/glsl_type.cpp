@@ -78,6 +78,11 @@ int element_count(const std::vector<int>& extents) {
     return static_cast<int>(count);
 }
 
+std::string with_extents(std::string name, const std::vector<int>& extents) {
+    for (const int extent : extents) name += extent == 0 ? "[]" : fmt::format("[{}]", extent);
+    return name;
+}
+
 int location_count(std::string_view type, const std::vector<int>& extents) {
     const std::int64_t columns = glsl_type(type).value_or(GlslType{}).columns;
     return static_cast<int>(std::min<std::int64_t>(columns * element_count(extents), kMostElements));

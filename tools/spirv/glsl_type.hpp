@@ -54,6 +54,9 @@ struct GlslType {
 /// The elements of an array of those extents; 1 where it is no array.
 [[nodiscard]] int element_count(const std::vector<int>& extents);
 
+/// "vec3[2][4]" of "vec3"; an extent of 0 as "[]".
+[[nodiscard]] std::string with_extents(std::string name, const std::vector<int>& extents);
+
 /// Locations between stages of a value of that type (GLSL 4.50, 4.4.1): one for each element and column.
 [[nodiscard]] int location_count(std::string_view type, const std::vector<int>& extents);
 

@@ -5,8 +5,8 @@
 namespace gobo {
 
 static void fields(auto& archive, OneOf<Usage> auto& value) {
-    auto& [unused, anonymous, precision, access] = value;
-    archive(unused, anonymous, precision, access);
+    auto& [unused, anonymous, precision, access, stated] = value;
+    archive(unused, anonymous, precision, access, stated);
 }
 static void fields(auto& archive, OneOf<Interpolation> auto& value) {
     auto& [flat, noperspective, centroid, sample, invariant] = value;

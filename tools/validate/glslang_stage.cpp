@@ -239,9 +239,14 @@ Diagnostics GlslangStage::parse() {
     }
     drop_consequences(found);
     if (has_errors(found)) return found;
+    Diagnostics more;
     // Vulkan's language is what glslang takes.
-    Diagnostics more = dialect_ == Dialect::vulkan ? Diagnostics{} : check_language(kind_, pieces_, dialect_);
-    std::ranges::move(more, std::back_inserter(found));
+    if (dialect_ != Dialect::vulkan) {
+        const ActiveText text = active_text(pieces_, dialect_);
+        stated_ = stated_in(text);
+        more = check_language(kind_, pieces_, text, dialect_);
+        std::ranges::move(more, std::back_inserter(found));
+    }
     if (!is_spirv(dialect_)) {
         more = check_calls(shader_->shader.getInfoDebugLog(), pieces_);
         std::ranges::move(more, std::back_inserter(found));
@@ -309,6 +314,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     if (!interface) return placed(std::move(interface).error(), pieces_);
     stage.interface = *std::move(interface);
     set_precisions(stage.interface, precisions_);
+    set_stated(stage.interface, stated_);
     std::erase_if(stage.interface.uniforms,
                   [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
     stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices, dialect_);

@@ -9,6 +9,7 @@
 
 #include <glslang/Public/ShaderLang.h>
 
+#include "validate/stated.hpp"
 #include "validate/syntax_tree.hpp"
 #include "validate/validate.hpp"
 
@@ -59,7 +60,8 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
-    Precisions precisions_;                 ///< of the stage as OpenGL ES, where it is that
+    Precisions precisions_;  ///< of the stage as OpenGL ES, where it is that
+    Stated stated_;
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };
 

@@ -12,7 +12,7 @@ namespace gobo {
 namespace {
 
 /// Raised where what is kept, or what it is kept by, changes.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 /// 16 bytes each. Where there are more, all are forgotten but the newest.
 constexpr std::size_t kMostLinks = 1'000'000;

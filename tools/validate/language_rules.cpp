@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <deque>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "compose/clean_text.hpp"
-#include "compose/conditions.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "validate/language_names.hpp"
-#include "validate/missing_built_ins.hpp"
 
 namespace gobo {
 namespace {
-
-/// A token that is compiled, before macros are replaced.
-struct Token {
-    std::string_view text;
-    const Piece* piece;
-    int line;
-};
 
 bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
@@ -37,18 +26,19 @@ std::string version_text(int number, bool es) {
 
 class LanguageCheck {
   public:
-    LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces, Dialect dialect)
+    LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,
+                  Dialect dialect)
         : kind_(kind),
           is_shipped_(!is_spirv(dialect)),
           pieces_(pieces),
+          text_(text),
+          tokens_(text.tokens),
           prologue_(pieces.front()->text),
-          version_(version_of(prologue_)),
-          conditions_(prologue_) {}
+          version_(version_of(prologue_)) {}
 
     Diagnostics run() {
         check_extensions();
-        for (const Piece* const piece : pieces_)
-            if (piece != pieces_.front()) walk(*piece);
+        for (const ActiveDirective& directive : text_.directives) check_directive(directive);
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             if (at(i) == "struct") structs_.insert(at(i + 1));
             check_token(i);
@@ -107,42 +97,9 @@ class LanguageCheck {
         }
     }
 
-    /// Takes in the active lines of a piece.
-    void walk(const Piece& piece) {
-        std::string_view text = piece.text;
-        if (text.find("//") != std::string_view::npos || text.find("/*") != std::string_view::npos)
-            if (auto clean = clean_text(text, piece.path))
-                text = without_comments_.emplace_back(std::move(clean->code));
-        for (int number = 1; !text.empty(); ++number) {
-            const std::string_view line = text.substr(0, text.find('\n'));
-            text.remove_prefix(std::min(line.size() + 1, text.size()));
-            const std::string_view code = trim_left(line);
-            if (code.empty()) continue;
-            if (code.front() == '#') {
-                walk_directive(code.substr(1), piece, number);
-            } else if (conditions_.is_active()) {
-                for (const std::string_view token : tokens_of(code))
-                    tokens_.push_back({token, &piece, number});
-            }
-        }
-    }
-
-    static std::string_view trim_left(std::string_view text) {
-        return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
-    }
-
-    void walk_directive(std::string_view text, const Piece& piece, int number) {
-        text = trim_left(text);
-        const std::string_view word = {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
-        const std::string_view rest = trim_left(text.substr(word.size()));
-        if (conditions_.is_active()) check_directive(word, rest, piece, number);
-        if (word == "define" || word == "undef" || word.starts_with("if") || word.starts_with("el") ||
-            word == "endif")
-            static_cast<void>(conditions_.apply(
-                {std::string(word), is_shipped_ ? without_foreign_macros(rest) : std::string(rest), {}, {}}));
-    }
-
-    void check_directive(std::string_view word, std::string_view rest, const Piece& piece, int number) {
+    void check_directive(const ActiveDirective& directive) {
+        const auto& [word, rest, at, number] = directive;
+        const Piece& piece = *at;
         if (word == "define" || word == "undef") {
             const std::string_view name = macro_name(rest);
             if (is_any(name, {"__LINE__", "__FILE__", "__VERSION__", "defined"}))
@@ -168,13 +125,11 @@ class LanguageCheck {
                  "write the number itself: files are joined, and drivers count the lines in their own ways");
     }
 
-    [[nodiscard]] std::string_view at(std::size_t index) const {
-        return index < tokens_.size() ? tokens_[index].text : std::string_view();
-    }
+    [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
     [[nodiscard]] bool is_name(std::size_t index) const {
         return !at(index).empty() && is_identifier(at(index));
     }
-    [[nodiscard]] bool is_macro(std::size_t index) const { return conditions_.is_defined(at(index)) != 0; }
+    [[nodiscard]] bool is_macro(std::size_t index) const { return text_.is_macro(index); }
 
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
@@ -267,7 +222,8 @@ class LanguageCheck {
 
     void check_precision(std::size_t index) {
         const std::string_view next = at(index + 1);
-        if (is_any(next, {"bool", "bvec2", "bvec3", "bvec4"}))
+        if (is_any(next, {"bool", "bvec2", "bvec3", "bvec4", "double"}) || next.starts_with("dvec") ||
+            next.starts_with("dmat"))
             refuse(tokens_[index], fmt::format("'{}' before {}, which has no precision", at(index), next),
                    fmt::format("take '{}' out", at(index)));
         const bool is_storage = is_any(
@@ -298,8 +254,16 @@ class LanguageCheck {
             if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
             if (depth == 0 && token == "[") check_distances(i);
             if (depth == 0 && token == ";") check_interpolation(begin, i);
+            if (depth == 0 && token == ";" && i == begin + 1) check_lone(begin);
             if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
         }
+    }
+
+    /// `in;` alone: only a layout(...) makes a default of it (GLSL 4.60, 4.4).
+    void check_lone(std::size_t qualifier) {
+        if (is_any(at(qualifier), {"in", "out", "uniform", "buffer", "shared"}))
+            refuse(tokens_[qualifier], fmt::format("'{};' declares nothing", at(qualifier)),
+                   "take it out, or write a layout before it or a declaration behind it");
     }
 
     /// What calls a function is no constant in GLSL 1.10: `const float k = sin(0.5);` and `float
@@ -362,6 +326,7 @@ class LanguageCheck {
                                tokens_.begin() + static_cast<std::ptrdiff_t>(brace),
                                [&](const Token& token) { return token.text == word; });
         };
+        if (brace > 0 && at(brace - 1) != ")") check_located_array(begin, brace);
         const bool is_buffer = is("buffer");
         if (brace == 0 || at(brace - 1) == ")" || !(is_buffer || is("uniform"))) return;
         const bool has_layout = has_layout_ || states_layout(begin, brace);
@@ -388,6 +353,25 @@ class LanguageCheck {
             refuse(tokens_[end + 1],
                    fmt::format("the block's name for its instance, '{}', came with GLSL 1.50", at(end + 1)),
                    "state #version 150, or take it out and name its members alone");
+    }
+
+    /// `layout(location = 1) out B { vec4 tint; } b[2];`, but where each vertex has its element: drivers know
+    /// no locations of its members.
+    void check_located_array(std::size_t begin, std::size_t brace) {
+        const auto find = [&](std::string_view word) {
+            std::size_t i = begin;
+            while (i < brace && at(i) != word) ++i;
+            return i;
+        };
+        const bool is_of_program = (find("out") < brace && kind_ != StageKind::tess_control) ||
+                                   (find("in") < brace && kind_ == StageKind::fragment);
+        const std::size_t location = find("location");
+        if (!is_of_program || location == brace) return;
+        std::size_t end = brace;
+        while (end < tokens_.size() && at(end) != "}") ++end;
+        if (is_name(end + 1) && at(end + 2) == "[")
+            refuse(tokens_[location], fmt::format("the array of blocks '{}' states a location", at(end + 1)),
+                   "take it out, or put the array into the block");
     }
 
     /// `flat vec3 v;`, which is neither in nor out.
@@ -461,11 +445,10 @@ class LanguageCheck {
     StageKind kind_;
     bool is_shipped_;  ///< drivers get the text
     const std::vector<const Piece*>& pieces_;
+    const ActiveText& text_;
+    const std::vector<Token>& tokens_;
     const std::string& prologue_;
     GlslVersion version_;
-    Conditions conditions_;
-    std::deque<std::string> without_comments_;  ///< texts that tokens point into
-    std::vector<Token> tokens_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
     bool has_layout_ = false;  ///< `layout(std140) uniform;` stands above
@@ -475,8 +458,9 @@ class LanguageCheck {
 
 }  // namespace
 
-Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, Dialect dialect) {
-    return LanguageCheck(kind, pieces, dialect).run();
+Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,
+                           Dialect dialect) {
+    return LanguageCheck(kind, pieces, text, dialect).run();
 }
 
 }  // namespace gobo

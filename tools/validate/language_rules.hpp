@@ -5,13 +5,14 @@
 
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
+#include "validate/active_text.hpp"
 
 namespace gobo {
 
 /// Errors of what the stage's active lines say: names and layout qualifiers of later versions or of Vulkan,
 /// extensions that OpenGL has not, macros that make strings, functions declared within others. The first
-/// piece is the prologue, which states version and extensions.
+/// piece is the prologue, which states version and extensions; `text` is that of the pieces.
 [[nodiscard]] Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces,
-                                         Dialect dialect);
+                                         const ActiveText& text, Dialect dialect);
 
 }  // namespace gobo

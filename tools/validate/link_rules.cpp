@@ -14,27 +14,6 @@
 namespace gobo {
 namespace {
 
-std::string with_extents(std::string text, const std::vector<int>& array) {
-    for (const int extent : array) text += extent == 0 ? "[]" : fmt::format("[{}]", extent);
-    return text;
-}
-
-/// "flat", "noperspective" or "smooth".
-std::string_view shading_of(const Interpolation& interpolation) {
-    return interpolation.flat ? "flat" : interpolation.noperspective ? "noperspective" : "smooth";
-}
-
-std::string_view sampling_of(const Interpolation& interpolation) {
-    return interpolation.sample ? "sample" : interpolation.centroid ? "centroid" : "neither";
-}
-
-/// "flat" or "smooth centroid".
-std::string interpolation_text(const Interpolation& interpolation) {
-    std::string text(shading_of(interpolation));
-    if (sampling_of(interpolation) != "neither") text += fmt::format(" {}", sampling_of(interpolation));
-    return text;
-}
-
 /// A name of the program's one name space for uniforms, as one stage declares it.
 struct GlobalName {
     std::string name;
@@ -45,13 +24,14 @@ struct GlobalName {
     int location = -1;
     int binding = -1;
     int counter_offset = -1;
+    std::string element = {};  ///< of an array without a size that nothing indexes: the type of its elements
 };
 
 std::string format_text(const std::string& format) {
     return format.empty() ? "of no format" : fmt::format("of format {}", format);
 }
 
-/// In OpenGL ES the precision of a struct's members belongs to its type.
+/// The precision of a struct's members belongs to its type.
 std::string type_text(const std::string& type, const std::vector<int>& array,
                       const std::vector<Member>& members) {
     std::vector<std::string> parts;
@@ -62,15 +42,26 @@ std::string type_text(const std::string& type, const std::vector<int>& array,
     return with_extents(type, array) + inner;
 }
 
+bool is_open(const Usage& usage) {
+    return usage.unused && usage.stated == "[]";
+}
+
 std::vector<GlobalName> global_names(const Interface& interface) {
     std::vector<GlobalName> names;
+    const auto add = [&](GlobalName name, const std::string& type, const std::vector<int>& array,
+                         const std::vector<Member>& members) {
+        name.type = type_text(type, array, members);
+        if (is_open(*name.usage) && !array.empty())
+            name.element = type_text(type, {array.begin() + 1, array.end()}, members);
+        names.push_back(std::move(name));
+    };
     for (const Uniform& uniform : interface.uniforms)
-        names.push_back({uniform.name, type_text(uniform.type, uniform.array, uniform.members), "",
-                         "a uniform", &uniform.usage, uniform.location, uniform.counter_binding,
-                         uniform.counter_offset});
+        add({uniform.name, "", "", "a uniform", &uniform.usage, uniform.location, uniform.counter_binding,
+             uniform.counter_offset},
+            uniform.type, uniform.array, uniform.members);
     for (const Sampler& sampler : interface.samplers)
-        names.push_back({sampler.name, with_extents(sampler.type, sampler.array), "", "a sampler",
-                         &sampler.usage, sampler.location, sampler.binding});
+        add({sampler.name, "", "", "a sampler", &sampler.usage, sampler.location, sampler.binding},
+            sampler.type, sampler.array, {});
     for (const auto* const blocks : {&interface.blocks, &interface.storage_blocks})
         for (const Block& block : *blocks) {
             if (!block.usage.anonymous) continue;
@@ -82,8 +73,19 @@ std::vector<GlobalName> global_names(const Interface& interface) {
     return names;
 }
 
+/// Of an array that nothing indexes the linker takes the other's size.
+bool is_same_type(const GlobalName& one, const GlobalName& other) {
+    const auto fits = [](const GlobalName& open, const GlobalName& sized) {
+        return !open.element.empty() && sized.type.starts_with(open.element + "[");
+    };
+    return one.type == other.type || fits(one, other) || fits(other, one);
+}
+
 const std::string& access_of(const Member& member) {
     return member.usage.access;
+}
+bool states_offset(const Member& member) {
+    return member.usage.stated == "offset";
 }
 
 class LinkCheck {
@@ -102,57 +104,24 @@ class LinkCheck {
             add({{stages_.back().pieces.back()->path, 0, 0}, ""}, Severity::error,
                 "a program of OpenGL ES with a tess_evaluation stage needs a tess_control stage",
                 "add one that sets the levels");
-        for (const StageView& stage : stages_) {
-            if (stage.kind != StageKind::fragment) check_components(stage, stage.interface.outputs);
-            if (stage.kind != StageKind::vertex) check_components(stage, stage.interface.inputs);
-        }
+        append(check_varyings(stages_));
         check_block_names();
         for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
             earlier_ = stages_.begin();
             if (later_ != earlier_) check_versions();
             for (; earlier_ != later_; ++earlier_) {
-                if (earlier_ + 1 == later_) check_varyings();
                 check_names();
                 check_blocks();
             }
         }
-        const Diagnostics shared = check_shared_places(stages_);
-        found_.insert(found_.end(), shared.begin(), shared.end());
+        append(check_shared_places(stages_));
         return std::move(found_);
     }
 
   private:
+    void append(const Diagnostics& more) { found_.insert(found_.end(), more.begin(), more.end()); }
     void add(const Declaration& at, Severity severity, std::string message, std::string help) {
         found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
-    }
-
-    /// What shares a location by its components has one numerical type and is interpolated alike (GLSL 4.60,
-    /// 4.4.1).
-    void check_components(const StageView& stage, const std::vector<Variable>& list) {
-        const auto end_of = [](const Variable& variable) {
-            return variable.location + location_count(variable.type, variable.array);
-        };
-        for (const Variable& one : list)
-            for (const Variable& other : list) {
-                if (&one >= &other || one.location < 0 || other.location < 0 ||
-                    one.location >= end_of(other) || other.location >= end_of(one) ||
-                    one.component == other.component)
-                    continue;
-                const auto type = glsl_type(one.type);
-                const auto other_type = glsl_type(other.type);
-                const auto how = interpolation_text(one.interpolation);
-                const auto other_how = interpolation_text(other.interpolation);
-                const auto differ = [&](std::string_view what) {
-                    add(declaration_of(other.name, other.type, stage.pieces), Severity::error,
-                        fmt::format("'{} {}' and '{} {}' share location {} and {}", one.type, one.name,
-                                    other.type, other.name, std::max(one.location, other.location), what),
-                        "give each a location of its own");
-                };
-                if (type && other_type && type->scalar != other_type->scalar)
-                    differ("have not one numerical type");
-                else if (how != other_how)
-                    differ(fmt::format("are {} and {}", how, other_how));
-            }
     }
 
     /// A program is of OpenGL or of OpenGL ES, and there of one version (GLSL ES 3.00, 3.3).
@@ -173,119 +142,6 @@ class LinkCheck {
     }
     [[nodiscard]] Declaration in_later(std::string_view name, std::string_view type) const {
         return declaration_of(name, type, later_->pieces);
-    }
-
-    [[nodiscard]] bool is_before(int desktop, int es) const {
-        return version_.number < (version_.es ? es : desktop);
-    }
-
-    // ---- from one stage to the next
-
-    /// By location where both state one, by name where neither does (GLSL 4.50, 4.4.1).
-    [[nodiscard]] static bool match(const Variable& input, const Variable& output) {
-        if (input.location < 0 || output.location < 0)
-            return input.location < 0 && output.location < 0 && input.name == output.name;
-        return input.location == output.location && input.component == output.component;
-    }
-
-    void check_varyings() {
-        std::set<std::string_view> told;  // of a struct or block one member will do
-        for (const Variable& input : later_->interface.inputs) {
-            const auto output = std::ranges::find_if(earlier_->interface.outputs,
-                                                     [&](const Variable& one) { return match(input, one); });
-            const std::size_t before = found_.size();
-            if (told.contains(root_of(input.name))) continue;
-            if (output != earlier_->interface.outputs.end())
-                check_varying(input, *output);
-            else if (!input.usage.unused)
-                check_missing(input);
-            if (found_.size() > before) told.insert(root_of(input.name));
-        }
-    }
-
-    void check_missing(const Variable& input) {
-        std::string message =
-            fmt::format("the {} stage reads '{}', which the {} stage does not write", name_of(later_->kind),
-                        with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
-        std::string help =
-            fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
-        for (const Variable& output : earlier_->interface.outputs) {
-            if (output.name != input.name) continue;
-            const auto located = [](int location) {
-                return location < 0 ? std::string("no location") : fmt::format("location {}", location);
-            };
-            message += fmt::format(": it has {} here, and {} in {}", located(input.location),
-                                   located(output.location), in_earlier(output.name, output.type).text());
-            help = "state the same location in both stages, or none in both";
-        }
-        add(in_later(input.name, input.type), Severity::error, message, help);
-    }
-
-    void check_varying(const Variable& input, const Variable& output) {
-        const std::string what = input.name == output.name
-                                     ? fmt::format("'{}'", input.name)
-                                     : fmt::format("'{}' (location {}, '{}' in the {} stage)", input.name,
-                                                   input.location, output.name, name_of(earlier_->kind));
-        const auto differ = [&](Severity severity, std::string_view mine, std::string_view theirs,
-                                std::string_view rule, std::string help) {
-            add(in_later(input.name, input.type), severity,
-                fmt::format("{} is {} here, but {} in {}{}", what, mine, theirs,
-                            in_earlier(output.name, output.type).text(), rule),
-                std::move(help));
-        };
-        const auto whole = [](const Variable& variable) {
-            return variable.whole == Whole::block       ? "a member of a block"
-                   : variable.whole == Whole::structure ? "a member of a struct"
-                                                        : "no member of a block";
-        };
-        if (input.whole != output.whole)
-            return differ(Severity::error, whole(input), whole(output), "",
-                          "declare it alike in both stages");
-        if (input.type != output.type || input.array != output.array)
-            return differ(Severity::error, with_extents(input.type, input.array),
-                          with_extents(output.type, output.array), "", "declare it alike in both stages");
-        const bool is_of_block = input.whole == Whole::block;
-        if (input.patch != output.patch)
-            return differ(Severity::error, input.patch ? "patch" : "not patch",
-                          output.patch ? "patch" : "not", "", "write patch in both stages, or in neither");
-        if (interpolation_differs(input, output))
-            return differ(Severity::error, shading_of(input.interpolation), shading_of(output.interpolation),
-                          version_.es ? ": OpenGL ES wants the same interpolation in both stages"
-                                      : ": before GLSL 4.40 both stages must interpolate alike",
-                          "write the same qualifier in both stages");
-        if (input.interpolation.sample != output.interpolation.sample)
-            return differ(Severity::error, sampling_of(input.interpolation),
-                          sampling_of(output.interpolation), "", "write sample in both stages");
-        if (invariance_differs(input, output))
-            return differ(Severity::error, input.interpolation.invariant ? "invariant" : "not invariant",
-                          output.interpolation.invariant ? "invariant" : "not",
-                          ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
-        if (centroid_differs(input, output))
-            return differ(
-                is_of_block ? Severity::error : Severity::warning,
-                input.interpolation.centroid ? "centroid" : "not centroid",
-                output.interpolation.centroid ? "centroid" : "not",
-                is_of_block ? ": the members of a block must agree" : ": some drivers refuse to link it",
-                "write centroid in both stages");
-        if (!input.usage.unused && output.usage.unused)
-            add(in_later(input.name, input.type), Severity::warning,
-                fmt::format("the {} stage reads {}, which the {} stage declares in {} and never writes",
-                            name_of(later_->kind), what, name_of(earlier_->kind),
-                            in_earlier(output.name, output.type).text()),
-                fmt::format("write it in the {} stage: its value is undefined", name_of(earlier_->kind)));
-    }
-
-    [[nodiscard]] bool interpolation_differs(const Variable& input, const Variable& output) const {
-        return (version_.es || version_.number < 440) &&
-               shading_of(input.interpolation) != shading_of(output.interpolation);
-    }
-    [[nodiscard]] bool invariance_differs(const Variable& input, const Variable& output) const {
-        return is_before(420, 300) && input.whole != Whole::block &&
-               input.interpolation.invariant != output.interpolation.invariant;
-    }
-    [[nodiscard]] bool centroid_differs(const Variable& input, const Variable& output) const {
-        return (is_before(430, 310) || (!version_.es && input.whole == Whole::block)) &&
-               input.interpolation.centroid != output.interpolation.centroid;
     }
 
     // ---- names that both stages declare
@@ -314,7 +170,7 @@ class LinkCheck {
         };
         if (!here.block.empty() || !there.block.empty())
             differ(here.kind, there.kind, "rename one of them, or give the block an instance name");
-        else if (here.type != there.type)
+        else if (!is_same_type(here, there))
             differ(here.type, there.type, "declare it alike in both stages, or give it two names");
         else if (here.location >= 0 && there.location >= 0 && here.location != there.location)
             differ(fmt::format("at location {}", here.location), fmt::format("at {}", there.location),
@@ -328,7 +184,7 @@ class LinkCheck {
         else if (here.usage->access != there.usage->access)
             differ(format_text(here.usage->access), format_text(there.usage->access),
                    "state one format in both stages");
-        else if (here.usage->precision != there.usage->precision &&
+        else if (version_.es && here.usage->precision != there.usage->precision &&
                  (version_.number >= 300 || (!here.usage->unused && !there.usage->unused)))
             differ(here.usage->precision, there.usage->precision,
                    "write its precision in both stages: OpenGL ES wants the same");
@@ -350,14 +206,14 @@ class LinkCheck {
                 }
     }
 
-    /// By the specification a uniform may be called as a block of another stage; Mesa 22.3 crashes.
+    /// By the specification what is no block may be called as a block of another stage; Mesa 22.3 crashes.
     void check_block_names() {
         for (const StageView& stage : stages_)
             for (const auto lists : {&Interface::blocks, &Interface::storage_blocks})
                 for (const Block& block : stage.interface.*lists)
                     for (const StageView& other : stages_)
                         for (const GlobalName& name : global_names(other.interface))
-                            if (name.block.empty() && name.name == root_of(block.name) &&
+                            if (name.name == root_of(block.name) && name.block != block.name &&
                                 !block.usage.anonymous)
                                 add(declaration_of(name.name, "", other.pieces), Severity::error,
                                     fmt::format("'{}' is {} here, and a block in {}", name.name, name.kind,
@@ -393,6 +249,14 @@ class LinkCheck {
                     member.usage.access.empty() ? "without qualifiers of memory" : member.usage.access);
             };
             differ(access_text(*own), access_text(*other), once);
+        } else if (const auto [placed, other_placed] =
+                       std::ranges::mismatch(here.members, there.members, {}, states_offset, states_offset);
+                   placed != here.members.end()) {
+            const auto offset_text = [](const Member& member) {
+                return fmt::format("{} offset of '{}'", states_offset(member) ? "a stated" : "no stated",
+                                   member.name);
+            };
+            differ(offset_text(*placed), offset_text(*other_placed), once);
         } else if (here.usage.anonymous != there.usage.anonymous) {
             differ(here.usage.anonymous ? "no instance name" : "an instance name",
                    there.usage.anonymous ? "none" : "one", once);

@@ -23,6 +23,9 @@ struct StageView {
 /// The stages stand in the order of the pipeline.
 [[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
+/// The part of check_link() that looks at what each stage hands to the next.
+[[nodiscard]] Diagnostics check_varyings(const std::vector<StageView>& stages);
+
 /// The part of check_link() that looks at bindings, texture units, locations of uniforms and atomic counters.
 [[nodiscard]] Diagnostics check_shared_places(const std::vector<StageView>& stages);
 

@@ -80,6 +80,14 @@ class SharedPlaces {
                     sampler.type.find("sampler") != std::string::npos)
                     places.push_back(
                         {sampler.name, sampler.type, sampler.binding, element_count(sampler.array), &stage});
+        // Mesa 22.3 takes the last unit of such an array for that before the first.
+        for (const StageView& stage : stages_)
+            for (const Sampler& sampler : stage.interface.samplers)
+                if (sampler.binding == 0 && sampler.set < 0 && sampler.usage.stated == "[]")
+                    add(declaration_of(sampler.name, sampler.type, stage.pieces), Severity::error,
+                        fmt::format("the array '{}' states binding 0 and no size: some drivers refuse it",
+                                    sampler.name),
+                        "state its size");
         for_each_overlap(places, [&](const Taken& one, const Taken& other, std::int64_t unit) {
             const bool is_refused = one.type != other.type;
             add(declared(one), is_refused ? Severity::error : Severity::warning,

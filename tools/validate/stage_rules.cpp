@@ -224,12 +224,13 @@ class StageCheck {
             for (const Block& block : *blocks)
                 for (std::size_t i = 1; i < block.members.size(); ++i) {
                     const Member& member = block.members[i];
-                    if (member.offset >= block.members[i - 1].offset) continue;
-                    return refuse(
-                        declaration_of_member(root_of(block.name), member.name, pieces_),
-                        fmt::format("'{}' has offset {}, before that of '{}', which stands above it",
-                                    member.name, member.offset, block.members[i - 1].name),
-                        "order members by their offsets");
+                    const Member& before = block.members[i - 1];
+                    if (member.offset >= before.offset + size_of(before)) continue;
+                    const std::string where = member.offset < before.offset ? "before that" : "within that";
+                    return refuse(declaration_of_member(root_of(block.name), member.name, pieces_),
+                                  fmt::format("'{}' has offset {}, {} of '{}', which stands above it",
+                                              member.name, member.offset, where, before.name),
+                                  "order members by their offsets, each behind the end of the one before");
                 }
     }
 

@@ -1,0 +1,223 @@
+// Names that two stages declare: uniforms, samplers, images and blocks.
+#include <gtest/gtest.h>
+
+#include "link_row.hpp"
+
+namespace gobo {
+namespace {
+
+class NameRules : public testing::TestWithParam<LinkRow> {};
+
+TEST_P(NameRules, AreToldAndAgreeWithMesa) {
+    expect_verdicts(GetParam());
+}
+
+const LinkRow names[] = {
+    {"anonymous_member_and_uniform",
+     "450",
+     "layout(std140, binding = 0) uniform Frame { vec4 tint; };\nvoid main() { gl_Position = tint; }\n",
+     "uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'tint' is a uniform here, but a member of the block 'Frame' in tiny.vert:2"}},
+    {"anonymous_members_of_two_blocks",
+     "450",
+     "layout(std140, binding = 0) uniform Frame { vec4 tint; };\nvoid main() { gl_Position = tint; }\n",
+     "layout(std140, binding = 1) uniform Surface { vec4 tint; };\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is a member of the block 'Surface' here, but a member of the block 'Frame' in tiny.vert:2"}},
+    {"anonymous_member_of_lines",
+     "450",
+     "layout(std140, binding = 0) uniform Frame {\n    mat4 m;\n    vec4 tint;\n};\n"
+     "void main() { gl_Position = tint; }\n",
+     "#ifdef NEVER\nlayout(std140, binding = 1) uniform Surface { vec4 tint; };\n#else\nuniform vec4 tint;\n"
+     "#endif\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:5: error: 'tint' is a uniform here, but a member of the block 'Frame' in tiny.vert:4"}},
+    {"types_of_a_uniform",
+     "330 core",
+     "uniform vec3 tint;\nvoid main() { gl_Position = tint.xyzx; }\n",
+     "uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'tint' is vec4 here, but vec3 in tiny.vert:2"}},
+    {"uniform_and_sampler",
+     "330 core",
+     "uniform vec3 tint;\nvoid main() { gl_Position = tint.xyzx; }\n",
+     "uniform sampler2D tint;\nout vec4 c;\nvoid main() { c = texture(tint, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'tint' is sampler2D here, but vec3 in tiny.vert:2"}},
+    {"locations_of_a_uniform",
+     "450",
+     "layout(location = 1) uniform vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "layout(location = 2) uniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is at location 2 here, but at 1 in tiny.vert:2"}},
+    {"locations_of_two_uniforms",
+     "450",
+     "layout(location = 1) uniform vec4 tint[3];\nvoid main() { gl_Position = tint[2]; }\n",
+     "layout(location = 3) uniform vec4 tone;\nout vec4 c;\nvoid main() { c = tone; }\n",
+     Mesa::refuses,
+     {"the uniforms 'tone' and 'tint' (tiny.vert:2) share location 3"}},
+    {"bindings_of_a_sampler",
+     "450",
+     "layout(binding = 1) uniform sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",
+     "layout(binding = 2) uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture(map, vec2(0.0)); "
+     "}\n",
+     Mesa::refuses,
+     {"'map' is at binding 2 here, but at 1 in tiny.vert:2"}},
+    {"precision_es300",
+     "300 es",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform highp vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is highp here, but mediump in tiny.vert:2"}},
+    {"precision_of_a_sampler_es300",
+     "300 es",
+     "uniform highp sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",
+     "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture(map, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'map' is lowp here, but highp in tiny.vert:2"}},
+    {"members_of_a_block",
+     "450",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; vec4 eye; } camera;\n"
+     "void main() { gl_Position = camera.m * camera.eye; }\n",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; vec3 eye; } camera;\nout vec4 c;\n"
+     "void main() { c = camera.eye.xyzx; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the block 'Camera' has 'vec3 eye' at offset 64 here, but 'vec4 eye' at offset 64 "
+      "in "
+      "tiny.vert:2"}},
+    {"instance_of_a_block",
+     "450",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; } camera;\n"
+     "void main() { gl_Position = camera.m[0]; }\n",
+     "layout(std140, binding = 0) uniform Camera { mat4 m; };\nout vec4 c;\nvoid main() { c = m[1]; }\n",
+     Mesa::refuses,
+     {"the block 'Camera' has no instance name here, but one in tiny.vert:2"}},
+    {"formats_of_an_image",
+     "450",
+     "layout(rgba8, binding = 0) uniform image2D map;\n"
+     "void main() { gl_Position = vec4(imageSize(map).xyxy); }\n",
+     "layout(rgba16f, binding = 0) uniform image2D map;\nout vec4 c;\n"
+     "void main() { c = vec4(imageSize(map).xyxy); }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: 'map' is of format rgba16f here, but of format rgba8 in tiny.vert:2"}},
+    {"no_format_of_an_unread_image",
+     "450",
+     "layout(rgba8, binding = 0) writeonly uniform image2D map[2];\nvoid main() { gl_Position = vec4(0.0); "
+     "}\n",
+     "layout(binding = 0) writeonly uniform image2D map[2];\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"'map' is of no format here, but of format rgba8 in tiny.vert:2"}},
+    {"one_format_of_an_image",
+     "450",
+     "layout(r32f, binding = 0) coherent uniform image2D map;\nvoid main() { gl_Position = vec4(0.0); }\n",
+     "layout(r32f, binding = 0) coherent uniform image2D map;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"precision_es100",
+     "100",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform highp vec4 tint;\nvoid main() { gl_FragColor = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is highp here, but mediump in tiny.vert:2"}},
+    {"precision_of_an_unread_uniform_es100",
+     "100",
+     "uniform mediump vec4 tint;\nvoid main() { gl_Position = vec4(0.0); }\n",
+     "uniform highp vec4 tint;\nvoid main() { gl_FragColor = tint; }\n",
+     Mesa::links,
+     {}},
+    {"low_and_medium_precision",
+     "300 es",
+     "uniform lowp vec4 tint;\nvoid main() { gl_Position = tint; }\n",
+     "uniform mediump vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
+     Mesa::refuses,
+     {"'tint' is mediump here, but lowp in tiny.vert:2"}},
+    {"precision_of_a_struct",
+     "300 es",
+     "struct S { vec4 tint; mediump float gloss; };\nuniform S s;\nvoid main() { gl_Position = s.tint; }\n",
+     "struct S { vec4 tint; float gloss; };\nuniform S s;\nout vec4 c;\nvoid main() { c = s.tint; }\n",
+     Mesa::refuses,
+     {"tiny.frag:4: error: 's' is S { highp vec4 tint; highp float gloss } here, but S { highp vec4 tint; "
+      "mediump float gloss } in tiny.vert:3"}},
+    {"precision_of_an_unread_struct_es100",
+     "100",
+     "struct T { lowp vec4 tint; };\nstruct S { T t; };\nuniform S s[2];\n"
+     "void main() { gl_Position = vec4(0.0); }\n",
+     "struct T { mediump vec4 tint; };\nstruct S { T t; };\nuniform S s[2];\n"
+     "void main() { gl_FragColor = vec4(1.0); }\n",
+     Mesa::refuses,
+     {"'s' is S[2] { T { mediump vec4 tint } t } here, but S[2] { T { lowp vec4 tint } t } in tiny.vert:4"}},
+    {"precision_of_a_sampler_in_a_struct",
+     "300 es",
+     "struct S { highp sampler2D map; };\nuniform S s;\n"
+     "void main() { gl_Position = texture(s.map, vec2(0.0)); }\n",
+     "struct S { lowp sampler2D map; };\nuniform S s;\nout vec4 c;\n"
+     "void main() { c = texture(s.map, vec2(0.0)); }\n",
+     Mesa::refuses,
+     {"'s.map' is lowp here, but highp in tiny.vert:3"}},
+    {"precision_of_a_blocks_member",
+     "300 es",
+     "uniform B { mediump vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "uniform B { highp vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::links,
+     {}},
+    {"access_to_a_storage_block",
+     "450",
+     "layout(std430, binding = 0) buffer B { vec4 x; vec4 y[]; } b;\nvoid main() { gl_Position = b.x; }\n",
+     "layout(std430, binding = 0) coherent readonly buffer B { vec4 x; vec4 y[]; } b;\nout vec4 c;\n"
+     "void main() { c = b.x; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the block 'B' has 'x' coherent readonly here, but 'x' without qualifiers of "
+      "memory in "
+      "tiny.vert:2"}},
+    {"binding_of_a_block_in_one_stage",
+     "450",
+     "layout(std140, binding = 1) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std140) uniform B { vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::refuses,
+     {"the block 'B' has no binding here, but binding 1 in tiny.vert:2"}},
+    {"binding_0_of_a_block_in_one_stage",
+     "450",
+     "layout(std140, binding = 0) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std140) uniform B { vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
+     Mesa::links,
+     {}},
+    {"offset_of_a_member_in_one_stage",
+     "450",
+     "layout(std140) uniform B { vec4 tint; layout(offset = 16) vec4 tone; } b;\n"
+     "void main() { gl_Position = b.tint; }\n",
+     "layout(std140) uniform B { vec4 tint; vec4 tone; } b;\nout vec4 c;\nvoid main() { c = b.tone; }\n",
+     Mesa::refuses,
+     {"tiny.frag:2: error: the block 'B' has no stated offset of 'tone' here, but a stated offset of 'tone' "
+      "in "
+      "tiny.vert:2"}},
+    {"array_that_only_one_stage_sizes",
+     "450",
+     "uniform vec4 tints[4];\nvoid main() { gl_Position = tints[3]; }\n",
+     "uniform vec4 tints[];\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+     Mesa::links,
+     {}},
+    {"array_sized_by_another_use",
+     "450",
+     "uniform vec4 tints[4];\nvoid main() { gl_Position = tints[3]; }\n",
+     "uniform vec4 tints[];\nout vec4 c;\nvoid main() { c = tints[1]; }\n",
+     Mesa::refuses,
+     {"'tints' is vec4[2] here, but vec4[4] in tiny.vert:2"}},
+    {"precision_of_a_structs_member",
+     "330 core",
+     "struct S { float gloss; };\nuniform S s;\nvoid main() { gl_Position = vec4(s.gloss); }\n",
+     "struct S { mediump float gloss; };\nuniform S s;\nout vec4 c;\nvoid main() { c = vec4(s.gloss); }\n",
+     Mesa::refuses,
+     {"'s' is S { mediump float gloss } here, but S { float gloss } in tiny.vert:3"}},
+    {"uniform_block_and_storage_block",
+     "450",
+     "layout(std140) uniform B { vec4 tint; } b;\nvoid main() { gl_Position = b.tint; }\n",
+     "layout(std430) buffer B { vec4 tone; } b;\nout vec4 c;\nvoid main() { c = b.tone; }\n",
+     Mesa::refuses,
+     {"the block 'B' has 'vec4 tone' at offset 0 here, but 'vec4 tint' at offset 0 in tiny.vert:2"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Names, NameRules, testing::ValuesIn(names), name_of_row);
+
+}  // namespace
+}  // namespace gobo

@@ -1,0 +1,165 @@
+#include "validate/stated.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.hpp"
+
+namespace gobo {
+namespace {
+
+/// Tokens from `begin` to before `end`.
+struct Range {
+    std::size_t begin;
+    std::size_t end;
+};
+
+class Statements {
+  public:
+    explicit Statements(const ActiveText& text) : text_(text) {}
+
+    Stated run() {
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < text_.tokens.size(); ++i) {
+            if (at(i) == "{") {
+                const std::size_t end = closing(i);
+                const Range head{begin, i};
+                if (is_block(head)) add_block(head, {i + 1, end});
+                if (i > begin + 1 && at(i - 2) == "struct") add_struct({i + 1, end}, std::string(at(i - 1)));
+                if (i > begin && at(i - 1) == ")") begin = end + 1;  // a function's body ends its statement
+                i = end;
+            } else if (at(i) == ";") {
+                const Range whole{begin, i};
+                if (has(whole, "in") || has(whole, "out") || has(whole, "varying") || has(whole, "uniform"))
+                    add_names(whole, has(whole, "smooth") ? "smooth" : "", "");
+                begin = i + 1;
+            }
+        }
+        return std::move(stated_);
+    }
+
+  private:
+    [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
+    [[nodiscard]] std::size_t find(Range range, std::string_view word) const {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            if (at(i) == word) return i;
+        return range.end;
+    }
+    [[nodiscard]] bool has(Range range, std::string_view word) const { return find(range, word) < range.end; }
+    /// The `}` of a `{`.
+    [[nodiscard]] std::size_t closing(std::size_t brace) const {
+        int depth = 0;
+        std::size_t i = brace;
+        for (; i < text_.tokens.size(); ++i) {
+            if (at(i) == "{") ++depth;
+            if (at(i) == "}" && --depth == 0) break;
+        }
+        return i;
+    }
+    [[nodiscard]] bool is_block(Range head) const {
+        return head.end > head.begin && at(head.end - 1) != ")" && !has(head, "struct") &&
+               (has(head, "in") || has(head, "out") || has(head, "uniform") || has(head, "buffer"));
+    }
+
+    void add(const std::string& path, std::string_view word) {
+        if (word.empty()) return;
+        std::string& words = stated_[path];
+        if (words.find(word) == std::string::npos) words += (words.empty() ? "" : " ") + std::string(word);
+    }
+
+    /// The names that a declaration declares: `vec3 a, b[2] = ...;`, not what stands in brackets.
+    void add_names(Range range, std::string_view word, const std::string& block) {
+        if (has(range, "{")) return;  // with a struct of its own
+        int brackets = 0;
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            const std::string_view token = at(i);
+            if (text_.is_macro(i)) return;
+            if (token == "(" || token == "[") ++brackets;
+            if (token == ")" || token == "]") --brackets;
+            const std::string_view next = i + 1 < range.end ? at(i + 1) : ";";
+            const bool is_name = brackets == 0 && is_identifier(token) &&
+                                 (next == ";" || next == "," || next == "[" || next == "=");
+            if (!is_name) continue;
+            const std::string path = block.empty() ? std::string(token) : fmt::format("{}.{}", block, token);
+            add(path, word);
+            if (next == "[" && at(i + 2) == "]" && at(i + 3) != "=") add(path, "[]");
+        }
+    }
+
+    void add_struct(Range body, const std::string& name) {
+        std::size_t begin = body.begin;
+        for (std::size_t i = body.begin; i < body.end; ++i) {
+            if (at(i) != ";") continue;
+            for (const char* precision : {"highp", "mediump", "lowp"})
+                if (has({begin, i}, precision)) add_names({begin, i}, precision, name);
+            begin = i + 1;
+        }
+    }
+
+    void add_block(Range head, Range body) {
+        const std::string block(at(head.end - 1));
+        const auto location_in = [&](Range range) {
+            const std::size_t word = find(range, "location");
+            return word < range.end ? at(word + 2) : std::string_view();
+        };
+        const std::string_view location = location_in(head);
+        std::size_t begin = body.begin;
+        for (std::size_t i = body.begin; i < body.end; ++i) {
+            if (at(i) != ";") continue;
+            const Range member{begin, i};
+            const bool is_other = has(member, "flat") || has(member, "noperspective");
+            if (has(member, "smooth") || (has(head, "smooth") && !is_other))
+                add_names(member, "smooth", block);
+            if (has(member, "offset") || has(member, "align") || has(head, "align"))
+                add_names(member, "offset", block);
+            const std::string_view own = location_in(member);
+            if (!own.empty()) add_names(member, "located", block);
+            if (begin == body.begin && !location.empty() && !own.empty() && own != location)
+                add_names(member, "apart", block);
+            begin = i + 1;
+        }
+    }
+
+    const ActiveText& text_;
+    Stated stated_;
+};
+
+void set_precisions(const std::string& type, std::vector<Member>& members, const Stated& stated) {
+    for (Member& member : members) {
+        const auto found = stated.find(fmt::format("{}.{}", type, member.name));
+        if (found != stated.end() && member.usage.precision.empty()) member.usage.precision = found->second;
+        set_precisions(member.type, member.members, stated);
+    }
+}
+
+}  // namespace
+
+Stated stated_in(const ActiveText& text) {
+    return Statements(text).run();
+}
+
+void set_stated(Interface& interface, const Stated& stated) {
+    if (stated.empty()) return;
+    const auto set = [&](std::string_view path, Usage& usage) {
+        if (const auto found = stated.find(path); found != stated.end()) usage.stated = found->second;
+    };
+    for (auto* const variables : {&interface.inputs, &interface.outputs})
+        for (Variable& variable : *variables) {
+            const std::string path = without_indices(variable.name);
+            const std::size_t dot = path.find('.');
+            const bool is_of_block = variable.whole == Whole::block && dot != std::string::npos;
+            set(path.substr(0, is_of_block ? path.find('.', dot + 1) : dot), variable.usage);
+        }
+    for (auto* const blocks : {&interface.blocks, &interface.storage_blocks})
+        for (Block& block : *blocks)
+            for (Member& member : block.members)
+                set(fmt::format("{}.{}", root_of(block.name), member.name), member.usage);
+    for (Uniform& uniform : interface.uniforms) {
+        set(uniform.name, uniform.usage);
+        set_precisions(uniform.type, uniform.members, stated);
+    }
+    for (Sampler& sampler : interface.samplers) set(sampler.name, sampler.usage);
+}
+
+}  // namespace gobo

@@ -1,0 +1,273 @@
+// What one stage hands to the next: matched by location or by name, and of one type, interpolated alike.
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compose/dialect.hpp"
+#include "spirv/glsl_type.hpp"
+#include "validate/declaration.hpp"
+#include "validate/link_rules.hpp"
+
+namespace gobo {
+namespace {
+
+bool states(const Variable& variable, std::string_view word) {
+    return variable.usage.stated.find(word) != std::string::npos;
+}
+
+/// "flat", "noperspective" or "smooth".
+std::string_view shading_of(const Interpolation& interpolation) {
+    return interpolation.flat ? "flat" : interpolation.noperspective ? "noperspective" : "smooth";
+}
+
+/// That of two variables which differ in it alone: whether they state "smooth".
+std::string_view shading_of(const Variable& variable, const Variable& other) {
+    const std::string_view shading = shading_of(variable.interpolation);
+    return shading != shading_of(other.interpolation) || states(variable, "smooth") ? shading
+                                                                                    : "smooth by default";
+}
+
+std::string_view sampling_of(const Interpolation& interpolation) {
+    return interpolation.sample ? "sample" : interpolation.centroid ? "centroid" : "neither";
+}
+
+/// "flat" or "smooth centroid".
+std::string interpolation_text(const Interpolation& interpolation) {
+    std::string text(shading_of(interpolation));
+    if (sampling_of(interpolation) != "neither") text += fmt::format(" {}", sampling_of(interpolation));
+    return text;
+}
+
+/// The extents as linkers have them: an array without a size that nothing indexes has none.
+std::vector<int> extents_of(const Variable& variable) {
+    std::vector<int> extents = variable.array;
+    if (states(variable, "[]") && variable.usage.unused && !extents.empty()) extents.front() = 0;
+    return extents;
+}
+
+class VaryingCheck {
+  public:
+    explicit VaryingCheck(const std::vector<StageView>& stages)
+        : stages_(stages), version_(version_of(stages.front().pieces.front()->text)) {}
+
+    Diagnostics run() {
+        for (const StageView& stage : stages_) {
+            if (stage.kind != StageKind::fragment) check_components(stage, stage.interface.outputs);
+            if (stage.kind != StageKind::vertex) check_components(stage, stage.interface.inputs);
+            if (stage.kind == StageKind::fragment) check_integers(stage);
+        }
+        for (later_ = stages_.begin() + 1; later_ != stages_.end(); ++later_) {
+            earlier_ = later_ - 1;
+            check_pair();
+        }
+        return std::move(found_);
+    }
+
+  private:
+    void add(const Declaration& at, Severity severity, std::string message, std::string help) {
+        found_.push_back(diagnostic_at(at, severity, std::move(message), std::move(help)));
+    }
+
+    /// What shares a location by its components has one numerical type and is interpolated alike (GLSL 4.60,
+    /// 4.4.1).
+    void check_components(const StageView& stage, const std::vector<Variable>& list) {
+        const auto end_of = [](const Variable& variable) {
+            return variable.location + location_count(variable.type, variable.array);
+        };
+        for (const Variable& one : list)
+            for (const Variable& other : list) {
+                if (&one >= &other || one.location < 0 || other.location < 0 ||
+                    one.location >= end_of(other) || other.location >= end_of(one) ||
+                    one.component == other.component)
+                    continue;
+                const auto type = glsl_type(one.type);
+                const auto other_type = glsl_type(other.type);
+                const auto how = interpolation_text(one.interpolation);
+                const auto other_how = interpolation_text(other.interpolation);
+                const auto differ = [&](std::string_view what) {
+                    add(declaration_of(other.name, other.type, stage.pieces), Severity::error,
+                        fmt::format("'{} {}' and '{} {}' share location {} and {}", one.type, one.name,
+                                    other.type, other.name, std::max(one.location, other.location), what),
+                        "give each a location of its own");
+                };
+                if (type && other_type && type->scalar != other_type->scalar)
+                    differ("have not one numerical type");
+                else if (how != other_how)
+                    differ(fmt::format("are {} and {}", how, other_how));
+                else if (states(one, "smooth") != states(other, "smooth"))
+                    differ(fmt::format("are {} and {}", shading_of(one, other), shading_of(other, one)));
+            }
+    }
+
+    /// What is no float is not interpolated (GLSL 4.60, 4.5): glslang looks at no member of a block.
+    void check_integers(const StageView& stage) {
+        std::set<std::string_view> told;
+        for (const Variable& input : stage.interface.inputs) {
+            const auto type = glsl_type(input.type);
+            if (input.whole != Whole::block || input.interpolation.flat || !type ||
+                type->scalar == Scalar::float32 || !told.insert(root_of(input.name)).second)
+                continue;
+            add(declaration_of(root_of(input.name), "", stage.pieces), Severity::error,
+                fmt::format("'{} {}' is an input that is not flat", input.type, input.name),
+                "write flat before it: only floats are interpolated");
+        }
+    }
+
+    [[nodiscard]] Declaration in_earlier(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, earlier_->pieces);
+    }
+    [[nodiscard]] Declaration in_later(std::string_view name, std::string_view type) const {
+        return declaration_of(name, type, later_->pieces);
+    }
+
+    [[nodiscard]] bool is_before(int desktop, int es) const {
+        return version_.number < (version_.es ? es : desktop);
+    }
+
+    /// By location where both state one, by name where neither does (GLSL 4.50, 4.4.1).
+    [[nodiscard]] static bool match(const Variable& input, const Variable& output) {
+        if (input.location < 0 || output.location < 0)
+            return input.location < 0 && output.location < 0 && input.name == output.name;
+        return input.location == output.location && input.component == output.component;
+    }
+
+    void check_pair() {
+        std::set<std::string_view> told;  // of a struct or block one member will do
+        for (const Variable& input : later_->interface.inputs) {
+            const auto output = std::ranges::find_if(earlier_->interface.outputs,
+                                                     [&](const Variable& one) { return match(input, one); });
+            const std::size_t before = found_.size();
+            if (told.contains(root_of(input.name))) continue;
+            if (output != earlier_->interface.outputs.end())
+                check_varying(input, *output);
+            else if (!input.usage.unused)
+                check_missing(input);
+            if (found_.size() > before) told.insert(root_of(input.name));
+        }
+    }
+
+    void check_missing(const Variable& input) {
+        std::string message =
+            fmt::format("the {} stage reads '{}', which the {} stage does not write", name_of(later_->kind),
+                        with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
+        std::string help =
+            fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
+        for (const Variable& output : earlier_->interface.outputs) {
+            if (output.name != input.name) continue;
+            const auto located = [](int location) {
+                return location < 0 ? std::string("no location") : fmt::format("location {}", location);
+            };
+            message += fmt::format(": it has {} here, and {} in {}", located(input.location),
+                                   located(output.location), in_earlier(output.name, output.type).text());
+            help = "state the same location in both stages, or none in both";
+        }
+        add(in_later(input.name, input.type), Severity::error, message, help);
+    }
+
+    void check_varying(const Variable& input, const Variable& output) {
+        const std::string what = input.name == output.name
+                                     ? fmt::format("'{}'", input.name)
+                                     : fmt::format("'{}' (location {}, '{}' in the {} stage)", input.name,
+                                                   input.location, output.name, name_of(earlier_->kind));
+        const auto differ = [&](Severity severity, std::string_view mine, std::string_view theirs,
+                                std::string_view rule, std::string help) {
+            add(in_later(input.name, input.type), severity,
+                fmt::format("{} is {} here, but {} in {}{}", what, mine, theirs,
+                            in_earlier(output.name, output.type).text(), rule),
+                std::move(help));
+        };
+        const auto whole = [](const Variable& variable) {
+            return variable.whole == Whole::block       ? "a member of a block"
+                   : variable.whole == Whole::structure ? "a member of a struct"
+                                                        : "no member of a block";
+        };
+        if (input.whole != output.whole)
+            return differ(Severity::error, whole(input), whole(output), "",
+                          "declare it alike in both stages");
+        const std::vector<int> extents = extents_of(input);
+        const std::vector<int> other_extents = extents_of(output);
+        if (input.type != output.type || extents != other_extents)
+            return differ(Severity::error, with_extents(input.type, extents),
+                          with_extents(output.type, other_extents), "", "declare it alike in both stages");
+        const bool is_of_block = input.whole == Whole::block;
+        if (input.patch != output.patch)
+            return differ(Severity::error, input.patch ? "patch" : "not patch",
+                          output.patch ? "patch" : "not", "", "write patch in both stages, or in neither");
+        if (interpolation_differs(input, output))
+            return differ(Severity::error, shading_of(input, output), shading_of(output, input),
+                          version_.es ? ": OpenGL ES wants the same interpolation in both stages"
+                                      : ": before GLSL 4.40 both stages must interpolate alike",
+                          "write the same qualifier in both stages");
+        if (input.interpolation.sample != output.interpolation.sample)
+            return differ(Severity::error, sampling_of(input.interpolation),
+                          sampling_of(output.interpolation), "", "write sample in both stages");
+        if (invariance_differs(input, output))
+            return differ(Severity::error, input.interpolation.invariant ? "invariant" : "not invariant",
+                          output.interpolation.invariant ? "invariant" : "not",
+                          ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
+        if (centroid_differs(input, output))
+            return differ(
+                is_of_block ? Severity::error : Severity::warning,
+                input.interpolation.centroid ? "centroid" : "not centroid",
+                output.interpolation.centroid ? "centroid" : "not",
+                is_of_block ? ": the members of a block must agree" : ": some drivers refuse to link it",
+                "write centroid in both stages");
+        if (is_of_block && input.location >= 0 && input.usage.anonymous != output.usage.anonymous &&
+            (states(input, "located") || !is_only_member(output)))
+            return differ(Severity::error, input.usage.anonymous ? "of no instance" : "of an instance",
+                          output.usage.anonymous ? "of none" : "of one", ", and their block states locations",
+                          "name an instance in both stages, or in neither");
+        if (!input.usage.unused && !input.usage.anonymous && states(input, "apart"))
+            add(in_later(root_of(input.name), ""), Severity::error,
+                fmt::format("the block of '{}' states one location, and its first member another",
+                            input.name),
+                "state the members' locations alone");
+        if (!input.usage.unused && !output.usage.access.empty())
+            return add(in_later(input.name, input.type), Severity::error,
+                       fmt::format("the {} stage reads {}, which belongs to {} of the {} stage",
+                                   name_of(later_->kind), what, output.usage.access, name_of(earlier_->kind)),
+                       "read what is emitted to stream 0: no other is drawn");
+        if (!input.usage.unused && output.usage.unused)
+            add(in_later(input.name, input.type),
+                !version_.es && version_.number <= 120 ? Severity::error : Severity::warning,
+                fmt::format("the {} stage reads {}, which the {} stage declares in {} and never writes",
+                            name_of(later_->kind), what, name_of(earlier_->kind),
+                            in_earlier(output.name, output.type).text()),
+                fmt::format("write it in the {} stage: its value is undefined", name_of(earlier_->kind)));
+    }
+
+    [[nodiscard]] bool is_only_member(const Variable& output) const {
+        return std::ranges::count(earlier_->interface.outputs, root_of(output.name),
+                                  [](const Variable& one) { return root_of(one.name); }) == 1;
+    }
+    [[nodiscard]] bool interpolation_differs(const Variable& input, const Variable& output) const {
+        if (!version_.es && version_.number >= 440) return false;
+        // Outside blocks OpenGL ES takes what is not stated for smooth.
+        const bool compares_words = !version_.es || input.whole == Whole::block;
+        return shading_of(input.interpolation) != shading_of(output.interpolation) ||
+               (compares_words && states(input, "smooth") != states(output, "smooth"));
+    }
+    [[nodiscard]] bool invariance_differs(const Variable& input, const Variable& output) const {
+        return is_before(420, 300) && input.whole != Whole::block &&
+               input.interpolation.invariant != output.interpolation.invariant;
+    }
+    [[nodiscard]] bool centroid_differs(const Variable& input, const Variable& output) const {
+        return (is_before(430, 310) || (!version_.es && input.whole == Whole::block)) &&
+               input.interpolation.centroid != output.interpolation.centroid;
+    }
+
+    const std::vector<StageView>& stages_;
+    std::vector<StageView>::const_iterator earlier_ = {};  ///< of the two that are compared
+    std::vector<StageView>::const_iterator later_ = {};
+    GlslVersion version_;
+    Diagnostics found_;
+};
+
+}  // namespace
+
+Diagnostics check_varyings(const std::vector<StageView>& stages) {
+    return VaryingCheck(stages).run();
+}
+
+}  // namespace gobo
