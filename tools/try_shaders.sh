@@ -3,7 +3,7 @@
 set -u
 usage() {
     cat <<END
-usage: tools/try_shaders.sh [--gobo GOBO] [--scratch DIR] [--list] FOLDER
+usage: tools/try_shaders.sh [--gobo GOBO] [--scratch DIR] [--list] [--sanitize POINTS [--contracts FILE]] FOLDER
   FOLDER holds one folder for each set. In a set, every .toml file is a family, tried over its default set.
   Where a set has none, each vertex file with a fragment file of the same name is a pair, for which a family
   of three lines is written: .vs .fs, .vert .frag, .vsh .fsh, .glslv .glslf, _vp.glsl _fp.glsl. Files of that
@@ -12,6 +12,10 @@ usage: tools/try_shaders.sh [--gobo GOBO] [--scratch DIR] [--list] FOLDER
   --gobo GOBO      the program to try, with gobo-lab beside it; by default that of build/release
   --scratch DIR    where families, headers, pictures and messages go; by default a new folder of /tmp
   --list           print what is refused, and the reason
+  --sanitize POINTS  instead, search each family, and where a set has none each vertex and fragment file, for
+                   what GLSL leaves undefined: how many are evaluated, how many refused, how much is found
+  --contracts FILE with --sanitize: a second time where something was found, with those domains and constraints
+                   of FILE, a line each, whose names the shader reads: how much falls silent, and what is new
 The table counts keys: those that gobo takes, whose header it builds, whose interface it prints and whose
 picture it draws; then those that the driver was asked about by gobo link, those that gobo takes and the driver
 does not link, and those that gobo refuses and the driver links.
@@ -19,12 +23,14 @@ END
 }
 root=$(cd "$(dirname "$0")/.." && pwd)
 gobo=$root/build/release/bin/gobo
-scratch='' list=''
+scratch='' list='' points='' contracts=''
 while [ $# -gt 1 ]; do
     case $1 in
         --gobo) gobo=$2; shift 2 ;;
         --scratch) scratch=$2; shift 2 ;;
         --list) list=yes; shift ;;
+        --sanitize) points=$2; shift 2 ;;
+        --contracts) contracts=$(realpath "$2") || exit 3; shift 2 ;;
         *) usage >&2; exit 2 ;;
     esac
 done
@@ -87,6 +93,58 @@ note() {
 number_before() { # WORDS FILE
     tail -n 1 "$2" | grep -oE "[0-9]+ $1" | grep -oE '^[0-9]+' || echo 0
 }
+
+# The places and messages of what a search found, without the operands.
+findings_of() { # ERR_FILE
+    grep -E ': error: ' "$1" | sed -E 's/^(.*: error: [^:]*)(:| \().*/\1/' | sort -u
+}
+# The lines of the contracts that the shader has names for.
+write_contracts() { # LOG OUT ARGUMENTS...
+    local log=$1 out=$2 unknown
+    shift 2
+    run "$log.names" sanitize "$@" --points 1 --inputs "$contracts"
+    unknown=$(grep -F "$contracts:" "$log.names.err" | grep -oE ':[0-9]+:[0-9]+: error' | cut -d: -f2 | sort -un |
+        sed 's/$/d/' | paste -sd';')
+    sed "$unknown" "$contracts" > "$out"
+}
+sanitize_sets() {
+    local set name work path log files ran refused found silent new number
+    echo '| set | tried | evaluated | refused | findings | silent by contracts | new by contracts |'
+    echo '|---|---|---|---|---|---|---|'
+    for set in "$folder"/*/; do
+        name=$(basename "$set")
+        work=$scratch/$name
+        mkdir -p "$work"
+        mapfile -t files < <(find "$set" -name '*.toml' | sort)
+        [ ${#files[@]} -gt 0 ] || mapfile -t files < <(find "$set" -type f | grep -E '\.([vf]s|vert|frag|[vf]sh)$' | sort)
+        ran=0 refused=0 found=0 silent=0 new=0 number=0
+        for path in "${files[@]}"; do
+            number=$((number + 1))
+            log=$work/$number
+            run "$log.first" sanitize "$path" -I "$(dirname "$path")" --points "$points"
+            if ! grep -q ' findings$' "$log.first.out"; then
+                refused=$((refused + 1))
+                note "$name, $path: $(grep -m 1 error "$log.first.err")"
+                continue
+            fi
+            ran=$((ran + 1))
+            findings_of "$log.first.err" > "$log.found"
+            found=$((found + $(wc -l < "$log.found")))
+            { [ -n "$contracts" ] && [ -s "$log.found" ]; } || continue
+            write_contracts "$log" "$log.toml" "$path" -I "$(dirname "$path")"
+            run "$log.second" sanitize "$path" -I "$(dirname "$path")" --points "$points" --inputs "$log.toml"
+            findings_of "$log.second.err" > "$log.left"
+            silent=$((silent + $(comm -23 "$log.found" "$log.left" | wc -l)))
+            new=$((new + $(comm -13 "$log.found" "$log.left" | wc -l)))
+        done
+        echo "| $name | ${#files[@]} | $ran | $refused | $found | $silent | $new |"
+    done
+}
+if [ -n "$points" ]; then
+    sanitize_sets
+    echo "messages: $scratch" >&2
+    exit
+fi
 
 echo '| set | families | keys | taken | built | reflected | drawn | compared | taken, not linked | refused, linked |'
 echo '|---|---|---|---|---|---|---|---|---|---|'

@@ -86,6 +86,18 @@ std::vector<Hazard> constant_hazards() {
          "integer remainder by zero",
          {"c.r = float(i % k);", "const int k = 3 - 3;"},
          {"c.r = float(abs(i) % k);", "const int k = 3;"}},
+        {"constant_of_struct",
+         "division by zero",
+         {"c.r = min(1.0 / k.a, 1.0);", "struct S { float a; float b; }; const S k = S(0.0, 1.0);"},
+         {"c.r = min(1.0 / k.b, 1.0);", "struct S { float a; float b; }; const S k = S(0.0, 1.0);"}},
+        {"constant_of_struct_of_ints",
+         "integer division by zero",
+         {"c.r = float(7 / k.l.n);",
+          "struct L { int m, n; float f[2]; }; struct S { float a; L l; }; const S k = S(1, L(1, 0, "
+          "float[](1.0, 2.0)));"},
+         {"c.r = float(7 / k.l.m);",
+          "struct L { int m, n; float f[2]; }; struct S { float a; L l; }; const S k = S(1, L(1, 0, "
+          "float[](1.0, 2.0)));"}},
     };
 }
 

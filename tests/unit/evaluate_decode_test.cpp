@@ -23,10 +23,12 @@ const Case kCases[] = {
     {"unknown_type",
      "#version 450\nlayout(location = 0) out vec4 r;\nvoid main() {\n  double d = 2.0lf;\n  r = "
      "vec4(d);\n}\n",
-     "test.glsl:5: error: 64-bit floating-point numbers are evaluated by gobo eval alone\n"},
+     "test.glsl:5: error: 64-bit floating-point numbers are evaluated by gobo eval alone: searches compute "
+     "in 32 bits\n"},
     {"unknown_type_that_is_not_used",
      "#version 450\nuniform dvec2 d;\nlayout(location = 0) out vec4 r;\nvoid main() {\n  r = vec4(1);\n}\n",
-     "gobo: error: 'd': 64-bit floating-point numbers are evaluated by gobo eval alone\n"},
+     "gobo: error: 'd': 64-bit floating-point numbers are evaluated by gobo eval alone: searches compute in "
+     "32 bits\n"},
     {"element_beyond_a_run_time_array",
      "#version 450\nlayout(std430, binding = 0) buffer B { float b[]; };\nlayout(location = 0) out vec4 "
      "r;\nvoid main() {\n  r = vec4(b[5000]);\n}\n",

@@ -190,7 +190,8 @@ TEST(Widths, AreRefusedByThoseWhoDoNotKnowThem) {
         return program ? std::string() : to_text(program.error().front());
     };
     EXPECT_EQ(error("int64_t l = int64_t(i);\nr = vec4(l);", Widths::up_to_32),
-              "test.glsl:7: error: 64-bit integers are evaluated by gobo eval alone\n");
+              "test.glsl:7: error: 64-bit integers are evaluated by gobo eval alone: searches compute in 32 "
+              "bits\n");
     EXPECT_EQ(error("r = vec4(float16_t(i));", Widths::of_32),
               "test.glsl:7: error: 16-bit floating-point numbers are evaluated by gobo eval, gobo sanitize "
               "and gobo "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -169,7 +170,10 @@ Result<void> refuse_other_stages(const Family& family, const Composition& compos
     const std::string help =
         program ? fmt::format("leave such keys out: --where 'program == {}'",
                               family.features[static_cast<std::size_t>(*program)].values.front())
-                : "";
+        : wants_pair
+            ? ""
+            : "each invocation is followed alone: where several share memory, a patch or a primitive, "
+              "what one computes hangs on the others";
     for (const Permutation& permutation : composition.permutations)
         for (const StageNames& stage : kStages) {
             const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
@@ -301,15 +305,14 @@ Result<Validated> compile_over_domains(const World& world, Subject& subject, con
         GOBO_TRY(const std::string text, read_input(world, inputs));
         GOBO_TRY(stated, read_domain_file(text, inputs));
     }
-    domains.insert(domains.begin(), stated.begin(), stated.end());  // ahead of the family's own
+    std::vector<Domain> of_family;  // where other keys than those at hand may read what is named
+    std::ranges::copy_if(domains, std::back_inserter(of_family), is_constraint, &Domain::name);
     if (subject.are_files) {
         GOBO_TRY(const std::vector<Domain> commented, constraints_in_comments(subject.composition));
-        domains.insert(domains.end(), commented.begin(), commented.end());
+        stated.insert(stated.end(), commented.begin(), commented.end());
     }
+    domains.insert(domains.begin(), stated.begin(), stated.end());  // ahead of the family's own
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true, .debug_information = true}));
-    std::vector<Domain> of_family;  // where other keys than those at hand may read what is named
-    for (const Domain& domain : domains)
-        if (is_constraint(domain.name)) (subject.are_files ? stated : of_family).push_back(domain);
     if (Diagnostics errors = sanitize::domains_of_nothing(stated, {}, validated); !errors.empty())
         return tl::unexpected(std::move(errors));
     // What else compilers warn of, the evaluation finds or gobo check tells.

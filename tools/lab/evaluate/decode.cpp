@@ -126,9 +126,10 @@ void Decoder::check_width(const Instruction& number) {
                           : is_narrow(scalar) ? widths_ != Widths::of_32
                                               : true;
     if (!is_known)
-        report_type(number, fmt::format("{}-bit {} are evaluated by gobo eval{} alone", number.word(2),
+        report_type(number, fmt::format("{}-bit {} are evaluated by gobo eval{} alone{}", number.word(2),
                                         is_float(scalar) ? "floating-point numbers" : "integers",
-                                        is_wide(scalar) ? "" : ", gobo sanitize and gobo test"));
+                                        is_wide(scalar) ? "" : ", gobo sanitize and gobo test",
+                                        is_wide(scalar) ? ": searches compute in 32 bits" : ""));
 }
 
 /// Types that evaluation does not know are errors, used or not.

@@ -1,10 +1,12 @@
 // Slots of values: how long they live, when two values may share them.
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 #include <spirv/unified1/GLSL.std.450.h>
 
 #include "lab/evaluate/decoder.hpp"
+#include "lab/evaluate/half.hpp"
 
 namespace gobo::evaluate {
 namespace {
@@ -215,12 +217,44 @@ void Decoder::emit(std::uint32_t code, const Instruction& instruction, std::uint
     emit_row(*find_row(code), instruction, count, result, operands, std::move(words));
 }
 
+/// Of a constant that 16 bits do not hold, slots of its own for mediump operations; else the operand.
+Value Decoder::of_relaxed(const Value& operand) {
+    const Slice of = slice(operand);
+    if (operand.is_pointer || of.count == 0 || of.scalar != Scalar::float32) return operand;
+    const auto first = std::ranges::find(program_.constants, of.slot, &ConstantSlot::slot);
+    if (program_.constants.end() - first < static_cast<std::ptrdiff_t>(of.count)) return operand;
+    const std::vector<ConstantSlot> known(first, first + of.count);
+    const auto is_exact = [](const ConstantSlot& constant) {
+        const auto value = std::bit_cast<float>(constant.bits);
+        return constant.scalar != Scalar::float32 || constant.is_relaxed || rounded_to_half(value) == value;
+    };
+    if (std::ranges::all_of(known, is_exact)) return operand;
+    const auto [own, is_new] = relaxed_slots_.try_emplace(of.slot, 0);
+    if (is_new) {
+        own->second = permanent(of.count);
+        for (std::uint32_t i = 0; i < of.count; ++i) {
+            ConstantSlot& constant = program_.constants.emplace_back(known[i]);
+            constant.slot = own->second + i;
+            constant.is_relaxed = true;
+        }
+    }
+    Value relaxed = operand;
+    relaxed.slot = own->second;
+    return relaxed;
+}
+
 /// Appends an operation to the block; it counts as `count` of its row's kind. Operands beyond the third stand
 /// in the words, from the third on.
 void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::uint32_t count,
-                       std::uint32_t result, const Values& operands, Words words) {
+                       std::uint32_t result, const Values& given, Words words) {
     if (program_.operations.size() >= kLargestProgram)
         report(instruction, "the stage is too long to evaluate");
+    const Row& known = instruction_table()[row];
+    const bool is_relaxed =
+        module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
+    Values operands = given;
+    if (is_relaxed && known.kind < Kind::move)
+        for (Value& operand : operands) operand = of_relaxed(operand);
     Operation operation{row, count, result, {}, length_of(program_.words), 0};
     for (std::size_t index = 0; index < operands.size() && index < operation.operands.size(); ++index)
         operation.operands[index] = operands[index].slot;
@@ -233,12 +267,11 @@ void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::u
     info.place = instruction.line;
     info.result.slot = result;
     info.is_precise = module_.decoration(instruction.result, spv::DecorationNoContraction).has_value();
-    info.is_relaxed = module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
+    info.is_relaxed = is_relaxed;
     if (instruction.type != Id::none)
         info.result = slice({instruction.type, result, -1, -1, intern(module_.name(instruction.result))});
     for (const Value& operand : operands) info.operands.push_back(slice(operand));
 
-    const Row& known = instruction_table()[row];
     if (!known.is_bookkeeping) charge(known.kind, known.kind == Kind::image ? 1 : count);
     program_.operations.push_back(operation);
     program_.infos.push_back(std::move(info));

@@ -151,6 +151,7 @@ class Decoder {
     void emit_row(std::uint32_t row, const Instruction& instruction, std::uint32_t count,
                   std::uint32_t result, const Values& operands, Words words = {});
     void copy(const Instruction& instruction, std::uint32_t count, std::uint32_t to, const Value& from);
+    Value of_relaxed(const Value& operand);
     void charge(Kind kind, std::uint32_t count);
 
     // decode_instruction.cpp: what stands in a block.
@@ -201,6 +202,7 @@ class Decoder {
     Program program_;
     std::optional<Diagnostic> error_;
     std::vector<Frame*> frames_;
+    std::unordered_map<std::uint32_t, std::uint32_t> relaxed_slots_;  ///< of_relaxed(): by the constant's own
     std::unordered_map<Id, Value> globals_;  ///< constants, and pointers to variables outside functions
     std::unordered_map<Id, Bits> constant_bits_;
     std::vector<bool> is_read_only_;  ///< of each variable

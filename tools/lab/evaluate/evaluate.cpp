@@ -211,6 +211,7 @@ class Evaluation {
             return static_cast<T>(std::bit_cast<double>(std::uint64_t{constant.high} << 32U | constant.bits));
         if (constant.scalar == Scalar::float16) return static_cast<T>(Half::unpack(constant.bits & 0xffffU));
         const float value = std::bit_cast<float>(constant.bits);
+        if (constant.is_relaxed && options_.is_half) return static_cast<T>(rounded_to_half(value));
         const bool is_exact = sizeof(T) == 4 || options_.is_single;
         return is_exact ? static_cast<T>(value) : static_cast<T>(shortest_decimal(value));
     }

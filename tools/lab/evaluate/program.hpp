@@ -136,8 +136,9 @@ struct Block {
 struct ConstantSlot {
     std::uint32_t slot = 0;
     Scalar scalar = Scalar::float32;
-    std::uint32_t bits = 0;  ///< of the value, of one of 64 bits the low ones
-    std::uint32_t high = 0;  ///< and the high ones
+    std::uint32_t bits = 0;   ///< of the value, of one of 64 bits the low ones
+    std::uint32_t high = 0;   ///< and the high ones
+    bool is_relaxed = false;  ///< only mediump operations read it: of 16 bits where these are
 };
 
 /// Slots whose value nobody gives: what a function returns that ends without a return.

@@ -2,113 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "core/text.hpp"
-#include "lab/sanitize/constant_value.hpp"
+#include "lab/sanitize/constant_tokens.hpp"
 
 namespace gobo::sanitize {
 namespace {
-
-struct Token {
-    std::string_view text;
-    int line = 0;
-};
-
-bool is_number(std::string_view text) {
-    return std::isdigit(static_cast<unsigned char>(text.front())) != 0 ||
-           (text.front() == '.' && text.size() > 1);
-}
-
-bool is_name(const Token& token) {
-    return !token.text.empty() && is_identifier_start(token.text.front());
-}
-
-/// How many characters the number takes that `rest` begins with.
-std::size_t length_of_number(std::string_view rest) {
-    const bool is_hexadecimal = rest.starts_with("0x") || rest.starts_with("0X");
-    std::size_t length = 0;
-    while (length < rest.size()) {
-        const char c = rest[length];
-        const bool is_exponent_sign = (c == '+' || c == '-') && length > 0 && !is_hexadecimal &&
-                                      (rest[length - 1] == 'e' || rest[length - 1] == 'E');
-        if (!is_identifier_part(c) && c != '.' && !is_exponent_sign) break;
-        ++length;
-    }
-    return length;
-}
-
-std::size_t length_of_token(std::string_view rest) {
-    constexpr std::array<std::string_view, 22> kOperators = {
-        "<<=", ">>=", "<<", ">>", "<=", ">=", "==", "!=", "&&", "||", "^^",
-        "++",  "--",  "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "##"};
-    if (std::isdigit(static_cast<unsigned char>(rest.front())) != 0 ||
-        (rest.front() == '.' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0))
-        return length_of_number(rest);
-    if (is_identifier_start(rest.front())) {
-        std::size_t length = 1;
-        while (length < rest.size() && is_identifier_part(rest[length])) ++length;
-        return length;
-    }
-    for (const std::string_view longer : kOperators)
-        if (rest.starts_with(longer)) return longer.size();
-    return 1;
-}
-
-/// Without the lines that are directives.
-std::vector<Token> lines_as_tokens(std::string_view source) {
-    std::vector<Token> tokens;
-    int line = 1;
-    while (!source.empty()) {
-        const std::string_view text = source.substr(0, source.find('\n'));
-        source.remove_prefix(std::min(text.size() + 1, source.size()));
-        std::string_view rest = text;
-        while (true) {
-            while (!rest.empty() && std::isspace(static_cast<unsigned char>(rest.front())) != 0)
-                rest.remove_prefix(1);
-            if (rest.empty() || rest.front() == '#') break;
-            tokens.push_back({rest.substr(0, length_of_token(rest)), line});
-            rest.remove_prefix(tokens.back().text.size());
-        }
-        ++line;
-    }
-    return tokens;
-}
-
-/// A literal; nothing for what is none or a double.
-Constant literal(std::string_view text) {
-    const bool is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
-    std::string digits(text);
-    bool is_unsigned = false;
-    bool is_float = !is_hexadecimal && digits.find_first_of(".eE") != std::string::npos;
-    if (!is_hexadecimal && (digits.ends_with("lf") || digits.ends_with("LF"))) return std::nullopt;
-    if (!is_hexadecimal && (digits.ends_with('f') || digits.ends_with('F'))) {
-        digits.pop_back();
-        is_float = true;
-    } else if (digits.ends_with('u') || digits.ends_with('U')) {
-        digits.pop_back();
-        is_unsigned = true;
-    }
-    if (is_float) {
-        float number = 0;
-        const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-        if (read.ec == std::errc::result_out_of_range) return std::nullopt;
-        return ConstantValue{{Scalar::float32, 1, 1}, 0, {static_cast<double>(number)}};
-    }
-    std::uint64_t number = 0;
-    const int base = is_hexadecimal ? 16 : digits.size() > 1 && digits.front() == '0' ? 8 : 10;
-    const char* const begin = digits.data() + (is_hexadecimal ? 2 : 0);
-    std::from_chars(begin, digits.data() + digits.size(), number, base);
-    const auto bits = static_cast<std::uint32_t>(number);
-    const double value =
-        is_unsigned ? static_cast<double>(bits) : static_cast<double>(static_cast<std::int32_t>(bits));
-    return ConstantValue{{is_unsigned ? Scalar::uint32 : Scalar::int32, 1, 1}, 0, {value}};
-}
 
 /// How tightly a binary operator binds; 0 for what is none.
 int precedence_of(std::string_view text) {
@@ -159,6 +60,10 @@ class ConstantReader {
 
   private:
     using Scope = std::map<std::string_view, Constant>;
+    struct Member {
+        std::string_view name;
+        std::optional<GlslType> type;  ///< nothing of another structure
+    };
 
     [[nodiscard]] bool at_end() const { return at_ >= tokens_.size(); }
     [[nodiscard]] const Token& peek(std::size_t ahead = 0) const {
@@ -298,9 +203,8 @@ class ConstantReader {
         }
         is_constant = is_constant && !is_specialised;
         if (take("struct")) {
-            if (is_name(peek())) ++at_;
-            block();
-        } else if (is_name(peek()) && sees("{", 1)) {  // a block of uniforms
+            structure();
+        } else if (peek().is_name() && sees("{", 1)) {  // a block of uniforms
             ++at_;
             block();
         } else if (const std::size_t name = place_of_declared_name(); name != 0) {
@@ -320,15 +224,57 @@ class ConstantReader {
         }
     }
 
+    void structure() {
+        const std::string_view name = peek().is_name() ? tokens_[at_++].text : "";
+        const std::size_t first = at_ + 1;
+        block();
+        std::vector<Member> members;
+        std::string_view type;
+        int depth = 0;
+        for (std::size_t i = first; i + 1 < at_; ++i) {
+            const Token& token = tokens_[i];
+            if (token.text == "[" || token.text == "(") ++depth;
+            if (token.text == "]" || token.text == ")") --depth;
+            if (token.text == ";") type = {};
+            if (depth > 0 || !token.is_name() || is_qualifier(token.text) || token.text == "layout") continue;
+            if (type.empty())
+                type = token.text;
+            else
+                members.push_back({token.text, glsl_type(type)});
+        }
+        structures_[name] = std::move(members);
+    }
+
+    /// `S(1.0, 2.0)`, where all of it is known.
+    [[nodiscard]] Constant structure_of(std::string_view name, const std::vector<Constant>& given) const {
+        const std::vector<Member>& members = structures_.at(name);
+        if (given.size() != members.size()) return std::nullopt;
+        ConstantValue value{{}, ConstantValue::kStructure, {}, name, {}};
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            const bool is_single = given[i] && given[i]->elements == 0 && members[i].type;
+            const Constant member = is_single ? converted(given[i], *members[i].type) : given[i];
+            if (!member) return std::nullopt;
+            value.members.push_back(*member);
+        }
+        return value;
+    }
+
+    [[nodiscard]] Constant member_of(const ConstantValue& value, std::string_view name) const {
+        const std::vector<Member>& members = structures_.at(value.structure);
+        const auto found = std::ranges::find(members, name, &Member::name);
+        if (found == members.end()) return std::nullopt;
+        return value.members[static_cast<std::size_t>(found - members.begin())];
+    }
+
     /// How far ahead a declared name stands: behind a type and perhaps brackets; 0 where none is declared.
     [[nodiscard]] std::size_t place_of_declared_name() const {
-        if (!is_name(peek())) return 0;
+        if (!peek().is_name()) return 0;
         std::size_t ahead = 1;
         while (sees("[", ahead)) {
             while (!peek(ahead).text.empty() && !sees("]", ahead)) ++ahead;
             ++ahead;
         }
-        return is_name(peek(ahead)) ? ahead : 0;
+        return peek(ahead).is_name() ? ahead : 0;
     }
 
     void function_header() {
@@ -346,7 +292,7 @@ class ConstantReader {
                 parameters_[last] = std::nullopt;
                 last = {};
             }
-            if (is_name(token)) last = token.text;
+            if (token.is_name()) last = token.text;
             ++at_;
         } while (depth > 0 && !at_end());
         if (!sees("{")) {
@@ -372,9 +318,10 @@ class ConstantReader {
             Constant value;
             if (take("=")) value = assignment();
             const std::optional<GlslType> wanted = glsl_type(type);
-            if (!is_constant || !wanted)
+            const bool is_structure = value && value->elements == ConstantValue::kStructure;
+            if (!is_constant || !(wanted || is_structure))
                 value = std::nullopt;
-            else if (!is_array)
+            else if (!is_array && !is_structure)
                 value = converted(value, *wanted);
             scopes_.back()[name] = std::move(value);
         } while (take(","));
@@ -456,6 +403,8 @@ class ConstantReader {
                 if (sees("(")) {  // .length()
                     skip_brackets();
                     value = std::nullopt;
+                } else if (value && value->elements == ConstantValue::kStructure) {
+                    value = member_of(*value, member);
                 } else {
                     value = components_of(value, member);
                 }
@@ -483,7 +432,7 @@ class ConstantReader {
         if (is_number(token.text)) return literal(token.text);
         if (token.text == "true" || token.text == "false")
             return ConstantValue{{Scalar::boolean, 1, 1}, 0, {token.text == "true" ? 1.0 : 0.0}};
-        if (!is_name(token)) return std::nullopt;
+        if (!token.is_name()) return std::nullopt;
         const std::optional<GlslType> type = glsl_type(token.text);
         if (type && sees("[")) {
             skip_brackets();
@@ -498,6 +447,7 @@ class ConstantReader {
         const std::vector<Constant> given = arguments(")");
         line_ = name.line;
         if (type) return constructed(*type, given, reporter());
+        if (structures_.contains(name.text)) return structure_of(name.text, given);
         calls_[function_].insert(name.text);
         if (functions_.contains(name.text)) return std::nullopt;
         return folded_call(name.text, given, reporter());
@@ -521,6 +471,7 @@ class ConstantReader {
     std::vector<Scope> scopes_ = std::vector<Scope>(1);
     Scope parameters_;           ///< of the function whose body comes next
     std::string_view function_;  ///< whose body is read; empty outside of all
+    std::map<std::string_view, std::vector<Member>> structures_;
     std::set<std::string_view> functions_;
     std::map<std::string_view, std::set<std::string_view>> calls_;  ///< by the function that calls
     int muted_ = 0;  ///< above 0 where a constant condition keeps the operation from happening

@@ -13,11 +13,16 @@
 
 namespace gobo::sanitize {
 
-/// A scalar, vector or matrix (column by column), or an array of such; floats rounded to single precision.
+/// A scalar, vector or matrix (column by column), or an array of such; floats rounded to single precision. Or
+/// a structure of them.
 struct ConstantValue {
+    static constexpr int kStructure = -1;
+
     GlslType type;
-    int elements = 0;  ///< of an array; 0 for none
+    int elements = 0;  ///< of an array; 0 for none; kStructure
     std::vector<double> numbers;
+    std::string_view structure = {};  ///< its name
+    std::vector<ConstantValue> members = {};
 
     [[nodiscard]] bool is_float() const { return type.scalar == Scalar::float32; }
 };

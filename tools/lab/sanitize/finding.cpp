@@ -96,6 +96,15 @@ bool must_be_written(const evaluate::Program& program, const evaluate::Port& por
     return program.is_fragment && !port.name.starts_with("gl_");
 }
 
+/// Whether the first operand is an input or a uniform.
+bool is_given(const evaluate::Program& program, const std::vector<Slice>& operands) {
+    const auto holds = [&](const evaluate::Port& port) {
+        return port.slot <= operands.front().slot && operands.front().slot < port.slot + port.components;
+    };
+    return !operands.empty() &&
+           (std::ranges::any_of(program.inputs, holds) || std::ranges::any_of(program.uniforms, holds));
+}
+
 /// The outputs, and what storage blocks and counters hold.
 std::vector<const evaluate::Port*> written_ports(const evaluate::Program& program) {
     std::vector<const evaluate::Port*> ports;
@@ -134,8 +143,11 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.has_silent = std::any_of(watch.rules.begin(), watch.rules.end(),
                                            [](const TrapRule& rule) { return rule.is_silent; });
             // The other operations pass on what these made.
-            watch.makes_floats =
-                row.kind <= Kind::matrix && evaluate::is_float(run.program.infos[at].result.scalar);
+            watch.reads_mediump_input = run.machine == Machine::mediump && row.code == spv::OpLoad &&
+                                        run.program.infos[at].is_relaxed &&
+                                        is_given(run.program, run.program.infos[at].operands);
+            watch.makes_floats = (row.kind <= Kind::matrix || watch.reads_mediump_input) &&
+                                 evaluate::is_float(run.program.infos[at].result.scalar);
             watch.first_decider = first_decider(row);
             watch.is_of_image = row.kind == Kind::image || row.kind == Kind::derivative;
         }
@@ -235,8 +247,9 @@ class TrapObserver final : public evaluate::Observer<float> {
     struct Watch {
         std::span<const TrapRule> rules;
         bool has_silent = false;
-        bool makes_floats = false;  ///< the result must be finite
-        bool is_of_image = false;   ///< a texture function, or a derivative
+        bool makes_floats = false;         ///< the result must be finite
+        bool reads_mediump_input = false;  ///< which may be given more than 16 bits hold
+        bool is_of_image = false;          ///< a texture function, or a derivative
         /// The first operand that decides what is read, so that it must be defined; nothing where none does.
         std::optional<std::size_t> first_decider;
     };
@@ -277,8 +290,9 @@ class TrapObserver final : public evaluate::Observer<float> {
         if (step.row().code == evaluate::kExtended + GLSLstd450FrexpStruct)
             result.count = step.program.operations[step.operation].count;
         lanes &= not_finite(step, result);
-        for (const Slice& operand : step.info().operands)
-            if (lanes != 0 && evaluate::is_float(operand.scalar)) lanes &= ~not_finite(step, operand);
+        if (!watch.reads_mediump_input)
+            for (const Slice& operand : step.info().operands)
+                if (lanes != 0 && evaluate::is_float(operand.scalar)) lanes &= ~not_finite(step, operand);
         if (lanes == 0) return;
         for (const TrapRule& rule : watch.rules) {
             if (rule.is_silent) continue;
