@@ -7,6 +7,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "family/cover.hpp"
@@ -249,6 +250,23 @@ TEST(KeySpace, NamesTheRuleThatTakesTooMuch) {
     KeySpaceLimits limits;
     limits.over = {3};
     EXPECT_EQ(space_of(family, "450", limits).count(), 4097u);
+}
+
+TEST(KeySpace, SaysWhereNoRuleButTheFeaturesAreTooMany) {
+    const Result<KeySpace> space = KeySpace::make(family_of(counts(1000, 4096)), "450", {});
+    ASSERT_FALSE(space);
+    EXPECT_EQ(first_text(space.error()),
+              "gobo: error: family 'tiny' has too many features and values to count or cover its keys\n"
+              "  help: give it fewer features, or its counts smaller ranges\n");
+}
+
+TEST(KeySpace, ListsMoreFeaturesThanTheStackHasRoomForCalls) {
+    KeySpaceLimits limits;
+    limits.over = {7};
+    Key on(200'000, 0);
+    on[7] = 1;
+    EXPECT_THAT(space_of(family_of(defines(200'000)), "450", limits).keys(),
+                testing::ElementsAre(Key(200'000, 0), on));
 }
 
 TEST(KeySpace, CountsBeyond64BitsExactly) {

@@ -80,9 +80,14 @@ tl::unexpected<Diagnostics> too_large(const Family& family, const std::vector<co
     std::vector<std::string> names;
     for (const auto& [count, line, rule] : rules)
         names.push_back(rule == nullptr ? "the --where" : fmt::format("{}:{}", rule->place.file, line));
+    if (names.empty())
+        return fail(Fault::input,
+                    fmt::format("family '{}' has too many features and values to count or cover its keys",
+                                family.name),
+                    "give it fewer features, or its counts smaller ranges");
     constexpr std::size_t most_named = 3;
     const std::size_t named = std::min(names.size(), most_named);
-    const Rule* const first = rules.empty() ? nullptr : std::get<const Rule*>(rules.front());
+    const Rule* const first = std::get<const Rule*>(rules.front());
     return fail(
         first == nullptr ? Place() : first->place, {},
         fmt::format("the conditions of family '{}' tie too many values together to count or cover its keys",
@@ -297,17 +302,27 @@ WholeNumber KeySpace::count() const {
 
 std::vector<Key> KeySpace::keys() const {
     std::vector<Key> found;
-    Key key(feature_count(), 0);
-    const auto walk = [&](const auto& self, std::size_t level, int node) -> void {
-        if (level == feature_count()) return found.push_back(key);
-        const std::span<const int> targets = next(level, node);
-        for (std::size_t value = 0; value < targets.size(); ++value) {
-            if (targets[value] == dead) continue;
-            key[feature_at_[level]] = static_cast<int>(value);
-            self(self, level + 1, targets[value]);
+    if (node_counts_.front() == 0) return found;
+    Key key(feature_count(), -1);
+    std::vector<int> nodes(feature_count() + 1, 0);  // per level: where the key leads
+    // A family may have more features than the stack has room for calls: level after level in a loop.
+    for (std::size_t level = 0;;) {
+        if (level == feature_count()) {
+            found.push_back(key);
+            if (level-- == 0) break;
+            continue;
         }
-    };
-    if (node_counts_.front() > 0) walk(walk, 0, 0);
+        int& value = key[feature_at_[level]];
+        const std::span<const int> targets = next(level, nodes[level]);
+        do ++value;
+        while (value < std::ssize(targets) && targets[value] == dead);
+        if (value < std::ssize(targets)) {
+            nodes[++level] = targets[value];
+            continue;
+        }
+        value = -1;
+        if (level-- == 0) break;
+    }
     std::sort(found.begin(), found.end());
     return found;
 }
