@@ -43,6 +43,9 @@ constexpr Call kCalls[] = {
     {"directional", "", [](State& s) { ++s.directional; }},
     {"point", "", [](State& s) { ++s.point; }},
     {"spot", "", [](State& s) { ++s.spot; }},
+    {"directional_shadows", "", [](State& s) { ++s.directional_shadows; }},
+    {"point_shadows", "", [](State& s) { ++s.point_shadows; }},
+    {"spot_shadows", "", [](State& s) { ++s.spot_shadows; }},
 };
 
 /// What an extension of the material states.
@@ -107,9 +110,9 @@ bool call_for(const gobo::scene::Effect& effect, State& state) {
 
 State under(const State& state, const Settings& settings) {
     State result = state;
-    if (!settings.directional) result.directional = 0;
-    if (!settings.point) result.point = 0;
-    if (!settings.spot) result.spot = 0;
+    if (!settings.directional) result.directional = result.directional_shadows = 0;
+    if (!settings.point) result.point = result.point_shadows = 0;
+    if (!settings.spot) result.spot = result.spot_shadows = 0;
     if (!settings.fog) result.fog = pbr::Fog::none;
     return result;
 }

@@ -11,6 +11,7 @@
 #define GOBO_GL_NO_LOADER
 #include <gobo/gl.hpp>
 
+#include "depth.hpp"
 #include "lab/render/camera.hpp"
 #include "lab/render/texture.hpp"
 #include "light_blocks.hpp"
@@ -82,7 +83,13 @@ bool is_as_built(const gobo::ReloadedProgram& program, const Permutation& permut
 
 Renderer::Renderer(const GladGLContext& gl, const Stage& stage, Size size, gobo::KeyRecord& record,
                    const std::string& reload)
-    : gl_(gl), stage_(stage), size_(size), record_(record), reload_(reload), textures_(gl) {
+    : gl_(gl),
+      stage_(stage),
+      size_(size),
+      record_(record),
+      reload_(reload),
+      textures_(gl),
+      shadows_(gl, stage) {
     make_framebuffer();
     if (stage.scene.is_physical) make_environment();
     for (const StageDraw& draw : stage.draws) {
@@ -260,6 +267,22 @@ void Renderer::draw(std::size_t number, const Settings& settings, const glm::dma
         set_physical(draw, view);
     else
         set_classic(draw, view);
+    set(shadows_.block(draw, settings, view));
+    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(lit::sampler::shadowMaps));
+    gl_.BindTexture(GL_TEXTURE_2D_ARRAY, shadows_.texture());
+    draw_mesh(number, program);
+}
+
+void Renderer::draw_depths(const gobo::ShadowCamera& camera) {
+    const GLuint program = program_of(depth::Key());
+    for (std::size_t i = 0; i < stage_.draws.size(); ++i) {
+        set(transform_block(camera.view * stage_.draws[i].model, camera.projection));
+        draw_mesh(i, program);
+    }
+}
+
+void Renderer::draw_mesh(std::size_t number, GLuint program) {
+    const StageDraw& draw = stage_.draws[number];
     const bool is_mirrored = glm::determinant(glm::dmat3(draw.model)) < 0;
     if (draw.double_sided)
         gl_.Disable(GL_CULL_FACE);
@@ -272,6 +295,7 @@ void Renderer::draw(std::size_t number, const Settings& settings, const glm::dma
 }
 
 void Renderer::draw(const Settings& settings, const Orbit& orbit) {
+    shadows_.draw([&](const gobo::ShadowCamera& camera) { draw_depths(camera); });
     keys_.clear();
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl_.Viewport(0, 0, size_.width, size_.height);

@@ -13,6 +13,7 @@
 
 #include "lab/render/image.hpp"
 #include "orbit.hpp"
+#include "shadows.hpp"
 #include "stage.hpp"
 #include "textures.hpp"
 
@@ -68,6 +69,8 @@ class Renderer {
     void upload(const gobo::Mesh& mesh);
     void draw(std::size_t number, const Settings& settings, const glm::dmat4& view,
               const glm::dmat4& projection);
+    void draw_mesh(std::size_t number, GLuint program);
+    void draw_depths(const gobo::ShadowCamera& camera);
     void set_classic(const StageDraw& draw, const glm::dmat4& view);
     void set_physical(const StageDraw& draw, const glm::dmat4& view);
     /// Of either header's key; 0 where there is none.
@@ -89,6 +92,7 @@ class Renderer {
     std::map<int, GLuint> blocks_;           ///< buffers by binding
     std::map<const void*, Built> programs_;  ///< by permutation
     Textures textures_;
+    Shadows shadows_;
     GLuint diffuse_map_ = 0;
     GLuint specular_map_ = 0;
     std::set<std::string> keys_;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "lab/scene_picture/posed_mesh.hpp"
+#include "lab/scene_picture/scene_objects.hpp"
+#include "scene/draw_values.hpp"
 
 namespace viewer {
 namespace {
@@ -63,6 +65,9 @@ bool call_for(const Effect& effect, DrawState& state) {
     if (effect.feature == "directional") ++state.directional;
     if (effect.feature == "point") ++state.point;
     if (effect.feature == "spot") ++state.spot;
+    if (effect.feature == "directional_shadows") ++state.directional_shadows;
+    if (effect.feature == "point_shadows") ++state.point_shadows;
+    if (effect.feature == "spot_shadows") ++state.spot_shadows;
     if (effect.feature == "diffuse")
         state.diffuse = named(effect.value, {{"toon", lit::Diffuse::toon}}, lit::Diffuse::lambert);
     if (effect.feature == "specular")
@@ -75,8 +80,8 @@ bool call_for(const Effect& effect, DrawState& state) {
                            {"exponential", lit::Fog::exponential},
                            {"exponential_squared", lit::Fog::exponential_squared}},
                           lit::Fog::none);
-    return is_light(effect) || effect.feature == "diffuse" || effect.feature == "specular" ||
-           effect.feature == "fog" || call_for_surface(effect, state);
+    return is_light(effect) || effect.feature.ends_with("_shadows") || effect.feature == "diffuse" ||
+           effect.feature == "specular" || effect.feature == "fog" || call_for_surface(effect, state);
 }
 
 StageDraw make_draw(const Scene& scene, const Draw& draw) {
@@ -93,13 +98,12 @@ StageDraw make_draw(const Scene& scene, const Draw& draw) {
     if (draw.bounds) result.middle = (draw.bounds->low + draw.bounds->high) / 2.0;
     if (scene.is_physical) result.physical = physical_draw_of(scene, draw);
     result.toon.levels = std::max(overrides.toon_levels.value_or(0), 0) > 0 ? *overrides.toon_levels : 4;
-    for (std::size_t i = 0; i < draw.effects.size(); ++i) {
-        const Effect& effect = draw.effects[i];
+    result.lights = lights_in_order(draw, place_lights(scene));
+    for (const Effect& effect : draw.effects) {
         if (!effect.is_in) continue;
         const bool is_drawn = result.physical ? viewer::call_for(effect, result.physical->state)
                                               : call_for(effect, result.state);
         if (!is_drawn) result.not_drawn.push_back(effect.name);
-        if (is_light(effect)) result.lights.push_back(i);  // lights come first, in the scene's order
     }
     return result;
 }
@@ -113,10 +117,14 @@ gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string&
     Stage stage;
     stage.scene = std::move(*scene);
     gobo::scene::Box bounds;
-    for (const Draw& draw : gobo::scene::required_effects(stage.scene, {}, {})) {
-        if (!draw.excluded.empty()) continue;
-        if (draw.bounds) bounds.add(*draw.bounds);
-        stage.draws.push_back(make_draw(stage.scene, draw));
+    const std::vector<Draw> draws = gobo::scene::required_effects(stage.scene, {}, {});
+    const gobo::scene::SceneImages images = images_of(stage.scene, draws);
+    stage.shadow_lights = images.lights;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        if (!draws[i].excluded.empty()) continue;
+        if (draws[i].bounds) bounds.add(*draws[i].bounds);
+        stage.draws.push_back(make_draw(stage.scene, draws[i]));
+        stage.draws.back().shadows = images.shadows[i];
     }
     if (!bounds.is_empty()) {
         stage.center = (bounds.low + bounds.high) / 2.0;
@@ -127,9 +135,9 @@ gobo::Result<Stage> read_stage(const gobo::FileSystem& files, const std::string&
 
 DrawState under(const DrawState& state, const Settings& settings) {
     DrawState result = state;
-    if (!settings.directional) result.directional = 0;
-    if (!settings.point) result.point = 0;
-    if (!settings.spot) result.spot = 0;
+    if (!settings.directional) result.directional = result.directional_shadows = 0;
+    if (!settings.point) result.point = result.point_shadows = 0;
+    if (!settings.spot) result.spot = result.spot_shadows = 0;
     if (!settings.fog) result.fog = lit::Fog::none;
     if (settings.toon) result.diffuse = lit::Diffuse::toon;
     result.shading = settings.shading;

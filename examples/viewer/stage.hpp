@@ -10,6 +10,7 @@
 #include "core/diagnostic.hpp"
 #include "core/file_system.hpp"
 #include "lab/render/mesh.hpp"
+#include "lab/render/shadow_maps.hpp"
 #include "lit.hpp"
 #include "physical_draw.hpp"
 #include "scene/effects.hpp"
@@ -24,6 +25,9 @@ struct DrawState {
     int directional = 0;
     int point = 0;
     int spot = 0;
+    int directional_shadows = 0;
+    int point_shadows = 0;
+    int spot_shadows = 0;
     lit::Diffuse diffuse = lit::Diffuse::lambert;
     lit::Specular specular = lit::Specular::none;
     lit::Fog fog = lit::Fog::none;
@@ -47,14 +51,16 @@ struct StageDraw {
     DrawState state;
     std::optional<PhysicalDraw> physical;  ///< in place of the above, where the scene is read for `pbr`
     std::vector<std::string> not_drawn;    ///< effects that it needs, but that this viewer lacks
-    /// The lights that reach it, by their number among all lights of the scene.
+    /// The lights that reach it, by their number among all lights of the scene; those with shadows first.
     std::vector<std::size_t> lights;
+    std::vector<std::size_t> shadows;  ///< that it receives, by their number among the stage's
 };
 
 /// A scene, and where its lights are.
 struct Stage {
     gobo::scene::Scene scene;
     std::vector<StageDraw> draws;
+    std::vector<gobo::ShadowLight> shadow_lights;
     glm::dvec3 center{0};
     double radius = 1;  ///< of a sphere that has all draws in it
 };

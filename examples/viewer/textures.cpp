@@ -6,6 +6,7 @@
 #include "core/shipped_files.hpp"
 #include "lab/probe/environment.hpp"
 #include "lab/render/texture.hpp"
+#include "lab/scene_picture/picture_levels.hpp"
 
 namespace viewer {
 
@@ -28,9 +29,10 @@ GLuint Textures::of(const gobo::scene::TextureImage& picture, const gobo::scene:
     gl_.GenTextures(1, &name);
     gl_.BindTexture(GL_TEXTURE_2D, name);
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, picture.width, picture.height, 0,
-                   GL_RGBA, GL_UNSIGNED_BYTE, picture.texels.data());
-    gl_.GenerateMipmap(GL_TEXTURE_2D);
+    GLint number = 0;
+    for (const gobo::scene::TextureImage& level : gobo::scene::picture_levels(picture, is_srgb))
+        gl_.TexImage2D(GL_TEXTURE_2D, number++, is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width,
+                       level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, use.is_nearest ? GL_NEAREST : GL_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, use.wrap_s);

@@ -11,7 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
+#include "lab/probe/environment.hpp"
+#include "lab/raster/shared_textures.hpp"
 #include "lab/render/image.hpp"
+#include "lab/render/texture.hpp"
 
 namespace gobo::scene {
 namespace {
@@ -145,6 +148,30 @@ TEST_F(PlatePictures, KeysBlurAPanoramaByRoughness) {
         const float smooth = steepest_at(0);
         EXPECT_GT(smooth, 0.2F) << backend;
         EXPECT_LT(steepest_at(0.8), 0.2F * smooth) << backend;
+    }
+}
+
+/// Head on: what stripes give, in parts of what a world of radiance 1 does.
+TEST_F(PlatePictures, ScenesLookUpTheLevelOfTheirRoughness) {
+    const auto stripes = [](int column) {
+        return 0.5F + 0.5F * std::cos(0.0982F * static_cast<float>(column));
+    };
+    write_panorama(stripes);
+    const auto panorama = read_image(files_, folder_ + "/panorama.exr");
+    ASSERT_TRUE(panorama);
+    const auto environment = probe::environment_of(*panorama, "panorama.exr");
+    ASSERT_TRUE(environment);
+    const auto levels = raster::colors_of_cube(probe::roughness_maps(*environment, 64, kRoughnessLevels, 2));
+    for (const double roughness : {0.0, 0.25, 0.4, 0.75}) {
+        evaluate::ImageRequest request;
+        request.coordinates = {0, 0, 1};
+        request.dimensions = 3;
+        request.lod = roughness * (kRoughnessLevels - 1);
+        write_panorama(stripes);
+        const float striped = row(roughness, "", "panorama.exr").at(kPixels / 2);
+        write_panorama([](int) { return 1.0F; });
+        const float even = row(roughness, "", "panorama.exr").at(kPixels / 2);
+        EXPECT_NEAR(striped / even, levels(request)[0], 0.005) << roughness;
     }
 }
 
