@@ -228,8 +228,12 @@ std::vector<DescriptorSet> read_descriptor_sets(const TomlTable& root) {
                             "give each descriptor set a name of its own");
         for (const std::string& resource : set.holds)
             if (const auto [other, is_new] = set_of.try_emplace(resource, set.name); !is_new)
-                table.error("holds", fmt::format("holds '{}', which '{}' does", resource, other->second),
-                            "list each block and sampler once");
+                table.error(
+                    "holds",
+                    fmt::format("holds '{}', which {}", resource,
+                                other->second == set.name ? "it lists twice"
+                                                          : fmt::format("'{}' holds already", other->second)),
+                    "list each block and sampler once");
         sets.push_back(std::move(set));
     }
     return sets;

@@ -64,10 +64,10 @@ Diagnostics notes_of(const Diagnostics& errors, const Family& family, const Lite
         note.message = fmt::format("no specialisation constant, but a stage for each number of {}; {}",
                                    counts_text, reason_of(error));
         note.help.clear();
-        if (is_of_stopped_glslang(error))
+        if (is_of_stopped_glslang(error) && error.place.line == 0)
             note.help = fmt::format(
                 "a constant can end a loop and be an array's size: look where the stage asks for {} "
-                "otherwise, such as at a case label",
+                "otherwise",
                 counts_text);
     }
     return notes;

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -134,6 +135,20 @@ void explain(Diagnostic& diagnostic) {
                                           type->column_alignment(), at[4]);
 }
 
+/// The names of the specialisation constants that the text declares.
+std::vector<std::string_view> specialization_constants_in(std::string_view text) {
+    std::vector<std::string_view> names;
+    const std::vector<std::string_view> tokens = tokens_of(text);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i] != "constant_id") continue;
+        while (i < tokens.size() && tokens[i] != "=" && tokens[i] != ";") ++i;  // of the number
+        for (++i; i < tokens.size() && tokens[i] != "=" && tokens[i] != ";"; ++i) {
+        }
+        if (i < tokens.size()) names.push_back(tokens[i - 1]);
+    }
+    return names;
+}
+
 }  // namespace
 
 std::string id_of_count(int id, std::string_view count) {
@@ -211,6 +226,23 @@ void drop_consequences(Diagnostics& diagnostics) {
         const bool is_first = faulty.insert({found.place.file, found.place.line}).second;
         return !is_first && found.message.find("undeclared identifier") == std::string::npos;
     });
+}
+
+void explain_crash(Diagnostic& error, const std::vector<const Piece*>& pieces) {
+    std::vector<std::string_view> constants;
+    for (const Piece* const piece : pieces)
+        std::ranges::copy(specialization_constants_in(piece->text), std::back_inserter(constants));
+    for (const Piece* const piece : pieces)
+        for (int line = 1; line <= std::ranges::count(piece->text, '\n'); ++line) {
+            const std::vector<std::string_view> tokens = tokens_of(line_of(piece->text, line));
+            const auto label = std::ranges::find(tokens, "case");
+            const auto end = std::find(label, tokens.end(), ":");
+            const auto constant = std::find_first_of(label, end, constants.begin(), constants.end());
+            if (constant == end) continue;
+            error.message += fmt::format(": '{}' is a specialisation constant", *constant);
+            error.help = "a case label is a number: compare with the constant by if";
+            return put_at(error, *piece, line);
+        }
 }
 
 }  // namespace gobo

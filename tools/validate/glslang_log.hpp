@@ -29,4 +29,7 @@ void make_strict(Diagnostic& diagnostic, std::string_view prologue, bool is_rela
 /// from it.
 void drop_consequences(Diagnostics& diagnostics);
 
+/// Of what glslang is known to crash on, tells the place: a case label that is a specialisation constant.
+void explain_crash(Diagnostic& error, const std::vector<const Piece*>& pieces);
+
 }  // namespace gobo

@@ -17,6 +17,7 @@
 #include "family/key.hpp"
 #include "reflect/interface.hpp"
 #include "validate/batch.hpp"
+#include "validate/glslang_log.hpp"
 #include "validate/glslang_stage.hpp"
 #include "validate/known_results.hpp"
 #include "validate/link_rules.hpp"
@@ -234,8 +235,9 @@ class Validator {
             const int stage = note - 1;
             const std::string what =
                 fmt::format("{} the {} stage", reason, name_of(composition_.stage(stage).kind));
-            const bool is_new =
-                given_up_.try_emplace(note, fail(template_of(stage), "", what, help).value()).second;
+            Diagnostics errors = fail(template_of(stage), "", what, help).value();
+            if (death == Death::crash) explain_crash(errors.front(), pieces_of(composition_, stage));
+            const bool is_new = given_up_.try_emplace(note, std::move(errors)).second;
             if (is_new) keep_stopped(stage);
             return is_new;
         }

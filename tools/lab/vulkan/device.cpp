@@ -1,10 +1,12 @@
 #include "lab/vulkan/device.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "lab/vulkan/state.hpp"
 
 namespace gobo::vulkan {
@@ -50,6 +52,27 @@ bool has_extension(PFN_vkGetInstanceProcAddr get, const char* name) {
     });
 }
 
+/// Vulkan's loader passes over layers that VK_INSTANCE_LAYERS names and that are not here: their checks would
+/// seem to pass.
+Result<void> refuse_absent_layers(PFN_vkGetInstanceProcAddr get) {
+    const char* const named = std::getenv("VK_INSTANCE_LAYERS");
+    const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceLayerProperties>(
+        get(nullptr, "vkEnumerateInstanceLayerProperties"));
+    if (named == nullptr) return {};
+    std::uint32_t count = 0;
+    if (enumerate != nullptr) enumerate(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    if (enumerate != nullptr) enumerate(&count, layers.data());
+    for (const std::string& name : split(named, ':'))
+        if (std::ranges::none_of(layers,
+                                 [&](const VkLayerProperties& layer) { return layer.layerName == name; }))
+            return fail(Fault::file,
+                        fmt::format("VK_INSTANCE_LAYERS names '{}', and there is no such layer", name),
+                        "the validation layer is VK_LAYER_KHRONOS_validation: apt-get install "
+                        "vulkan-validationlayers");
+    return {};
+}
+
 Result<void> make_instance(Device::State& state, PFN_vkGetInstanceProcAddr get) {
     Functions& vk = state.vk;
     vk.vkCreateInstance = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
@@ -70,11 +93,8 @@ Result<void> make_instance(Device::State& state, PFN_vkGetInstanceProcAddr get) 
     info.enabledExtensionCount = listens ? 1 : 0;
     info.ppEnabledExtensionNames = &extension;
     if (const VkResult result = vk.vkCreateInstance(&info, nullptr, &state.instance); result != VK_SUCCESS) {
-        const bool is_layer = result == VK_ERROR_LAYER_NOT_PRESENT;
         return fail(Fault::file, fmt::format("Vulkan gives no instance ({})", static_cast<int>(result)),
-                    is_layer ? "VK_INSTANCE_LAYERS names a layer that is not here: apt-get install "
-                               "vulkan-validationlayers"
-                             : kInstall);
+                    kInstall);
     }
 #define GOBO_LOAD(function) vk.function = reinterpret_cast<PFN_##function>(get(state.instance, #function));
     GOBO_VULKAN_INSTANCE_FUNCTIONS(GOBO_LOAD)
@@ -193,6 +213,7 @@ Diagnostics Device::messages() const {
 
 Result<Device> open_device() {
     GOBO_TRY(const PFN_vkGetInstanceProcAddr get, load_library());
+    GOBO_TRY_DO(refuse_absent_layers(get));
     auto state = std::make_shared<Device::State>();
     GOBO_TRY_DO(make_instance(*state, get));
     GOBO_TRY(const Chosen chosen, choose_device(*state));
