@@ -108,6 +108,32 @@ TEST_P(SmallExponent, LosesWhatRoundingItsDirectionsLoses) {
     EXPECT_LE(losses.largest, GetParam().at_most);
 }
 
+/// The cosine between the mirrored light and the viewer, by products of components.
+template <class T>
+T cosine_of_highlight(const evaluate::Invocations& points, std::size_t i) {
+    const auto vector = [&](const char* name) {
+        const std::vector<double>& rows = points.values.at(name);
+        return glm::vec<3, T>(rows[i], rows[points.count + i], rows[2 * points.count + i]);
+    };
+    const glm::vec<3, T> mirrored =
+        glm::reflect(-vector("DirectionalLights.lights[0].direction"), glm::normalize(vector("eyeNormal")));
+    return std::max(glm::dot(mirrored, glm::normalize(-vector("eyePosition"))), T(0));
+}
+
+/// The logarithm of the cosine itself, instead of one by 1 - cos, is no cure.
+TEST_P(SmallExponent, LosesAsMuchByTheCosineItself) {
+    const double shininess = static_cast<float>(GetParam().shininess);
+    const evaluate::Invocations points = beside_a_right_angle(shininess);
+    double largest = 0;
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const double in_float = cosine_of_highlight<float>(points, i);
+        const double lost = std::abs(std::pow(in_float, shininess) -
+                                     std::pow(cosine_of_highlight<double>(points, i), shininess));
+        largest = std::max(largest, lost);
+    }
+    EXPECT_GE(largest, GetParam().at_least);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rows, SmallExponent,
                          testing::Values(Exponent{"a_tenth", 0.1, 0.05, 0.25},
                                          Exponent{"a_half", 0.5, 1e-4, 1e-3}, Exponent{"one", 1, 0, 2e-6},
