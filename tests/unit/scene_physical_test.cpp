@@ -227,32 +227,40 @@ TEST(PhysicalScene, EndsLocalLightsAtTheirRange) {
     }
 }
 
-TEST(PhysicalScene, IsOfferedToWhoReadsMetalsAndTexturesForLit) {
+TEST(PhysicalScene, IsOfferedToWhoReadsItForLit) {
     struct Row {
         const char* name;
         const char* material;
-        bool is_told;
+        const char* told;
+        bool has_light = true;
     };
+    constexpr const char* kMetal = R"({"pbrMetallicRoughness": {"metallicFactor": 0.5}})";
     const Row rows[] = {
-        {"metal", R"({"pbrMetallicRoughness": {"metallicFactor": 0.5}})", true},
-        {"a dielectric", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})", false},
-        {"nothing stated", "{}", false},
-        {"textured", R"({"normalTexture": {"index": 0}})", true},
+        {"metal", kMetal, "quad.gltf: family pbr draws its textures and metals as they are"},
+        {"a dielectric", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})", nullptr},
+        {"nothing stated", "{}", nullptr},
+        {"textured", R"({"normalTexture": {"index": 0}})",
+         "quad.gltf: family pbr draws its textures and metals as they are"},
         {"unlit",
          R"({"pbrMetallicRoughness": {"metallicFactor": 1}, "extensions": {"KHR_materials_unlit": {}}})",
-         false},
+         nullptr},
         {"a model of lit",
          R"({"pbrMetallicRoughness": {"metallicFactor": 1}, "extras": {"gobo": {"model": {"diffuse": [1, 1, 1]}}}})",
+         nullptr},
+        {"dark", "{}", "quad.gltf: family pbr lights it with a studio, as it has no light", false},
+        {"dark metal", kMetal,
+         "quad.gltf: family pbr draws its textures and metals as they are and lights it with a studio, as it "
+         "has no light",
          false}};
     for (const Row& row : rows) {
-        const nlohmann::json json = scene_with(row.material, png({9, 9, 9, 255}, 1, 1));
+        nlohmann::json json = scene_with(row.material, png({9, 9, 9, 255}, 1, 1));
+        if (!row.has_light) json["nodes"][1].erase("extensions");
         const Result<Scene> scene = read_json(json);
         const Result<Scene> physical = read_physical_scene(json);
         ASSERT_TRUE(scene && physical) << row.name;
-        const std::vector<std::string> told = {
-            "quad.gltf: family pbr draws its textures and metals as they are"};
-        EXPECT_EQ(notes_on_scene(*scene, {}, {}), row.is_told ? told : std::vector<std::string>())
-            << row.name;
+        std::vector<std::string> told;
+        if (row.told != nullptr) told.emplace_back(row.told);
+        EXPECT_EQ(notes_on_scene(*scene, {}, {}), told) << row.name;
         EXPECT_THAT(notes_on_scene(*physical, {}, {}), testing::IsEmpty()) << row.name;
     }
 }
@@ -370,14 +378,14 @@ TEST(PhysicalScene, MakesTangentsAsMikkTSpaceHasThem) {
 
 TEST(PhysicalScene, PutsAnEnvironmentWhereNoLightIsStated) {
     nlohmann::json json = scene_with("{}", png({9, 9, 9, 255}, 1, 1));
-    EXPECT_FALSE(read_physical_scene(json)->has_default_light);
+    EXPECT_FALSE(read_physical_scene(json)->has_no_light);
     for (nlohmann::json& node : json["nodes"]) node.erase("extensions");
     const Result<Scene> dark = read_physical_scene(json);
     ASSERT_TRUE(dark) << to_text(dark.error().front());
-    EXPECT_TRUE(dark->has_default_light);
+    EXPECT_TRUE(dark->has_no_light);
     EXPECT_EQ(verdict(*dark, "reflection"), "in: the scene states no light: the studio stands in");
     json["scenes"][0]["extras"]["gobo"]["ambient"] = {0.1, 0.1, 0.1};
-    EXPECT_FALSE(read_physical_scene(json)->has_default_light);
+    EXPECT_FALSE(read_physical_scene(json)->has_no_light);
 }
 
 /// Of a scene without lights, in the studio, under a sky that nothing mirrors, and in the dark.

@@ -427,11 +427,11 @@ void judge_physical_surface(const Subject& subject, const std::vector<PlacedLigh
                 fmt::format("its alpha falls to {:.3g}, below {:.3g}", alpha.low, material.alpha_cutoff)),
          judge_vertex_color(subject.primitive, material, glm::dvec3(physical.base_color)),
          decide("probe", "ambient", probe, {{probe == "none", "not asked for"}, unlit},
-                subject.scene.has_default_light ? "the scene states no light: the studio stands in" : probe),
+                subject.scene.has_no_light ? "the scene states no light: the studio stands in" : probe),
          decide("reflection", "reflection", "image",
                 {{reflection == 0, "not asked for"}, {!reflects, "its material mirrors nothing"}, unlit},
-                subject.scene.has_default_light ? "the scene states no light: the studio stands in"
-                                                : fmt::format("a share of {:.3g}", reflection))});
+                subject.scene.has_no_light ? "the scene states no light: the studio stands in"
+                                           : fmt::format("a share of {:.3g}", reflection))});
     for (const MaterialExtension& extension : material_extensions()) {
         const bool is_seen = subject.is_lit || (extension.seen_by != SeenBy::lights && reflection > 0) ||
                              (extension.seen_by == SeenBy::probes && overrides.probe);

@@ -20,7 +20,7 @@ const std::vector<std::string> kKnownExtensions = {
     "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
-/// A scene without any light would be black: an environment stands in for it.
+/// A scene without any light would be black: for `pbr` an environment stands in for it.
 void add_default_light(Scene& scene) {
     const bool is_lit = std::ranges::any_of(scene.order, [&](std::size_t index) {
         const Overrides& overrides = scene.nodes[index].overrides;
@@ -30,7 +30,8 @@ void add_default_light(Scene& scene) {
         return material.overrides.probe || material.overrides.reflection;
     });
     if (is_lit || is_lit_by_material || scene.ambient != glm::dvec3(0)) return;
-    scene.has_default_light = true;
+    scene.has_no_light = true;
+    if (!scene.is_physical) return;
     Probe probe;
     probe.kind = "image";
     for (const std::size_t index : scene.order) {
@@ -240,7 +241,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path, Readi
         read_meshes(root, accessors, scene);
         read_nodes(root, accessors, scene);
         place_nodes(root, scene);
-        if (scene.is_physical) add_default_light(scene);
+        add_default_light(scene);
     } catch (Diagnostics& wrong) {
         if (wrong.front().place.file.empty()) wrong.front().place.file = path;
         return tl::unexpected(std::move(wrong));

@@ -258,7 +258,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     bool is_physical = false;            ///< read for a family of metallic-roughness materials
-    bool has_default_light = false;      ///< it states no light: an environment stands in
+    bool has_no_light = false;           ///< where `pbr` reads it, an environment stands in
     std::vector<TextureImage> pictures;  ///< that such materials use
     std::vector<Light> lights;
     std::vector<Camera> cameras;

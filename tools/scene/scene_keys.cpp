@@ -133,8 +133,12 @@ std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Dr
     const auto needs_physical = [](const Material& material) {
         return !material.unlit && (material.is_textured || material.is_metal);
     };
-    if (!scene.is_physical && std::ranges::any_of(scene.materials, needs_physical))
-        notes.push_back(scene.path + ": family pbr draws its textures and metals as they are");
+    std::vector<std::string> offers;
+    if (std::ranges::any_of(scene.materials, needs_physical))
+        offers.emplace_back("draws its textures and metals as they are");
+    if (scene.has_no_light) offers.emplace_back("lights it with a studio, as it has no light");
+    if (!scene.is_physical && !offers.empty())
+        notes.push_back(fmt::format("{}: family pbr {}", scene.path, fmt::join(offers, " and ")));
     for (std::string& note : notes) note = one_line(note);
     return notes;
 }

@@ -43,7 +43,7 @@ struct DrawKey {
                                                                          std::string_view dialect);
 
 /// Lines on what these keys do not show of the scene, each thing once: "FILE: not drawn: sheen, 2 draws of
-/// lines"; and where its materials are read for `lit`, that `pbr` takes them as they are.
+/// lines"; and where it is read for `lit`, what `pbr` would make of it.
 [[nodiscard]] std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Draw>& draws,
                                                       const std::vector<std::optional<DrawKey>>& keys);
 
