@@ -572,6 +572,48 @@ const BadRow bad_rows[] = {
      "    [feature.fog]\n"
      "     ^\n"
      "  help: did you mean 'features'?\n"},
+    {"any_order_of_nothing",
+     "[[relations]]\n"
+     "any_order = \"\"\n",
+     "tiny.toml:5:13: error: '' is not the name of an array\n"
+     "    any_order = \"\"\n"
+     "                ^\n"
+     "  help: write any_order = \"ARRAY\"\n"},
+    {"any_order_of_elements",
+     "[[relations]]\n"
+     "any_order = \"lights[]\"\n",
+     "tiny.toml:5:13: error: 'lights[]' is not the name of an array\n"
+     "    any_order = \"lights[]\"\n"
+     "                ^\n"
+     "  help: write any_order = \"lights\"\n"},
+    {"any_order_of_an_element",
+     "[[relations]]\n"
+     "any_order = \"Lights.lights[7]\"\n",
+     "tiny.toml:5:13: error: 'Lights.lights[7]' is not the name of an array\n"
+     "    any_order = \"Lights.lights[7]\"\n"
+     "                ^\n"
+     "  help: write any_order = \"Lights.lights\"\n"},
+    {"sum_over_one_element",
+     "[[relations]]\n"
+     "adds = \"lights[2].color\"\n",
+     "tiny.toml:5:8: error: 'lights[2].color' is not a member of an array's elements\n"
+     "    adds = \"lights[2].color\"\n"
+     "           ^\n"
+     "  help: write adds = \"ARRAY[].MEMBER\"\n"},
+    {"sum_of_several_numbers",
+     "[[relations]]\n"
+     "adds = \"lights[].weights[]\"\n",
+     "tiny.toml:5:8: error: 'lights[].weights[]' is more than one number or vector of an element\n"
+     "    adds = \"lights[].weights[]\"\n"
+     "           ^\n"
+     "  help: write a relation for each: adds = \"lights[].weights[0]\"\n"},
+    {"turn_of_nothing",
+     "[[relations]]\n"
+     "turn = []\n",
+     "tiny.toml:5:8: error: the relation turns nothing\n"
+     "    turn = []\n"
+     "           ^\n"
+     "  help: name the vectors and matrices that turn together\n"},
 };
 
 class BadFamily : public testing::TestWithParam<BadRow> {};

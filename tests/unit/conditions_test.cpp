@@ -84,6 +84,11 @@ INSTANTIATE_TEST_SUITE_P(
         ConditionRow{"extension_lacking", "", "#ifndef GL_ARB_texture_gather", "perhaps"},
         ConditionRow{"extension_or_certain", "", "#if defined(GL_ARB_texture_gather) || 1", "yes"},
         ConditionRow{"extension_and_not", "", "#if defined(GL_ARB_texture_gather) && 0", "no"},
+        ConditionRow{"what_glslang_alone_has", "", "#ifdef GL_SPIRV", "no"},
+        ConditionRow{"what_glslang_alone_has_as_a_number", "", "#if GL_SPIRV >= 100", "no"},
+        ConditionRow{"extension_of_vulkan", "", "#if defined(GL_EXT_samplerless_texture_functions)", "no"},
+        ConditionRow{"extension_of_tools", "", "#ifndef GL_GOOGLE_include_directive", "yes"},
+        ConditionRow{"subgroups_which_opengl_may_have", "", "#ifdef GL_KHR_shader_subgroup_basic", "perhaps"},
         ConditionRow{"extension_else", "#ifdef GL_ARB_texture_gather\n#else\n", "#if 1\n#endif", "perhaps"},
         ConditionRow{"defined_by_an_extension", "#ifdef GL_OES_a\n#define A 1\n#endif\n", "#if A", "perhaps"},
         ConditionRow{"undefined_by_an_extension", "#define A 1\n#ifdef GL_OES_a\n#undef A\n#endif\n",
@@ -98,6 +103,12 @@ INSTANTIATE_TEST_SUITE_P(
         ConditionRow{"dead_condition_that_is_none", "#if 0\n#if (\n#endif\n#endif\n", "#if 1", "yes"},
         ConditionRow{"elif_behind_the_taken_one", "#if 1\n#elif (\n#endif\n", "#if 1", "yes"}),
     [](const auto& row) { return row.param.name; });
+
+TEST(Conditions, LeaveGlslangsMacrosToItForSpirv) {
+    Conditions conditions("#version 450\n", false);
+    EXPECT_FALSE(conditions.is_defined("GL_SPIRV").has_value());
+    EXPECT_FALSE(conditions.is_defined("GL_EXT_samplerless_texture_functions").has_value());
+}
 
 TEST(Conditions, KnowEsProfiles) {
     EXPECT_EQ(answer("", "#if GL_ES && __VERSION__ == 300", "#version 300 es\n"), "yes");

@@ -297,6 +297,64 @@ INSTANTIATE_TEST_SUITE_P(
                      "#extension GL_B : enable\n"}),
     [](const auto& row) { return row.param.name; });
 
+struct EndedRow {
+    const char* name;
+    const char* file;   ///< the template
+    const char* other;  ///< a.glsl, which it may include
+    const char* prologue;
+    const char* warning;
+};
+
+class EndedExtension : public Includes, public testing::WithParamInterface<EndedRow> {};
+
+TEST_P(EndedExtension, IsWarnedOfOrHolds) {
+    files["tiny.frag"] = GetParam().file;
+    files["a.glsl"] = GetParam().other;
+    const Composition composition = composed("default").value();
+    EXPECT_EQ(composition
+                  .piece(composition.stage(composition.permutations.front().stages[StageKind::fragment])
+                             .pieces.front())
+                  .text,
+              "#version 450 core\n" + std::string(GetParam().prologue));
+    EXPECT_EQ(first_text(composition.warnings), GetParam().warning);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, EndedExtension,
+    testing::Values(
+        EndedRow{"at_once", "#extension GL_A : enable\n#extension GL_A : disable\nvoid main() {}\n", "",
+                 "#extension GL_A : disable\n", ""},
+        EndedRow{"begun_again", "#extension GL_A : disable\n#extension GL_A : enable\nvoid main() {}\n", "",
+                 "#extension GL_A : enable\n", ""},
+        EndedRow{
+            "behind_code", "#extension GL_A : enable\nint a;\n#extension GL_A : disable\nvoid main() {}\n",
+            "", "#extension GL_A : enable\n",
+            "tiny.frag:3:1: warning: 'GL_A' stays on: tiny.frag:1 says enable, and a stage says so once, "
+            "in front of all code\n    #extension GL_A : disable\n    ^\n  help: leave one of the two out\n"},
+        EndedRow{
+            "in_an_included_file", "#extension GL_A : enable\n#include \"a.glsl\"\nvoid main() {}\n",
+            "#extension GL_A : disable\nint a;\n", "#extension GL_A : enable\n",
+            "a.glsl:1:1: warning: 'GL_A' stays on: tiny.frag:1 says enable, and a stage says so once, "
+            "in front of all code\n    #extension GL_A : disable\n    ^\n  help: leave one of the two out\n"},
+        EndedRow{
+            "by_the_includer", "#include \"a.glsl\"\n#extension GL_A : disable\nvoid main() {}\n",
+            "#extension GL_A : require\nint a;\n", "#extension GL_A : require\n",
+            "tiny.frag:2:1: warning: 'GL_A' stays on: a.glsl:1 says require, and a stage says so once, "
+            "in front of all code\n    #extension GL_A : disable\n    ^\n  help: leave one of the two out\n"},
+        EndedRow{"begun_by_the_included_file",
+                 "#extension GL_A : disable\n#include \"a.glsl\"\nvoid main() {}\n",
+                 "#extension GL_A : enable\nint a;\n", "#extension GL_A : enable\n", ""},
+        EndedRow{
+            "under_a_condition",
+            "#extension GL_A : enable\n#if 1\n#extension GL_A : disable\n#endif\nvoid main() {}\n", "",
+            "#extension GL_A : enable\n",
+            "tiny.frag:3:1: warning: 'GL_A' stays on: tiny.frag:1 says enable, and a stage says so once, "
+            "in front of all code\n    #extension GL_A : disable\n    ^\n  help: leave one of the two out\n"},
+        EndedRow{"under_a_condition_that_fails",
+                 "#extension GL_A : enable\n#if 0\n#extension GL_A : disable\n#endif\nvoid main() {}\n", "",
+                 "#extension GL_A : enable\n", ""}),
+    [](const auto& row) { return row.param.name; });
+
 TEST_F(Includes, MayStateTheVersion) {
     files["tiny.frag"] = "#include \"a.glsl\"\nvoid main() {}\n";
     files["a.glsl"] = "#version 330 core\nint a;\n";

@@ -39,6 +39,33 @@ TEST(ScanPiece, SeesNothingInComments) {
     EXPECT_THAT(identifiers_of(piece.code), testing::ElementsAre("int", "seen"));
 }
 
+struct OwnLineRow {
+    const char* name;
+    const char* text;
+    const char* code;
+};
+
+class OwnLine : public testing::TestWithParam<OwnLineRow> {};
+
+TEST_P(OwnLine, IsTheNumberInTheFile) {
+    const ScannedPiece piece = scan_piece(GetParam().text, "a.glsl").value();
+    EXPECT_EQ(piece.code, GetParam().code);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, OwnLine,
+    testing::Values(
+        OwnLineRow{"in_code", "\nint a = __LINE__;\n", "\nint a = 2       ;\n"},
+        OwnLineRow{"twice", "int a = __LINE__+__LINE__;\n", "int a = 1       +1       ;\n"},
+        OwnLineRow{"in_a_condition", "\n#if __LINE__ > 1\n#endif\n", "\n#if 2        > 1\n#endif\n"},
+        OwnLineRow{"behind_a_comment", "/* __LINE__\n*/ int a = __LINE__;\n", "\n   int a = 2       ;\n"},
+        OwnLineRow{"behind_a_joined_line", "int a = 1 \\\n+ 1;\nint b = __LINE__;\n",
+                   "int a = 1 + 1;\n\nint b = 3       ;\n"},
+        OwnLineRow{"of_a_longer_name", "int my__LINE__;\n", "int my__LINE__;\n"},
+        OwnLineRow{"in_a_macro", "#define A __LINE__\nint a = A;\n", "#define A __LINE__\nint a = A;\n"},
+        OwnLineRow{"counted_anew", "#line 100\nint a = __LINE__;\n", "\nint a = __LINE__;\n"}),
+    [](const auto& row) { return row.param.name; });
+
 struct CommentRow {
     const char* name;
     const char* text;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "compose/language_names.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 
@@ -21,13 +22,6 @@ constexpr std::size_t kDeepest = 100;
 
 /// Stands for what only the driver knows.
 constexpr std::string_view kUnknown = "?";
-
-/// Whether only the driver knows if a name is a macro: those of extensions.
-bool is_drivers(std::string_view name) {
-    constexpr std::array<std::string_view, 4> decided = {"GL_ES", "GL_es_profile", "GL_core_profile",
-                                                         "GL_compatibility_profile"};
-    return name.starts_with("GL_") && std::ranges::find(decided, name) == decided.end();
-}
 
 using Macros = std::map<std::string, MacroDefinition, std::less<>>;
 using Words = std::vector<std::string>;
@@ -218,7 +212,7 @@ class Evaluator {
             return value;
         }
         if (word == kUnknown) return std::nullopt;
-        if (is_identifier(word)) return is_drivers(word) ? std::nullopt : Known(0);  // as C has it
+        if (is_identifier(word)) return 0;  // as C has it
         return number(word);
     }
 
@@ -254,7 +248,7 @@ std::string_view macro_name(std::string_view text) {
     return {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
 }
 
-Conditions::Conditions(std::string_view prologue) {
+Conditions::Conditions(std::string_view prologue, bool is_for_driver) : is_for_driver_(is_for_driver) {
     const GlslVersion version = version_of(prologue);
     define(fmt::format("__VERSION__ {}", version.number));
     if (version.es) define("GL_ES 1");
@@ -262,6 +256,14 @@ Conditions::Conditions(std::string_view prologue) {
         define(version.profile == "compatibility" ? "GL_compatibility_profile 1" : "GL_core_profile 1");
     for (const std::string& line : split(prologue, '\n'))
         if (line.starts_with("#define ")) define(std::string_view(line).substr(8));
+}
+
+/// Whether only the driver knows if a name is a macro: those of extensions.
+bool Conditions::is_drivers(std::string_view name) const {
+    constexpr std::array<std::string_view, 4> decided = {"GL_ES", "GL_es_profile", "GL_core_profile",
+                                                         "GL_compatibility_profile"};
+    return name.starts_with("GL_") && std::ranges::find(decided, name) == decided.end() &&
+           !(is_for_driver_ && is_foreign_macro(name));
 }
 
 Known Conditions::is_defined(std::string_view name) const {
@@ -318,6 +320,8 @@ Result<Known> Conditions::value_of(const Directive& directive) const {
         return fail(directive.place, directive.line,
                     fmt::format("the macros of this condition expand to more than {} tokens", kMostTokens),
                     "define them more simply");
+    std::ranges::replace_if(
+        expanded, [&](const std::string& word) { return is_drivers(word); }, std::string(kUnknown));
     return Evaluator(expanded).run();
 }
 

@@ -30,8 +30,9 @@ struct MacroDefinition {
 /// text goes on to the driver with all its conditions.
 class Conditions {
   public:
-    /// The macros that a prologue defines, and those that GLSL has by its version.
-    explicit Conditions(std::string_view prologue);
+    /// The macros that a prologue defines, and those that GLSL has by its version. What a driver of OpenGL
+    /// compiles has none of is_foreign_macro().
+    explicit Conditions(std::string_view prologue, bool is_for_driver = true);
 
     /// Takes in a condition, #define or #undef. Error: macros that expand without end.
     [[nodiscard]] Result<void> apply(const Directive& directive);
@@ -57,10 +58,12 @@ class Conditions {
     };
 
     void define(std::string_view text);
+    [[nodiscard]] bool is_drivers(std::string_view name) const;
     [[nodiscard]] MacroDefinition definition(std::string_view text) const;
 
     std::map<std::string, MacroDefinition, std::less<>> macros_;
     std::vector<Frame> frames_;
+    bool is_for_driver_;
 };
 
 }  // namespace gobo

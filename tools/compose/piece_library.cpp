@@ -80,6 +80,14 @@ int PieceLibrary::round(int piece, const LoopHead& head, int index) {
     return at->second = add(std::move(copy), entry(piece));
 }
 
+void PieceLibrary::warn_once(Diagnostic warning) {
+    Diagnostics& known = composition_.warnings;
+    if (std::ranges::none_of(known, [&](const Diagnostic& one) {
+            return one.place == warning.place && one.message == warning.message;
+        }))
+        known.push_back(std::move(warning));
+}
+
 void PieceLibrary::add_warnings() {
     for (const auto& [path, warning] : heads_)
         if (warning) composition_.warnings.push_back(*warning);

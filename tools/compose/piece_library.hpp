@@ -79,6 +79,8 @@ class PieceLibrary {
     void are_subroutines(std::set<std::string> macros) { subroutines_ = std::move(macros); }
     [[nodiscard]] bool is_subroutine(const std::string& macro) const { return subroutines_.contains(macro); }
 
+    /// Of a place that many keys come to.
+    void warn_once(Diagnostic warning);
     /// What the composition is warned of when all of it is put together.
     void add_warnings();
 

@@ -18,6 +18,11 @@ constexpr std::size_t kMostBytes = 16'000'000;
 /// Of a loop that is unrolled.
 constexpr int kMostRounds = 4096;
 
+/// Of those at its top.
+int line_of_first_include(const Source& source) {
+    return source.includes.empty() ? 0 : source.includes.front().place.line;
+}
+
 template <class List, class Item>
 bool has(const List& list, const Item& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
@@ -131,6 +136,7 @@ Result<void> Placer::place(Placement& placement, int file, const Include& includ
     GOBO_TRY_DO(check_version(placement, source));
     if (placement.version.empty()) placement.version = source.version;
     placement.open.push_back(file);
+    take_extensions(placement, source.extensions, 0, line_of_first_include(source) - 1);
     for (const Include& needed : source.includes) GOBO_TRY_DO(follow(placement, needed, &source));
     GOBO_TRY_DO(place_text(placement, source));
     placement.open.pop_back();
@@ -143,9 +149,19 @@ void Placer::place_piece(Placement& placement, int piece) {
     placement.bytes += composition_.piece(piece).text.size();
 }
 
-Result<void> Placer::place_text(Placement& placement, const Source& source) {
-    for (const auto& [name, extension] : source.extensions)
+void Placer::take_extensions(Placement& placement, const Extensions& stated, int first_line, int last_line) {
+    for (const auto& [name, extension] : stated) {
+        if (extension.place.line < first_line || extension.place.line > last_line) continue;
+        const auto held = placement.extensions.find(name);
+        if (held != placement.extensions.end() && extension.behavior == "disable" &&
+            held->second.behavior != "disable")
+            library_.warn_once(ended_extension(name, held->second, extension));
         add_extension(placement.extensions, name, extension);
+    }
+}
+
+Result<void> Placer::place_text(Placement& placement, const Source& source) {
+    take_extensions(placement, source.extensions, line_of_first_include(source));
     if (source.is_fixed) {
         place_piece(placement, source.pieces.front());
         return {};
@@ -179,8 +195,9 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
             if (conditions.is_active()) GOBO_TRY_DO(place_subroutine(placement, source, directive));
             placement.walked = placement.placed.size();
         } else if (directive.word == "extension") {
-            if (conditions.is_active())
-                add_extension(placement.extensions, directive, conditions.is_certain());
+            Extensions stated;
+            if (conditions.is_active() && add_extension(stated, directive, conditions.is_certain()))
+                take_extensions(placement, stated);
         } else {
             GOBO_TRY_DO(check_macro(placement, directive));
             GOBO_TRY_DO(conditions.apply(directive));
@@ -246,8 +263,10 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
 
 Result<void> Placer::catch_up(Placement& placement) {
     if (!placement.conditions)
-        placement.conditions.emplace(stage_prologue(
-            family_, composition_.dialect, placement, [](std::string_view) { return true; }, library_));
+        placement.conditions.emplace(
+            stage_prologue(
+                family_, composition_.dialect, placement, [](std::string_view) { return true; }, library_),
+            !is_spirv(composition_.dialect));
     for (; placement.walked < placement.placed.size(); ++placement.walked) {
         const Source* source = library_.source_of(placement.placed[placement.walked]);
         if (source == nullptr) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,9 @@ class Placer {
     /// Places a file: what it includes at its top, then its text.
     Result<void> place(Placement& placement, int file, const Include& include);
     void place_piece(Placement& placement, int piece);
+    /// Warns of those that end what another file asks for, which they do not.
+    void take_extensions(Placement& placement, const Extensions& stated, int first_line = 0,
+                         int last_line = std::numeric_limits<int>::max());
     /// Places a file's pieces, with what it includes below its top between them.
     Result<void> place_text(Placement& placement, const Source& source);
     /// Declares the function that a subroutine uniform becomes.

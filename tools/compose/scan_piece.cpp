@@ -87,6 +87,7 @@ class Scanner {
         : file_(file), path_(path), clean_(std::move(clean)) {}
 
     Result<ScannedPiece> run() {
+        number_own_lines();
         for (std::size_t start = 0, number = 1; start < clean_.code.size(); ++number) {
             const std::size_t end = clean_.code.find('\n', start);
             GOBO_TRY_DO(scan_line(static_cast<int>(number), start, end));
@@ -117,6 +118,30 @@ class Scanner {
     static tl::unexpected<Diagnostics> fail_at(const Directive& directive, std::string message,
                                                std::string help) {
         return fail(directive.place, directive.line, std::move(message), std::move(help));
+    }
+
+    /// Drivers count the lines of a whole stage, each in its own way: the file's number takes the place of
+    /// `__LINE__`. In a macro it would be that of the definition, and `#line` counts anew.
+    void number_own_lines() {
+        constexpr std::string_view kOwnLine = "__LINE__";
+        if (clean_.code.find(kOwnLine) == std::string::npos) return;
+        std::vector<std::pair<std::size_t, int>> places;
+        int number = 0;
+        for (std::string_view rest = clean_.code; !rest.empty();) {
+            const std::string_view line = rest.substr(0, rest.find('\n'));
+            rest.remove_prefix(line.size() + 1);
+            ++number;
+            const std::vector<std::string_view> tokens = tokens_of(line);
+            const std::string_view word = tokens.size() > 1 && tokens[0] == "#" ? tokens[1] : "";
+            if (word == "line") return;
+            if (word == "define") continue;
+            for (const std::string_view token : tokens)
+                if (token == kOwnLine)
+                    places.emplace_back(static_cast<std::size_t>(token.data() - clean_.code.data()), number);
+        }
+        for (const auto& [place, line] : places)
+            for (std::string* const text : {&clean_.text, &clean_.code})
+                text->replace(place, kOwnLine.size(), fmt::format("{:<8}", line));
     }
 
     Result<void> scan_line(int number, std::size_t start, std::size_t end) {
@@ -160,7 +185,7 @@ class Scanner {
             result_.includes.push_back(std::move(include));
             return true;
         }
-        if (word == "extension" && open_.empty()) return add_extension(result_.extensions, directive);
+        if (word == "extension" && open_.empty()) return take_extension(directive);
         if (word == "if" || word == "ifdef" || word == "ifndef") {
             if (word == "ifndef" && !seen_code_ && result_.includes.empty()) result_.guard = directive.rest;
             open_.push_back({directive});
@@ -175,6 +200,25 @@ class Scanner {
         const bool is_blanked = word == "include" || word == "extension";
         result_.directives.push_back(std::move(directive));
         return is_blanked;
+    }
+
+    /// Of two with no code between them the later one holds, as to a driver; else the stronger, and one that
+    /// ends an extension is warned of.
+    Result<bool> take_extension(const Directive& directive) {
+        Extensions stated;
+        if (!add_extension(stated, directive)) return false;
+        for (auto& [name, extension] : stated) {
+            const auto held = result_.extensions.find(name);
+            const bool is_weaker = held != result_.extensions.end() && extension.behavior == "disable" &&
+                                   held->second.behavior != "disable";
+            if (is_weaker && !seen_code_) {
+                held->second = extension;
+                continue;
+            }
+            if (is_weaker) result_.warnings.push_back(ended_extension(name, held->second, extension));
+            add_extension(result_.extensions, name, extension);
+        }
+        return true;
     }
 
     Result<bool> take_version(const Directive& directive) {
@@ -356,6 +400,13 @@ Result<Include> read_include(const Directive& directive) {
         return fail(directive.place, directive.line, "malformed #include",
                     "write #include <feature> or #include \"folder/piece.glsl\"");
     return Include{angle, target, directive.place, directive.line};
+}
+
+Diagnostic ended_extension(const std::string& name, const Extension& begun, const Extension& ended) {
+    return warning(ended.place, ended.line,
+                   fmt::format("'{}' stays on: {}:{} says {}, and a stage says so once, in front of all code",
+                               name, begun.place.file, begun.place.line, begun.behavior),
+                   "leave one of the two out");
 }
 
 bool add_extension(Extensions& extensions, const Directive& directive, bool is_certain) {

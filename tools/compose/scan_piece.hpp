@@ -75,6 +75,10 @@ struct StatedBinding {
 /// asked at all, `require` is `enable`. False where that is not its form.
 bool add_extension(Extensions& extensions, const Directive& directive, bool is_certain = true);
 
+/// A warning where an extension is disabled behind where it was asked for.
+[[nodiscard]] Diagnostic ended_extension(const std::string& name, const Extension& begun,
+                                         const Extension& ended);
+
 /// They point into `code`.
 [[nodiscard]] std::set<std::string_view> identifiers_of(std::string_view code);
 

@@ -112,7 +112,8 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     const std::string real_root = root.files->real_path(here ? "." : root.folder);
     if (root.on_disk && root.only.empty() &&
         !root.files->real_path(path).starts_with(real_root == "/" ? real_root : real_root + "/")) {
-        return fail({path, 0, 0}, "", fmt::format("is a link that leads out of '{}'", root.folder),
+        return fail({path, 0, 0}, "",
+                    fmt::format("is a link that leads out of '{}'", here ? "." : root.folder),
                     "put the piece itself into the folder, name its folder with -I, or follow such links "
                     "with --follow");
     }

@@ -116,7 +116,7 @@ Result<bool> CountSpecializer::holds_for_all_counts(const Directive& directive, 
     for (std::size_t value = 0; value < count.values.size(); ++value) {
         if (count.lowest + static_cast<int>(value) == 0) continue;
         const Conditions conditions(
-            fmt::format("{}#define {} {}\n", others, count.macro, count.values[value]));
+            fmt::format("{}#define {} {}\n", others, count.macro, count.values[value]), false);
         GOBO_TRY(const Known found, conditions.value_of(directive));
         values.insert(found ? Known(*found != 0 ? 1 : 0) : found);
     }

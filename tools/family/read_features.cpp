@@ -297,6 +297,26 @@ const RelationForm* form_of(const TomlTable& table) {
     return found.size() == 1 ? found.front() : nullptr;
 }
 
+/// The array of any_order = "ARRAY" and adds = "ARRAY[].MEMBER" is no element of another one.
+void check_array_name(const RelationForm& form, const TomlTable& table, const std::string& name) {
+    const std::size_t bracket = name.find_first_of("[]");
+    const std::string array = name.substr(0, bracket);
+    if (form.kind == Relation::Kind::any_order && (name.empty() || bracket != std::string::npos))
+        table.reader.error(table.place_of(form.name), fmt::format("'{}' is not the name of an array", name),
+                           fmt::format("write any_order = \"{}\"", array.empty() ? "ARRAY" : array));
+    if (form.kind != Relation::Kind::adds) return;
+    const bool is_member = bracket != std::string::npos && !array.empty() && name.substr(bracket, 2) == "[]";
+    if (!is_member)
+        table.reader.error(table.place_of(form.name),
+                           fmt::format("'{}' is not a member of an array's elements", name),
+                           "write adds = \"ARRAY[].MEMBER\"");
+    else if (const std::size_t more = name.find("[]", bracket + 2); more != std::string::npos)
+        table.reader.error(table.place_of(form.name),
+                           fmt::format("'{}' is more than one number or vector of an element", name),
+                           fmt::format("write a relation for each: adds = \"{}[0]{}\"", name.substr(0, more),
+                                       name.substr(more + 2)));
+}
+
 /// The uniforms and inputs that turn an effect off: numbers.
 std::vector<RenderValue> read_at(const TomlTable& table) {
     std::vector<RenderValue> values;
@@ -324,6 +344,9 @@ Relation read_relation(const TomlTable& table, const std::vector<Feature>& featu
     if (form->kind == Relation::Kind::turn) {
         relation.names = table.strings("turn");
         relation.turned_back = table.strings("turn_back");
+        if (relation.names.empty() && relation.turned_back.empty())
+            table.reader.error(table.place_of("turn"), "the relation turns nothing",
+                               "name the vectors and matrices that turn together");
     } else {
         const std::string name = table.required_string(form->name);
         relation.text += fmt::format(" = \"{}\"", name);
@@ -331,11 +354,7 @@ Relation read_relation(const TomlTable& table, const std::vector<Feature>& featu
             relation.names = {name};
         else if (!table.reader.failed())
             relation.feature = read_feature_name(table, form->name, name, features);
-        const auto brackets = name.find("[]");
-        if (form->kind == Relation::Kind::adds && (brackets == 0 || brackets == std::string::npos))
-            table.reader.error(table.place_of("adds"),
-                               fmt::format("'{}' is not a member of an array's elements", name),
-                               "write adds = \"ARRAY[].MEMBER\"");
+        check_array_name(*form, table, name);
     }
     if (form->kind == Relation::Kind::off) relation.at = read_at(table);
     if (table.has("when")) relation.when = read_condition(table, "when", features);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -11,12 +12,12 @@
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
-#include "compose/known_names.hpp"
 #include "compose/specialized_counts.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "gobo/known_names.hpp"
 #include "gobo/literal_counts.hpp"
 #include "gobo/shader_files.hpp"
 #include "scene/read_scene.hpp"
@@ -420,6 +421,27 @@ Result<Composition> compose_selection(const World& world, LoadedFamily& family,
     return compose_keys(family, keys);
 }
 
+namespace {
+
+/// Of the stages that are valid, also with all counts at their highest.
+std::vector<Interface> interfaces_of_cover(const World& world, const LoadedFamily& family, int strength,
+                                           const ValidateOptions& options) {
+    LoadedFamily copy = family;
+    std::vector<Interface> interfaces;
+    const Result<std::vector<Key>> cover = load_keys(world, copy, {.more = {.cover = strength}});
+    if (!cover) return interfaces;
+    std::set<Key> keys(cover->begin(), cover->end());
+    for (const Key& key : *cover)
+        if (auto highest = with_highest_counts(copy, key)) keys.insert(std::move(*highest));
+    Result<Composition> composition = compose_keys(copy, {keys.begin(), keys.end()});
+    if (!composition) return interfaces;
+    for (ValidatedStage& stage : validate(copy.family, *composition, options).stages)
+        interfaces.push_back(std::move(stage.interface));
+    return interfaces;
+}
+
+}  // namespace
+
 Result<Validated> compile(const World& world, const LoadedFamily& family, Composition& composition,
                           ValidateOptions options) {
     options.jobs = world.jobs();
@@ -428,7 +450,9 @@ Result<Validated> compile(const World& world, const LoadedFamily& family, Compos
     Validated validated = validate_with_counts(family, composition, options);
     const Diagnostics unknown = is_embedded(world, family.name)
                                     ? Diagnostics{}
-                                    : unknown_names(family.family, family.search, composition);
+                                    : unknown_names(family, composition, validated, [&](int strength) {
+                                          return interfaces_of_cover(world, family, strength, options);
+                                      });
     if (exit_status(validated.diagnostics) != 0) {
         if (!world.options.stopped.empty())
             append(validated.diagnostics, keep_stopped(world, family.family.name, validated));

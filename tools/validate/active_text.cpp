@@ -6,7 +6,6 @@
 #include "compose/clean_text.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
-#include "validate/missing_built_ins.hpp"
 
 namespace gobo {
 namespace {
@@ -15,7 +14,7 @@ std::string_view trim_left(std::string_view text) {
     return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
 }
 
-void add_directive(ActiveText& found, ActiveDirective directive, bool is_shipped) {
+void add_directive(ActiveText& found, ActiveDirective directive) {
     const std::string_view text = trim_left(directive.rest);
     directive.word = {text.begin(), std::ranges::find_if_not(text, is_identifier_part)};
     directive.rest = trim_left(text.substr(directive.word.size()));
@@ -23,14 +22,10 @@ void add_directive(ActiveText& found, ActiveDirective directive, bool is_shipped
     const std::string_view word = directive.word;
     if (word == "define" || word == "undef" || word.starts_with("if") || word.starts_with("el") ||
         word == "endif")
-        static_cast<void>(found.conditions.apply(
-            {std::string(word),
-             is_shipped ? without_foreign_macros(directive.rest) : std::string(directive.rest),
-             {},
-             {}}));
+        static_cast<void>(found.conditions.apply({std::string(word), std::string(directive.rest), {}, {}}));
 }
 
-void add_piece(ActiveText& found, const Piece& piece, bool is_shipped) {
+void add_piece(ActiveText& found, const Piece& piece) {
     std::string_view text = piece.text;
     if (text.find("//") != std::string_view::npos || text.find("/*") != std::string_view::npos)
         if (auto clean = clean_text(text, piece.path))
@@ -41,7 +36,7 @@ void add_piece(ActiveText& found, const Piece& piece, bool is_shipped) {
         const std::string_view code = trim_left(line);
         if (code.empty()) continue;
         if (code.front() == '#') {
-            add_directive(found, {{}, code.substr(1), &piece, number}, is_shipped);
+            add_directive(found, {{}, code.substr(1), &piece, number});
         } else if (found.conditions.is_active()) {
             for (const std::string_view token : tokens_of(code))
                 found.tokens.push_back({token, &piece, number});
@@ -52,9 +47,9 @@ void add_piece(ActiveText& found, const Piece& piece, bool is_shipped) {
 }  // namespace
 
 ActiveText active_text(const std::vector<const Piece*>& pieces, Dialect dialect) {
-    ActiveText found(pieces.front()->text);
+    ActiveText found(pieces.front()->text, !is_spirv(dialect));
     for (const Piece* const piece : pieces)
-        if (piece != pieces.front()) add_piece(found, *piece, !is_spirv(dialect));
+        if (piece != pieces.front()) add_piece(found, *piece);
     return found;
 }
 

@@ -28,7 +28,7 @@ struct ActiveDirective {
 
 /// What no condition leaves out of a stage. It points into the pieces and into itself.
 struct ActiveText {
-    explicit ActiveText(std::string_view prologue) : conditions(prologue) {}
+    ActiveText(std::string_view prologue, bool is_shipped) : conditions(prologue, is_shipped) {}
 
     /// The text of a token; empty beyond the last.
     [[nodiscard]] std::string_view at(std::size_t index) const {

@@ -35,8 +35,14 @@ void explain_rewriting(Diagnostic& diagnostic, const Piece& piece, int line) {
     if (piece.file_text.empty() || !diagnostic.help.empty()) return;
     const std::string_view made = trim(line_of(piece.text, line));
     const std::vector<std::string_view> written = tokens_of(piece.file_text);
+    const std::string own(line_of(piece, line));
+    // What the composer itself puts there: the line's number, and what is as wrong as a lone quotation mark.
+    const auto is_composers = [&](std::string_view token) {
+        return (token == "'" && own.find('"') != std::string::npos) ||
+               (own.find("__LINE__") != std::string::npos && token == std::to_string(line));
+    };
     for (const std::string_view token : tokens_of(made))
-        if (std::ranges::find(written, token) == written.end()) {
+        if (std::ranges::find(written, token) == written.end() && !is_composers(token)) {
             diagnostic.help =
                 fmt::format("[substitute], or what else the family rewrites, makes of it: {}", made);
             return;
@@ -105,6 +111,14 @@ void explain(Diagnostic& diagnostic) {
         diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
         diagnostic.help = "OpenGL ES has it by GL_EXT_conservative_depth only, which glslang does not know";
+    const bool is_string = diagnostic.message.starts_with("''' : character literals") ||
+                           diagnostic.message.starts_with("'string literal' :");
+    if (is_string && diagnostic.quoted_line.find('"') != std::string::npos) {
+        diagnostic.message = "'\"' : GLSL has no strings";
+        diagnostic.help = "take the quotation mark out";
+    }
+    if (diagnostic.message.starts_with("'##' : not supported for these tokens"))
+        diagnostic.help = "glslang, by which shaders are checked, joins names alone: write the joined number";
     if (diagnostic.message.starts_with("'subroutine' : not allowed") ||
         diagnostic.message.starts_with("'subroutine' : feature not yet implemented")) {
         diagnostic.message = "'subroutine' : SPIR-V, by which shaders are checked, has no subroutines";

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "compose/language_names.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
-#include "validate/language_names.hpp"
 
 namespace gobo {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "compose/language_names.hpp"
 #include "compose/scan_piece.hpp"
 #include "compose/tokens.hpp"
-#include "validate/language_names.hpp"
 
 namespace gobo {
 namespace {
@@ -39,11 +39,6 @@ bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue) 
 
 std::string own_name(std::string_view name) {
     return fmt::format("{}{}", kOwnPrefix, name.substr(3));
-}
-
-bool is_foreign_macro(std::string_view name) {
-    const ExtensionOf owner = owner_of_extension(name);
-    return name == "GL_SPIRV" || owner == ExtensionOf::vulkan || owner == ExtensionOf::tools;
 }
 
 void replace_all(std::string& text, std::string_view old, std::string_view by) {

@@ -1,6 +1,7 @@
 #include "validate/missing_ends.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
 #include <optional>
 #include <string_view>
@@ -88,6 +89,10 @@ class Brackets {
     bool is_open_question_ = false;
 };
 
+bool is_number(std::string_view token) {
+    return token.find_first_of("0123456789") <= 1;
+}
+
 /// Whether a declaration goes on behind the last of its tokens.
 bool lacks_semicolon(const std::vector<Token>& tokens) {
     if (tokens.empty() || tokens.back().text == ";") return false;
@@ -98,6 +103,39 @@ bool lacks_semicolon(const std::vector<Token>& tokens) {
         if (at->text != "{" || --depth > 0) continue;
         return std::next(at) != tokens.rend() &&
                std::next(at)->text != ")";  // no function: a struct, a block
+    }
+    return false;
+}
+
+/// Whether glslang's "unexpected IDENTIFIER, expecting COMMA or SEMICOLON" may mean the token.
+bool is_unexpected(std::string_view message, std::string_view token) {
+    constexpr std::string_view kUnexpected = "syntax error, unexpected ";
+    const std::size_t at = message.find(kUnexpected);
+    if (at == std::string_view::npos || !message.ends_with("expecting COMMA or SEMICOLON")) return false;
+    const std::string_view rest = message.substr(at + kUnexpected.size());
+    const std::string_view name = rest.substr(0, rest.find(','));
+    if (token == "}") return name == "RIGHT_BRACE";
+    if (!is_identifier(token)) return false;
+    const bool is_keyword = std::ranges::equal(name, token, [](char upper, char lower) {
+        return upper == std::toupper(static_cast<unsigned char>(lower));
+    });
+    return is_keyword || name == "IDENTIFIER" || name == "TYPE_NAME";
+}
+
+/// Whether the last of the tokens may end a statement or a declaration that lacks its `;`.
+bool may_lack_semicolon(const std::vector<Token>& tokens) {
+    if (tokens.empty()) return false;
+    const std::string_view last = tokens.back().text;
+    if (last == "else" || last == "do") return false;
+    if (last != ")" && last != "]" && last != "}") return is_identifier(last) || is_number(last);
+    int depth = 0;  // of what the last token closes
+    for (auto at = tokens.rbegin(); at != tokens.rend(); ++at) {
+        if (at->text == "}" || at->text == ")" || at->text == "]") ++depth;
+        if (closing(at->text) == '\0' || --depth > 0) continue;
+        if (std::next(at) == tokens.rend()) return false;
+        const std::string_view head = std::next(at)->text;
+        if (last == ")") return head != "if" && head != "for" && head != "while" && head != "switch";
+        return last == "]" || head == "=" || (is_identifier(head) && head != "else" && head != "do");
     }
     return false;
 }
@@ -114,21 +152,24 @@ Diagnostics with_missing_ends(Diagnostics found, const std::vector<const Piece*>
     auto at = std::ranges::find_if(tokens, [&](const Token& token) {
         return token.line == first->place.line && path_of(token) == first->place.file;
     });
-    const auto blame = [&](const std::string& path, std::string message, std::string help) {
-        const auto last = std::find_if(tokens.rbegin(), tokens.rend(),
-                                       [&](const Token& token) { return path_of(token) == path; });
+    const auto blame = [&](const Token& token, std::string message, std::string help) {
         found.erase(first, found.end());
-        const Diagnostics blamed = fail({path, last->line, 0}, line_of(*pieces[last->piece], last->line),
-                                        std::move(message), std::move(help))
-                                       .value();
+        const Diagnostics blamed =
+            fail({path_of(token), token.line, 0}, line_of(*pieces[token.piece], token.line),
+                 std::move(message), std::move(help))
+                .value();
         found.insert(found.end(), blamed.begin(), blamed.end());
         return found;
+    };
+    const auto last_of = [&](const std::string& path) {
+        return *std::find_if(tokens.rbegin(), tokens.rend(),
+                             [&](const Token& token) { return path_of(token) == path; });
     };
     if (const std::optional<Token> open = brackets.unclosed()) {
         const auto opens = std::ranges::find_if(
             tokens, [&](const Token& token) { return token.text.data() == open->text.data(); });
         if (opens < at && (at == tokens.end() || path_of(*at) != path_of(*open)))
-            return blame(path_of(*open),
+            return blame(last_of(path_of(*open)),
                          fmt::format("a '{}' is missing: nothing closes the '{}' of line {}",
                                      closing(open->text), open->text, open->line),
                          "close it in the same file");
@@ -137,8 +178,12 @@ Diagnostics with_missing_ends(Diagnostics found, const std::vector<const Piece*>
     const bool is_first = at == tokens.end() || (!before.empty() && path_of(before.back()) != path_of(*at));
     const bool is_syntax = first->message.find("syntax error") != std::string::npos;
     if (is_syntax && is_first && lacks_semicolon(before))
-        return blame(path_of(before.back()), "a ';' is missing behind the last declaration",
+        return blame(last_of(path_of(before.back())), "a ';' is missing behind the last declaration",
                      "end it in the same file");
+    if (at != tokens.end() && !is_first && is_unexpected(first->message, at->text) &&
+        may_lack_semicolon(before))
+        return blame(before.back(), fmt::format("a ';' is missing behind '{}'", before.back().text),
+                     fmt::format("end it before the '{}' of line {}", at->text, at->line));
     return found;
 }
 

@@ -204,6 +204,10 @@ std::vector<Leaf> named_leaves(const std::vector<Leaf>& leaves, const RenderValu
     if (is_of_all_elements(value)) {
         std::ranges::copy_if(leaves, std::back_inserter(named),
                              [&](const Leaf& leaf) { return without_subscripts(leaf.name) == value.name; });
+        for (const Leaf& leaf : leaves)  // "weights[]", of an array of numbers
+            for (int i = 0; i < leaf.count && without_subscripts(leaf.name) + "[]" == value.name; ++i)
+                if (const auto element = find_leaf(leaves, fmt::format("{}[{}]", leaf.name, i)))
+                    named.push_back(*element);
     } else if (const auto leaf = find_leaf(leaves, value.name)) {
         named.push_back(*leaf);
     }

@@ -133,6 +133,19 @@ std::optional<Sides> turned(const Relation& relation, const std::vector<evaluate
     return sides;
 }
 
+/// Whether a name is the port's where each `[]` of it stands for any element.
+bool stands_for(std::string_view name, std::string_view port) {
+    while (true) {
+        const std::size_t any = std::min(name.find("[]"), name.size());
+        if (name.substr(0, any) != port.substr(0, any)) return false;
+        port.remove_prefix(any);
+        if (any == name.size()) return port.empty();
+        if (!port.starts_with('[')) return false;
+        name.remove_prefix(any + 2);
+        port.remove_prefix(std::min(port.find(']'), port.size() - 1) + 1);
+    }
+}
+
 /// The value that turns an effect off, wherever the name stands for: with `[]` the last element of `count`,
 /// or every element where that is 0.
 std::optional<Sides> turned_off(const Relation& relation, const std::vector<evaluate::Port>& ports, int count,
@@ -144,7 +157,7 @@ std::optional<Sides> turned_off(const Relation& relation, const std::vector<eval
         if (count > 0 && brackets != std::string::npos)
             name.replace(brackets, 2, fmt::format("[{}]", count - 1));
         for (const evaluate::Port& port : ports) {
-            if (port.name != name && without_subscripts(port.name) != name) continue;
+            if (!stands_for(name, port.name)) continue;
             Values& values = sides.one.values[port.name];
             for (std::size_t c = 0; c < port.components; ++c)
                 std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(c * points.count), points.count,

@@ -300,7 +300,8 @@ std::optional<Key> partner_of(const Family& family, const Relation& relation, co
     if (relation.feature < 0 || !speaks_of(relation, key)) return std::nullopt;
     Key other = key;
     int& value = other[static_cast<std::size_t>(relation.feature)];
-    value = relation.kind == Relation::Kind::off ? std::max(count_of(family, relation, key) - 1, 0) : 0;
+    const bool is_one_lower = relation.kind == Relation::Kind::off && count_of(family, relation, key) > 0;
+    value = is_one_lower ? value - 1 : 0;
     other = canonical(family, std::move(other), dialect);
     if (other == key || forbidding_rule(family, other, dialect) != nullptr) return std::nullopt;
     return other;

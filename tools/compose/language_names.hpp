@@ -28,6 +28,10 @@ struct NameSince {
 enum class ExtensionOf { any, desktop, es, vulkan, tools };
 [[nodiscard]] ExtensionOf owner_of_extension(std::string_view name);
 
+/// Whether glslang defines a macro and no driver of OpenGL does: `GL_SPIRV`, and those of extensions that
+/// Vulkan or tools alone have.
+[[nodiscard]] bool is_foreign_macro(std::string_view name);
+
 /// Whether no version of OpenGL has in its core what the extension brings, so that drivers may lack it.
 [[nodiscard]] bool may_be_lacking(std::string_view extension);
 

@@ -1,4 +1,4 @@
-#include "validate/language_names.hpp"
+#include "compose/language_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -155,6 +155,11 @@ ExtensionOf owner_of_extension(std::string_view name) {
     const auto* const found =
         std::ranges::find_if(kOwners, [&](const Owner& owner) { return fits(owner.name, name); });
     return found == kOwners.end() ? ExtensionOf::any : found->owner;
+}
+
+bool is_foreign_macro(std::string_view name) {
+    const ExtensionOf owner = owner_of_extension(name);
+    return name == "GL_SPIRV" || owner == ExtensionOf::vulkan || owner == ExtensionOf::tools;
 }
 
 bool may_be_lacking(std::string_view extension) {

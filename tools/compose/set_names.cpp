@@ -1,4 +1,4 @@
-#include "compose/known_names.hpp"
+#include "compose/set_names.hpp"
 
 #include <algorithm>
 #include <set>
@@ -16,44 +16,15 @@ namespace {
 
 struct Named {
     std::string name;
-    std::string table;
     Place place;
-    bool has_a_set = false;  ///< of a block, sampler or image
 };
 
 std::vector<Named> names_of(const Family& family) {
     std::vector<Named> names;
-    // Of a constraint, "unit(normal)", what stands between its brackets.
-    for (const Domain& domain : family.domains)
-        names.push_back({domain.name.substr(domain.name.find('(') + 1), "[domain]", domain.place});
-    for (const RenderValue& value : family.render) names.push_back({value.name, "[render]", value.place});
-    for (const Relation& relation : family.relations) {
-        for (const auto* const list : {&relation.names, &relation.turned_back})
-            for (const std::string& name : *list) names.push_back({name, "[[relations]]", relation.place});
-        for (const RenderValue& value : relation.at)
-            names.push_back({value.name, "[[relations]]", value.place});
-    }
     for (const DescriptorSet& set : family.descriptor_sets)
         for (const std::string& name : set.holds)
-            names.push_back({name, "[[descriptor_sets]]", set.holds_place, true});
-    std::erase_if(names, [&](const Named& named) { return named.place.file != family.path; });
+            if (set.holds_place.file == family.path) names.push_back({name, set.holds_place});
     return names;
-}
-
-/// The first part of "Lamps.lamps[0].color" that is not among the identifiers; empty where all are.
-std::string unknown_part(const std::string& name, const std::set<std::string, std::less<>>& identifiers) {
-    for (const std::string_view token : tokens_of(name))
-        if (is_identifier(token) && !identifiers.contains(token)) return std::string(token);
-    return {};
-}
-
-/// Whether names are joined, but by the macros of gobo's prologues.
-bool joins_names(std::string_view text) {
-    for (std::size_t at = text.find("##"); at != std::string_view::npos; at = text.find("##", at + 2)) {
-        const std::string_view before = text.substr(0, at);
-        if (!before.ends_with("PLACE_") && !before.ends_with("PLACE_OF_SAMPLER_")) return true;
-    }
-    return false;
 }
 
 /// Whether a macro of the text's own declares a block, sampler or image.
@@ -91,7 +62,16 @@ void add_resources(std::string_view text, std::set<std::string, std::less<>>& na
 
 }  // namespace
 
-Diagnostics unknown_names(const Family& family, const SearchPath& search, const Composition& composition) {
+bool joins_names(std::string_view text) {
+    for (std::size_t at = text.find("##"); at != std::string_view::npos; at = text.find("##", at + 2)) {
+        const std::string_view before = text.substr(0, at);
+        if (!before.ends_with("PLACE_") && !before.ends_with("PLACE_OF_SAMPLER_")) return true;
+    }
+    return false;
+}
+
+Diagnostics unknown_set_names(const Family& family, const SearchPath& search,
+                              const Composition& composition) {
     std::vector<Named> names = names_of(family);
     std::set<std::string, std::less<>> identifiers;
     std::set<std::string, std::less<>> resources;
@@ -102,10 +82,8 @@ Diagnostics unknown_names(const Family& family, const SearchPath& search, const 
         add_resources(text, resources);
     };
     const auto drop_known = [&] {
-        std::erase_if(names, [&](const Named& named) {
-            return named.has_a_set && are_resources_known ? resources.contains(named.name)
-                                                          : unknown_part(named.name, identifiers).empty();
-        });
+        const auto& known = are_resources_known ? resources : identifiers;
+        std::erase_if(names, [&](const Named& named) { return known.contains(named.name); });
     };
     std::set<int> prologues;
     for (const Stage& stage : composition.stages) prologues.insert(stage.pieces.front());
@@ -126,19 +104,16 @@ Diagnostics unknown_names(const Family& family, const SearchPath& search, const 
     drop_known();
     Diagnostics errors;
     std::ranges::stable_sort(names, {}, [](const Named& named) { return named.place.line; });
-    for (const Named& named : names) {
-        std::string part = unknown_part(named.name, identifiers);
-        const bool is_something_else = part.empty();
-        if (is_something_else) part = named.name;
-        const auto& candidates = named.has_a_set && are_resources_known ? resources : identifiers;
+    for (const auto& [name, place] : names) {
+        const auto& candidates = are_resources_known ? resources : identifiers;
         std::vector<std::string> known(candidates.begin(), candidates.end());
-        std::ranges::stable_partition(known, [&](const std::string& name) { return name[0] == part[0]; });
-        const auto near = nearest(part, known);
+        std::ranges::stable_partition(known, [&](const std::string& one) { return one[0] == name[0]; });
+        const auto near = nearest(name, known);
         const Diagnostics error =
-            fail(named.place, "",
-                 fmt::format("'{}' under {} is {}", named.name, named.table,
-                             is_something_else ? "no block, sampler or image, which alone have a set"
-                                               : "in none of the shaders"),
+            fail(place, "",
+                 fmt::format("'{}' under [[descriptor_sets]] is {}", name,
+                             identifiers.contains(name) ? "no block, sampler or image, which alone have a set"
+                                                        : "in none of the shaders"),
                  near ? fmt::format("did you mean '{}'?", *near)
                       : "gobo reflect lists the names that there are")
                 .value();
