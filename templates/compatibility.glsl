@@ -187,6 +187,24 @@ struct legacy_LightSourceParameters {
 };
 uniform legacy_LightSourceParameters legacy_LightSource[8];
 
+#piece Point
+struct legacy_PointParameters {
+    float size;
+    float sizeMin;
+    float sizeMax;
+    float fadeThresholdSize;
+    float distanceConstantAttenuation;
+    float distanceLinearAttenuation;
+    float distanceQuadraticAttenuation;
+};
+uniform legacy_PointParameters legacy_Point;
+
+#piece ClipPlane
+uniform vec4 legacy_ClipPlane[8];
+
+#piece ClipVertex
+#error gl_ClipVertex went with the fixed clip planes: write gl_ClipDistance[i] = dot(gl_ClipPlane[i], position)
+
 #piece LightModel
 struct legacy_LightModelParameters {
     vec4 ambient;

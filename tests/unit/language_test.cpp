@@ -167,6 +167,14 @@ const Row refused[] = {
 };
 
 const Row taken[] = {
+    row("layout_shared", "330 core", with_main("layout(shared) uniform B { mat3 m; } b;\n", "b.m[0].x"), ""),
+    row("layout_packed", "300 es", with_main("layout(packed) uniform B { vec4 v; } b;\n", "b.v.x"), ""),
+    row("fma_by_extension", "330 core",
+        with_main("#extension GL_ARB_gpu_shader5 : require\n", "fma(1.0, 2.0, 3.0)"), ""),
+    row("fma_by_extension_150", "150",
+        with_main("#extension GL_ARB_gpu_shader5 : require\n", "fma(1.0, 2.0, 3.0)"), ""),
+    row("macro_of_texture_arrays", "330 core",
+        with_main("#ifdef GL_EXT_texture_array\nfloat f() { return 1.0; }\n#endif\n", "f()"), ""),
     row("int_returned_as_float_420", "420", with_main("float f() { return 1; }\n", "f()"), ""),
     row("hash_that_no_one_reads", "330 core", with_main("#if 0\n#define S(x) #x\n#endif\n"), ""),
     row("joined_names", "330 core", with_main("#define J(a, b) a##b\nfloat J(le, vel) = 1.0;\n", "level"),

@@ -226,6 +226,14 @@ const LinkRow varyings[] = {
      "void main() { c = i.tint; }\n",
      Mesa::refuses,
      {"tiny.frag:2: error: the block of 'Surface.tint' states one location, and its first member another"}},
+    {"located_members_of_blocks_of_two_names",
+     "450",
+     "out Surface { layout(location = 1) vec4 tint; } o;\nvoid main() { o.tint = gl_Position = vec4(0.0); "
+     "}\n",
+     "in Face { layout(location = 1) vec4 tint; } i;\nout vec4 c;\nvoid main() { c = i.tint; }\n",
+     Mesa::refuses,
+     {"'Face.tint' (location 1, 'Surface.tint' in the vertex stage) is a member of 'Face' here, but one of "
+      "'Surface' in tiny.vert:2"}},
     {"array_of_blocks_with_a_location",
      "450",
      "layout(location = 2) out Surface { vec4 tint; } o[2];\nvoid main() { gl_Position = vec4(0.0); }\n",

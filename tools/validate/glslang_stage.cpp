@@ -62,6 +62,8 @@ std::map<std::string, int, std::less<>> stated_bindings(const glslang::TProgram&
     };
     for (int i = 0; i < program.getNumUniformBlocks(); ++i)
         add(program.getUniformBlock(i).name, program.getUniformBlock(i).getBinding());
+    for (int i = 0; i < program.getNumBufferBlocks(); ++i)
+        add(program.getBufferBlock(i).name, program.getBufferBlock(i).getBinding());
     for (int i = 0; i < program.getNumUniformVariables(); ++i)
         if (program.getUniform(i).index < 0)
             add(program.getUniform(i).name, program.getUniform(i).getBinding());
@@ -117,6 +119,28 @@ bool may_lack_bindings(const Interface& interface) {
                                [](const Sampler& sampler) { return sampler.binding == 0; });
 }
 
+/// Drops that a block's instance is called as a uniform of another stage, which no linker minds: its name
+/// stays in its stage. Of one such pair glslang says several lines, the last with both declarations.
+bool drop_names_of_instances(Diagnostics& log) {
+    const auto is_block = [](std::string_view declaration) {
+        return declaration.find("uniform {") != std::string_view::npos ||
+               declaration.find("buffer {") != std::string_view::npos;
+    };
+    const std::size_t known = log.size();
+    for (std::size_t i = 0; i < log.size();) {
+        std::size_t end = i;
+        while (end + 1 < log.size() && log[end].message.find('"') == std::string::npos) ++end;
+        const std::vector<std::string> parts = split(log[end].message, '"');
+        const bool is_pair = log[i].message.ends_with("Types must match:") && parts.size() > 3;
+        if (is_pair && is_block(parts[1]) != is_block(parts[3]))
+            log.erase(log.begin() + static_cast<std::ptrdiff_t>(i),
+                      log.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+        else
+            i = end + 1;
+    }
+    return log.size() < known;
+}
+
 tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
     return fail(Fault::internal, fmt::format("glslang refuses a stage that it parsed: {}", log));
 }
@@ -139,17 +163,17 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     // Its tables are kept for the next composition.
     [[maybe_unused]] static const bool is_initialized = glslang::InitializeProcess();
     shader_ = std::make_unique<Shader>(language_of(kind_));
-    const MissingBuiltIns built_ins =
-        for_spirv ? missing_built_ins(kind_, prologue, pieces_) : MissingBuiltIns{};
+    MissingBuiltIns built_ins = for_spirv ? missing_built_ins(kind_, prologue, pieces_) : MissingBuiltIns{};
+    if (!is_spirv(dialect_)) built_ins.declarations += driver_declarations(prologue, pieces_);
     const bool is_shipped = !is_spirv(dialect_);
     const auto seen_by_drivers = [&](const std::string& text) {
-        return is_shipped && text.find("GL_") != std::string::npos ? without_foreign_macros(text) : text;
+        return is_shipped ? without_own_layouts(with_driver_macros(text)) : text;
     };
     shader_->prologue = seen_by_drivers(prologue) + built_ins.declarations;
     for (const Piece* piece : pieces_) {
         const bool is_prologue = piece == pieces_.front();
         const bool is_changed =
-            !built_ins.renamed.empty() || (is_shipped && piece->text.find("GL_") != std::string::npos);
+            !built_ins.renamed.empty() || (is_shipped && differs_from_drivers(piece->text));
         const std::string& text =
             is_prologue ? shader_->prologue
             : !is_changed
@@ -278,9 +302,13 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
     std::vector<const Piece*> earlier;
     for (std::size_t i = 0; i + 1 < stages.size(); ++i)
         earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
-    Diagnostics found =
-        with_places(diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0}),
-                    stages.back()->pieces_, earlier);
+    Diagnostics log =
+        diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0});
+    if (!is_spirv(stages.front()->dialect_) && drop_names_of_instances(log) && log.empty()) {
+        for (GlslangStage* const stage : stages) stage->parse();  // glslang keeps the error in them
+        return {};
+    }
+    Diagnostics found = with_places(std::move(log), stages.back()->pieces_, earlier);
     if (!is_fine && found.empty())
         return fail(Fault::internal, "glslang refuses to link without saying why").value();
     return found;
@@ -328,6 +356,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     if (asks_for_bindings) {
         const auto stated = stated_bindings(program);
         forget_assigned(stage.interface.blocks, stated, pieces_);
+        forget_assigned(stage.interface.storage_blocks, stated, pieces_);
         forget_assigned(stage.interface.samplers, stated, pieces_);
     }
     if (!is_spirv(dialect_) && (bindings_mapped_ || lacks_locations(stage.interface))) {

@@ -257,6 +257,9 @@ class LinkCheck {
                                    member.name);
             };
             differ(offset_text(*placed), offset_text(*other_placed), once);
+        } else if (!here.usage.stated.empty() && !there.usage.stated.empty() &&
+                   here.usage.stated != there.usage.stated) {
+            differ(fmt::format("layout {}", here.usage.stated), there.usage.stated, once);
         } else if (here.usage.anonymous != there.usage.anonymous) {
             differ(here.usage.anonymous ? "no instance name" : "an instance name",
                    there.usage.anonymous ? "none" : "one", once);

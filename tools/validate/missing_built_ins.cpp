@@ -8,12 +8,15 @@
 #include "compose/language_names.hpp"
 #include "compose/scan_piece.hpp"
 #include "compose/tokens.hpp"
+#include "core/text.hpp"
+#include "validate/old_versions.hpp"
 
 namespace gobo {
 namespace {
 
 constexpr std::string_view kOwnPrefix = "gobo_built_in_";
 constexpr std::string_view kUndefinedPrefix = "gobo_undefined_";
+constexpr std::string_view kDefinedByDrivers = "gobo_defined_by_drivers";
 
 struct BuiltIn {
     std::string_view name;
@@ -39,6 +42,10 @@ bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue) 
 
 std::string own_name(std::string_view name) {
     return fmt::format("{}{}", kOwnPrefix, name.substr(3));
+}
+
+bool contains(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
 }
 
 void replace_all(std::string& text, std::string_view old, std::string_view by) {
@@ -95,6 +102,52 @@ std::string without_foreign_macros(std::string_view text) {
         text.remove_prefix(size);
     }
     return result;
+}
+
+std::string driver_declarations(const std::string& prologue, const std::vector<const Piece*>& pieces) {
+    const GlslVersion version = version_of(prologue);
+    const bool has_fma =
+        !version.es && version.number < 400 && prologue.find("GL_ARB_gpu_shader5 ") != std::string::npos &&
+        std::ranges::any_of(pieces, [](const Piece* piece) { return contains(piece->text, "fma"); });
+    std::string text = fmt::format("#define {} 1\n", kDefinedByDrivers);
+    for (const char* type : {"float", "vec2", "vec3", "vec4"})
+        if (has_fma) text += fmt::format("{0} fma({0} a, {0} b, {0} c) {{ return a * b + c; }}\n", type);
+    return text;
+}
+
+std::string with_driver_macros(std::string_view text) {
+    if (!contains(text, "GL_")) return std::string(text);
+    std::string result;
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::string_view line = rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1);
+        rest.remove_prefix(line.size());
+        const std::vector<std::string_view> tokens = tokens_of(line);
+        const bool is_condition =
+            tokens.size() > 2 && tokens[0] == "#" && (tokens[1].starts_with("if") || tokens[1] == "elif");
+        Substitutions known;
+        for (const std::string_view name : tokens)
+            if (is_condition && is_unknown_to_glslang(name)) known.emplace_back(name, kDefinedByDrivers);
+        result += known.empty() ? std::string(line) : substituted(line, known);
+    }
+    return without_foreign_macros(result);
+}
+
+std::string without_own_layouts(std::string text) {
+    for (std::size_t at = text.find("layout"); at != std::string::npos; at = text.find("layout", at + 1)) {
+        const std::size_t open = text.find_first_not_of(" \t\n", at + 6);
+        if (open == std::string::npos || text[open] != '(') continue;
+        const std::size_t end = std::min(text.find(')', open), text.size());
+        for (const std::string_view word : {"shared", "packed"})
+            if (const std::size_t found = text.find(word, open);
+                found < end && !is_identifier_part(text[found - 1]) &&
+                !is_identifier_part(text[found + word.size()]))
+                text.replace(found, word.size(), "column_major");
+    }
+    return text;
+}
+
+bool differs_from_drivers(std::string_view text) {
+    return contains(text, "GL_") || contains(text, "shared") || contains(text, "packed");
 }
 
 void name_built_ins(Diagnostic& diagnostic) {

@@ -139,6 +139,11 @@ std::string without_requirements(std::string prologue) {
     return prologue;
 }
 
+bool is_unknown_to_glslang(std::string_view extension) {
+    return extension != "GL_ARB_compatibility" &&
+           std::ranges::find(kUnknownToGlslang, extension) != kUnknownToGlslang.end();
+}
+
 Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     std::erase_if(diagnostics, [](const Diagnostic& found) { return found.severity != Severity::error; });
     for (Diagnostic& diagnostic : diagnostics) {

@@ -32,6 +32,8 @@ namespace gobo {
 /// The prologue for glslang, which refuses to require extensions that it does not know: of those that drivers
 /// have.
 [[nodiscard]] std::string without_requirements(std::string prologue);
+/// Whether it is such an extension, of every profile.
+[[nodiscard]] bool is_unknown_to_glslang(std::string_view extension);
 
 /// The functions of the shader's own, in OpenGL ES 3.00 or below, that glslang takes for built-in ones of
 /// later versions or extensions, by its errors. Names that are members of structs too are left out:

@@ -31,8 +31,12 @@ class Statements {
                 i = end;
             } else if (at(i) == ";") {
                 const Range whole{begin, i};
-                if (has(whole, "in") || has(whole, "out") || has(whole, "varying") || has(whole, "uniform"))
+                if (i > begin + 1 && at(begin) == "layout" && at(i - 2) == ")")
+                    set_default(at(i - 1), packing_in(whole));
+                const bool is_varying = has(whole, "in") || has(whole, "out");
+                if (is_varying || has(whole, "varying") || has(whole, "uniform"))
                     add_names(whole, has(whole, "smooth") ? "smooth" : "", "");
+                if (is_varying && !has(whole, "location")) add_names(whole, "free", "");
                 begin = i + 1;
             }
         }
@@ -97,8 +101,30 @@ class Statements {
         }
     }
 
+    /// The layout that a block states; empty where it states none.
+    [[nodiscard]] std::string_view packing_in(Range head) const {
+        for (const std::string_view packing : {"std140", "std430", "shared", "packed"})
+            if (has(head, packing)) return packing;
+        return {};
+    }
+    /// `layout(std140) uniform;`
+    void set_default(std::string_view storage, std::string_view packing) {
+        if (!packing.empty() && (storage == "uniform" || storage == "buffer")) defaults_[storage] = packing;
+    }
+    void add_packing(Range head, const std::string& block) {
+        const std::string_view storage = has(head, "uniform") ? "uniform" : "buffer";
+        if (!has(head, storage)) return;
+        for (std::size_t i = head.begin; i < head.end; ++i)
+            if (text_.is_macro(i)) return;
+        const std::string_view own = packing_in(head);
+        const auto by_default = defaults_.find(storage);
+        add(block, !own.empty() ? own : by_default != defaults_.end() ? by_default->second : "shared");
+        if (!has(head, "binding")) add(block, "free");
+    }
+
     void add_block(Range head, Range body) {
         const std::string block(at(head.end - 1));
+        add_packing(head, block);
         const auto location_in = [&](Range range) {
             const std::size_t word = find(range, "location");
             return word < range.end ? at(word + 2) : std::string_view();
@@ -114,7 +140,7 @@ class Statements {
             if (has(member, "offset") || has(member, "align") || has(head, "align"))
                 add_names(member, "offset", block);
             const std::string_view own = location_in(member);
-            if (!own.empty()) add_names(member, "located", block);
+            if (!own.empty() && location.empty()) add_names(member, "located", block);
             if (begin == body.begin && !location.empty() && !own.empty() && own != location)
                 add_names(member, "apart", block);
             begin = i + 1;
@@ -122,6 +148,7 @@ class Statements {
     }
 
     const ActiveText& text_;
+    std::map<std::string_view, std::string_view> defaults_;  ///< layouts of "uniform" and "buffer"
     Stated stated_;
 };
 
@@ -141,20 +168,29 @@ Stated stated_in(const ActiveText& text) {
 
 void set_stated(Interface& interface, const Stated& stated) {
     if (stated.empty()) return;
-    const auto set = [&](std::string_view path, Usage& usage) {
-        if (const auto found = stated.find(path); found != stated.end()) usage.stated = found->second;
+    const auto set = [&](std::string_view path, Usage& usage, int* place = nullptr) {
+        const auto found = stated.find(path);
+        if (found == stated.end()) return;
+        usage.stated = found->second;
+        const std::size_t free = usage.stated.find("free");
+        if (free == std::string::npos) return;
+        usage.stated.erase(free > 0 ? free - 1 : 0, free > 0 ? 5 : 4);
+        if (place != nullptr) *place = -1;
     };
     for (auto* const variables : {&interface.inputs, &interface.outputs})
         for (Variable& variable : *variables) {
             const std::string path = without_indices(variable.name);
             const std::size_t dot = path.find('.');
             const bool is_of_block = variable.whole == Whole::block && dot != std::string::npos;
-            set(path.substr(0, is_of_block ? path.find('.', dot + 1) : dot), variable.usage);
+            set(path.substr(0, is_of_block ? path.find('.', dot + 1) : dot), variable.usage,
+                &variable.location);
         }
     for (auto* const blocks : {&interface.blocks, &interface.storage_blocks})
-        for (Block& block : *blocks)
+        for (Block& block : *blocks) {
+            set(root_of(block.name), block.usage, &block.binding);
             for (Member& member : block.members)
                 set(fmt::format("{}.{}", root_of(block.name), member.name), member.usage);
+        }
     for (Uniform& uniform : interface.uniforms) {
         set(uniform.name, uniform.usage);
         set_precisions(uniform.type, uniform.members, stated);

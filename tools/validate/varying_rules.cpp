@@ -206,19 +206,17 @@ class VaryingCheck {
             return differ(Severity::error, input.interpolation.invariant ? "invariant" : "not invariant",
                           output.interpolation.invariant ? "invariant" : "not",
                           ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
-        if (centroid_differs(input, output))
-            return differ(
-                is_of_block ? Severity::error : Severity::warning,
-                input.interpolation.centroid ? "centroid" : "not centroid",
-                output.interpolation.centroid ? "centroid" : "not",
-                is_of_block ? ": the members of a block must agree" : ": some drivers refuse to link it",
-                "write centroid in both stages");
         if (is_of_block && input.location >= 0 && input.usage.anonymous != output.usage.anonymous &&
             (states(input, "located") || !is_only_member(output)))
             return differ(Severity::error, input.usage.anonymous ? "of no instance" : "of an instance",
                           output.usage.anonymous ? "of none" : "of one", ", and their block states locations",
                           "name an instance in both stages, or in neither");
-        if (!input.usage.unused && !input.usage.anonymous && states(input, "apart"))
+        if (is_of_block && states(input, "located") && root_of(input.name) != root_of(output.name))
+            return differ(Severity::error, fmt::format("a member of '{}'", root_of(input.name)),
+                          fmt::format("one of '{}'", root_of(output.name)), "",
+                          "give the block one name in both stages, or a location to the block itself");
+        if (!input.usage.anonymous && (states(input, "apart") || states(output, "apart")) &&
+            !(input.usage.unused && states(input, "apart") && states(output, "apart")))
             add(in_later(root_of(input.name), ""), Severity::error,
                 fmt::format("the block of '{}' states one location, and its first member another",
                             input.name),
@@ -228,9 +226,17 @@ class VaryingCheck {
                        fmt::format("the {} stage reads {}, which belongs to {} of the {} stage",
                                    name_of(later_->kind), what, output.usage.access, name_of(earlier_->kind)),
                        "read what is emitted to stream 0: no other is drawn");
-        if (!input.usage.unused && output.usage.unused)
-            add(in_later(input.name, input.type),
-                !version_.es && version_.number <= 120 ? Severity::error : Severity::warning,
+        const bool must_be_written = !version_.es && version_.number <= 120;
+        const bool is_undefined = !input.usage.unused && output.usage.unused;
+        if (centroid_differs(input, output) && !(is_undefined && must_be_written))
+            return differ(
+                is_of_block ? Severity::error : Severity::warning,
+                input.interpolation.centroid ? "centroid" : "not centroid",
+                output.interpolation.centroid ? "centroid" : "not",
+                is_of_block ? ": the members of a block must agree" : ": some drivers refuse to link it",
+                "write centroid in both stages");
+        if (is_undefined)
+            add(in_later(input.name, input.type), must_be_written ? Severity::error : Severity::warning,
                 fmt::format("the {} stage reads {}, which the {} stage declares in {} and never writes",
                             name_of(later_->kind), what, name_of(earlier_->kind),
                             in_earlier(output.name, output.type).text()),
