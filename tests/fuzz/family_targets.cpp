@@ -11,7 +11,7 @@
 namespace gobo::fuzz {
 
 void read_family(std::string_view input) {
-    const Result<Family> family = family_of(parts_of(input), "");
+    const Result<Family> family = family_of(parts_of(input));
     if (!is_value(family)) return;
     for (const Key& key : some_keys(*family)) {
         const Result<Key> again = parse_key(*family, key_text(*family, key));

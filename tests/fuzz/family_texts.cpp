@@ -54,8 +54,8 @@ std::vector<Key> some_keys(const Family& family) {
     return {keys->begin(), keys->begin() + static_cast<std::ptrdiff_t>(std::min(keys->size(), most_keys))};
 }
 
-Result<Family> family_of(const Files& parts, const std::string& name) {
-    const auto text = parts.find(name);
+Result<Family> family_of(const Files& parts) {
+    const auto text = parts.find(parts.contains("family.toml") ? "family.toml" : "");
     const auto find_base = [&](const std::string& base) -> Result<FamilyText> {
         const auto found = parts.find(base);
         if (found == parts.end()) return fail(Fault::usage, "there is no such family");

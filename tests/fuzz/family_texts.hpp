@@ -21,7 +21,8 @@ const Family& small_family();
 /// At most sixteen.
 std::vector<Key> some_keys(const Family& family);
 
-/// The family whose file is the part of this name; those that it extends are others.
-Result<Family> family_of(const Files& parts, const std::string& name);
+/// The family whose file is the part "family.toml" (as in tests/errors/cases), or else ""; those that it
+/// extends are other parts.
+Result<Family> family_of(const Files& parts);
 
 }  // namespace gobo::fuzz

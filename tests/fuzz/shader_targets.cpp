@@ -29,7 +29,7 @@ void read_compose(std::string_view input) {
 
 void read_header(std::string_view input) {
     const Files parts = parts_of(input);
-    const Result<Family> family = family_of(parts, "");
+    const Result<Family> family = family_of(parts);
     if (!is_value(family)) return;
     const Result<Composition> composition = composed(parts, *family);
     if (!is_value(composition)) return;
