@@ -7,7 +7,8 @@
 namespace gobo::fuzz {
 
 void read_declarations(std::string_view input) {
-    require(declarations_of(input).size() <= input.size());
+    static_cast<void>(declarations_of(input));
+    static_cast<void>(sizes_by_use(input));
 }
 
 void read_cache(std::string_view input) {
