@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-60}
 [ $# -gt 0 ] && shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(family condition selection compose header spirv evaluate gltf picture exr png declarations cache)
+[ ${#targets[@]} -gt 0 ] || targets=(family condition selection compose header names spirv evaluate gltf picture exr png declarations cache)
 build=build/fuzz
 compiler=${CXX:-$(command -v clang++-19 || command -v clang++)}
 cmake -S . -B $build -G Ninja -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_C_COMPILER="${compiler/clang++/clang}" -D CMAKE_BUILD_TYPE=RelWithDebInfo \
@@ -23,7 +23,7 @@ for target in "${targets[@]}"; do
   status=0
   words=() seeds=()
   case $target in family | header) seeds=(tests/errors/cases) ;; esac
-  case $target in family | condition | selection | compose | header | declarations) words=(-dict=tests/fuzz/words.dict) ;; esac
+  case $target in family | condition | selection | compose | header | names | declarations) words=(-dict=tests/fuzz/words.dict) ;; esac
   log="$build/found/$target.log"
   processor=$({ time "$build/fuzz/fuzz_$target" -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=20 -print_final_stats=1 -max_len=65536 "${words[@]}" \
     -artifact_prefix="$build/found/$target/" "$build/corpus/$target" "tests/fuzz/corpus/$target" "${seeds[@]}" >"$log" 2>&1; } 2>&1) || status=$?

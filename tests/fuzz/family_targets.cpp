@@ -10,19 +10,20 @@
 
 namespace gobo::fuzz {
 
-void read_family(std::string_view input) {
+bool read_family(std::string_view input) {
     const Result<Family> family = family_of(parts_of(input));
-    if (!is_value(family)) return;
+    if (!is_value(family)) return false;
     for (const Key& key : some_keys(*family)) {
         const Result<Key> again = parse_key(*family, key_text(*family, key));
         require(again.has_value() && canonical(*family, *again, "450") == canonical(*family, key, "450"));
     }
+    return true;
 }
 
-void read_condition(std::string_view input) {
+bool read_condition(std::string_view input) {
     const Family& family = small_family();
     const auto condition = parse_expression(input, family.features, {"c", 1, 1}, Fault::usage);
-    if (!is_value(condition)) return;
+    if (!is_value(condition)) return false;
     const Expression opposite = negated(*condition);
     for (int fog = 0; fog < 3; ++fog)
         for (int point = 0; point < 4; ++point) {
@@ -31,9 +32,10 @@ void read_condition(std::string_view input) {
             key[2] = point;
             require(holds(*condition, key) != holds(opposite, key));
         }
+    return true;
 }
 
-void read_selection(std::string_view input) {
+bool read_selection(std::string_view input) {
     const Files parts = parts_of(input);
     const auto part = [&](const char* name) {
         const auto found = parts.find(name);
@@ -47,9 +49,10 @@ void read_selection(std::string_view input) {
     selection.keys = keys_of_text(part("keys"), "keys");
     const Family& family = small_family();
     const auto keys = select(family, selection, "450");
-    if (!is_value(keys)) return;
+    if (!is_value(keys)) return false;
     require(std::ranges::is_sorted(*keys) && std::ranges::adjacent_find(*keys) == keys->end());
     for (const Key& key : *keys) require(forbidding_rule(family, key, "450") == nullptr);
+    return true;
 }
 
 }  // namespace gobo::fuzz

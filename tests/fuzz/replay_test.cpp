@@ -22,17 +22,18 @@ TEST_P(Replay, EndsInAValueOrInErrors) {
     const DiskFileSystem disk;
     const std::string folder = corpus + std::string(GetParam().name);
     const std::vector<std::string> files = disk.files_below(folder);
-    EXPECT_FALSE(files.empty());
+    bool is_some_value = false;
     for (const std::string& file : files) {
         SCOPED_TRACE(file);
         const std::string input = disk.read(folder + "/" + file).value();
-        GetParam().run(input);
+        is_some_value = GetParam().run(input) || is_some_value;
         // Half of it is another one, and so is what has another byte in its middle.
         GetParam().run(std::string_view(input).substr(0, input.size() / 2));
         std::string other = input;
         if (!other.empty()) other[other.size() / 2] ^= 0x10;
         GetParam().run(other);
     }
+    EXPECT_TRUE(is_some_value) << "what is behind a good input is never reached";
 }
 
 /// Bytes changed, repeated, left out and taken from other inputs.

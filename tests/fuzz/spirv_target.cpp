@@ -6,11 +6,11 @@
 
 namespace gobo::fuzz {
 
-void read_spirv(std::string_view input) {
+bool read_spirv(std::string_view input) {
     const std::vector<std::uint32_t> words = words_of(input);
     const Result<spirv::Module> module = spirv::read_module(words);
-    if (!is_value(module)) return;
-    static_cast<void>(is_value(reflect_stage(*module, spirv::usage_of(*module))));
+    if (!is_value(module)) return false;
+    return is_value(reflect_stage(*module, spirv::usage_of(*module)));
 }
 
 }  // namespace gobo::fuzz
