@@ -25,7 +25,7 @@ for target in "${targets[@]}"; do
   case $target in family | header) seeds=(tests/errors/cases) ;; esac
   case $target in family | condition | selection | compose | header | names | declarations) words=(-dict=tests/fuzz/words.dict) ;; esac
   log="$build/found/$target.log"
-  processor=$({ time "$build/fuzz/fuzz_$target" -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=20 -print_final_stats=1 -max_len=65536 "${words[@]}" \
+  processor=$({ time "$build/fuzz/fuzz_$target" -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=120 -print_final_stats=1 -max_len=65536 "${words[@]}" \
     -artifact_prefix="$build/found/$target/" "$build/corpus/$target" "tests/fuzz/corpus/$target" "${seeds[@]}" >"$log" 2>&1; } 2>&1) || status=$?
   last() { grep -oE "$1: [0-9]+" "$log" | tail -n 1 | cut -d ' ' -f 2; }
   found=$(find "$build/found/$target" -type f | wc -l)
