@@ -136,7 +136,8 @@ std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Dr
     std::vector<std::string> offers;
     if (std::ranges::any_of(scene.materials, needs_physical))
         offers.emplace_back("draws its textures and metals as they are");
-    if (scene.has_no_light) offers.emplace_back("lights it with a studio, as it has no light");
+    if (scene.has_no_light && !scene.meshes.empty())
+        offers.emplace_back("lights it with a studio, as it has no light");
     if (!scene.is_physical && !offers.empty())
         notes.push_back(fmt::format("{}: family pbr {}", scene.path, fmt::join(offers, " and ")));
     for (std::string& note : notes) note = one_line(note);

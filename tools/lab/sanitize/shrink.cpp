@@ -48,6 +48,7 @@ class Shrinking {
 
     Finding run() {
         if (!shows()) return wanted_;
+        clear(space_.fields);
         bool is_simpler = true;
         for (int round = 0; round < kMostRounds && is_simpler; ++round) {
             is_simpler = false;
@@ -78,13 +79,12 @@ class Shrinking {
         return true;
     }
 
-    /// Changes the numbers of all fields, or of one, if that makes the point simpler and it still shows the
-    /// finding.
+    /// Changes the numbers of some fields if that makes the point simpler and it still shows the finding.
     template <class Change>
-    bool attempt(const Change& change, const InputField* only = nullptr) {
+    bool attempt(const Change& change, std::span<const InputField> fields) {
         const std::vector<double> before = point_.values;
-        for (const InputField& field : space_.fields) {
-            if ((only != nullptr && only != &field) || field.is_pixel_place()) continue;
+        for (const InputField& field : fields) {
+            if (field.is_pixel_place()) continue;
             change(numbers_of(field));
             bring_into_domain(field, numbers_of(field));
         }
@@ -94,16 +94,29 @@ class Shrinking {
         return false;
     }
 
+    /// Most of what a large shader reads does not matter: it becomes 0 in halves, quarters and so on, where
+    /// all of such a part can.
+    void clear(std::span<const InputField> fields) {
+        const auto to_zeros = [](std::span<double> numbers) { std::ranges::fill(numbers, 0.0); };
+        if (fields.size() < 2 || attempt(to_zeros, fields)) return;
+        clear(fields.first(fields.size() / 2));
+        clear(fields.subspan(fields.size() / 2));
+    }
+
     /// What needs two inputs to be equal, or opposed, keeps them so: they change together.
     bool simplify_equal_numbers() {
         bool is_simpler = false;
         for (std::size_t i = 0; i < space_.numbers; ++i) {
             const double number = point_.values[i];
+            const auto is_equal = [&](double other) { return std::abs(other) == std::abs(number); };
+            if (number == 0 || std::ranges::count_if(point_.values, is_equal) < 2) continue;
             for (const double simple : {1.0, 2.0, rounded(number, 1), rounded(number, 2), rounded(number, 3)})
-                is_simpler |= attempt([&](std::span<double> numbers) {
-                    for (double& other : numbers)
-                        if (std::abs(other) == std::abs(number)) other = other == number ? simple : -simple;
-                });
+                is_simpler |= attempt(
+                    [&](std::span<double> numbers) {
+                        for (double& other : numbers)
+                            if (is_equal(other)) other = other == number ? simple : -simple;
+                    },
+                    space_.fields);
         }
         return is_simpler;
     }
@@ -114,7 +127,7 @@ class Shrinking {
         const auto attempt_all = [&](const std::vector<double>& simple) {
             return attempt(
                 [&](std::span<double> numbers) { std::copy(simple.begin(), simple.end(), numbers.begin()); },
-                &field);
+                {&field, 1});
         };
         bool is_simpler = attempt_all(std::vector<double>(count, 0.0));
         is_simpler |= attempt_all(std::vector<double>(count, 1.0));
@@ -147,7 +160,7 @@ class Shrinking {
         std::vector<double> candidates = {0, 1, -1, number < 0 ? -2.0 : 2.0};
         for (int digits = 1; digits <= 6; ++digits) candidates.push_back(rounded(number, digits));
         return std::any_of(candidates.begin(), candidates.end(), [&](double candidate) {
-            return attempt([&](std::span<double> numbers) { numbers[component] = candidate; }, &field);
+            return attempt([&](std::span<double> numbers) { numbers[component] = candidate; }, {&field, 1});
         });
     }
 
