@@ -60,6 +60,7 @@ struct Owner {
 
 // By the registries of OpenGL, OpenGL ES and Vulkan; the first that fits.
 constexpr std::array kOwners = {
+    Owner{"GL_AMD_*", ExtensionOf::desktop},
     Owner{"GL_ANDROID_*", ExtensionOf::es},
     Owner{"GL_ARB_*", ExtensionOf::desktop},
     Owner{"GL_EXT_YUV_target", ExtensionOf::es},
@@ -89,18 +90,22 @@ constexpr std::array kOwners = {
     Owner{"GL_EXT_subgroupuniform_qualifier", ExtensionOf::vulkan},
     Owner{"GL_EXT_terminate_invocation", ExtensionOf::vulkan},
     Owner{"GL_EXT_tessellation_*", ExtensionOf::es},
+    Owner{"GL_EXT_texture_array", ExtensionOf::desktop},
     Owner{"GL_EXT_texture_buffer", ExtensionOf::es},
     Owner{"GL_EXT_texture_cube_map_array", ExtensionOf::es},
     Owner{"GL_GOOGLE_*", ExtensionOf::tools},
+    Owner{"GL_INTEL_shader_atomic_float_minmax", ExtensionOf::desktop},
     Owner{"GL_KHR_memory_scope_semantics", ExtensionOf::vulkan},
     Owner{"GL_KHR_vulkan_glsl", ExtensionOf::vulkan},
+    Owner{"GL_NV_shader_atomic_float*", ExtensionOf::desktop},
     Owner{"GL_OES_*", ExtensionOf::es},
 };
 
 // Those whose functions no version took in, by the same registries.
-constexpr std::array<std::string_view, 30> kNeverCore = {
+constexpr std::array<std::string_view, 33> kNeverCore = {
     "GL_AMD_*",
     "GL_ARB_bindless_texture",
+    "GL_ARB_compatibility",
     "GL_ARB_fragment_shader_interlock",
     "GL_ARB_gpu_shader_int64",
     "GL_ARB_post_depth_coverage",
@@ -120,10 +125,12 @@ constexpr std::array<std::string_view, 30> kNeverCore = {
     "GL_EXT_shader_image_load_formatted",
     "GL_EXT_shader_non_constant_global_initializers",
     "GL_EXT_shader_pixel_local_storage*",
+    "GL_EXT_texture_shadow_lod",
     "GL_IMG_*",
     "GL_INTEL_*",
     "GL_KHR_blend_equation_advanced*",
     "GL_KHR_shader_subgroup*",
+    "GL_MESA_*",
     "GL_NVX_*",
     "GL_NV_*",
     "GL_OES_EGL_image_external*",

@@ -267,7 +267,7 @@ Diagnostics GlslangStage::parse() {
     // Vulkan's language is what glslang takes.
     if (dialect_ != Dialect::vulkan) {
         const ActiveText text = active_text(pieces_, dialect_);
-        stated_ = stated_in(text);
+        stated_ = stated_in(text, default_precisions(kind_, pieces_.front()->text));
         more = check_language(kind_, pieces_, text, dialect_);
         std::ranges::move(more, std::back_inserter(found));
     }

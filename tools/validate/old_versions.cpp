@@ -34,6 +34,23 @@ constexpr std::array<std::string_view, 13> kUnknownToGlslang = {
     "GL_ARB_texture_query_levels", "GL_EXT_texture_array",    "GL_AMD_vertex_shader_layer",
     "GL_EXT_clip_cull_distance"};
 
+/// Extensions that drivers have and glslang does not know, nor what they bring: a stage may require them, and
+/// use what glslang knows.
+constexpr std::array<std::string_view, 14> kOnlyOfDrivers = {"GL_AMD_gpu_shader_int64",
+                                                             "GL_AMD_shader_stencil_export",
+                                                             "GL_AMD_texture_texture4",
+                                                             "GL_AMD_vertex_shader_viewport_index",
+                                                             "GL_ARB_ES3_2_compatibility",
+                                                             "GL_ARB_shader_subroutine",
+                                                             "GL_ARM_shader_framebuffer_fetch_depth_stencil",
+                                                             "GL_EXT_draw_instanced",
+                                                             "GL_EXT_shader_framebuffer_fetch",
+                                                             "GL_EXT_shader_framebuffer_fetch_non_coherent",
+                                                             "GL_EXT_texture_shadow_lod",
+                                                             "GL_INTEL_shader_atomic_float_minmax",
+                                                             "GL_MESA_shader_integer_functions",
+                                                             "GL_NV_shader_atomic_float"};
+
 /// The lowest version that has what this one has and of which glslang makes SPIR-V.
 std::string raised_version(const GlslVersion& version) {
     // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
@@ -131,11 +148,13 @@ std::string raised_for_spirv(std::string_view prologue, const std::string& funct
 }
 
 std::string without_requirements(std::string prologue) {
-    for (const std::string_view extension : kUnknownToGlslang) {
+    const auto relax = [&](std::string_view extension) {
         const std::string required = fmt::format("#extension {} : require\n", extension);
         if (const auto at = prologue.find(required); at != std::string::npos)
             prologue.replace(at, required.size(), fmt::format("#extension {} : enable\n", extension));
-    }
+    };
+    std::ranges::for_each(kUnknownToGlslang, relax);
+    std::ranges::for_each(kOnlyOfDrivers, relax);
     return prologue;
 }
 

@@ -1,9 +1,11 @@
 #include "validate/stated.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "compose/dialect.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -17,7 +19,8 @@ struct Range {
 
 class Statements {
   public:
-    explicit Statements(const ActiveText& text) : text_(text) {}
+    Statements(const ActiveText& text, DefaultPrecisions precisions)
+        : text_(text), precisions_(std::move(precisions)) {}
 
     Stated run() {
         std::size_t begin = 0;
@@ -37,6 +40,9 @@ class Statements {
                 if (is_varying || has(whole, "varying") || has(whole, "uniform"))
                     add_names(whole, has(whole, "smooth") ? "smooth" : "", "");
                 if (is_varying && !has(whole, "location")) add_names(whole, "free", "");
+                if (is_varying) add_precisions(whole, "");
+                if (i == begin + 3 && at(begin) == "precision" && !precisions_.empty())
+                    precisions_[at(i - 1)] = at(i - 2);
                 begin = i + 1;
             }
         }
@@ -73,21 +79,30 @@ class Statements {
     }
 
     /// The names that a declaration declares: `vec3 a, b[2] = ...;`, not what stands in brackets.
-    void add_names(Range range, std::string_view word, const std::string& block) {
-        if (has(range, "{")) return;  // with a struct of its own
+    [[nodiscard]] std::vector<std::size_t> names_in(Range range) const {
+        std::vector<std::size_t> names;
+        if (has(range, "{")) return names;  // with a struct of its own
         int brackets = 0;
         for (std::size_t i = range.begin; i < range.end; ++i) {
             const std::string_view token = at(i);
-            if (text_.is_macro(i)) return;
+            if (text_.is_macro(i)) break;
             if (token == "(" || token == "[") ++brackets;
             if (token == ")" || token == "]") --brackets;
             const std::string_view next = i + 1 < range.end ? at(i + 1) : ";";
-            const bool is_name = brackets == 0 && is_identifier(token) &&
-                                 (next == ";" || next == "," || next == "[" || next == "=");
-            if (!is_name) continue;
-            const std::string path = block.empty() ? std::string(token) : fmt::format("{}.{}", block, token);
+            if (brackets == 0 && is_identifier(token) &&
+                (next == ";" || next == "," || next == "[" || next == "="))
+                names.push_back(i);
+        }
+        return names;
+    }
+    [[nodiscard]] std::string path_of(std::size_t name, std::string_view block) const {
+        return block.empty() ? std::string(at(name)) : fmt::format("{}.{}", block, at(name));
+    }
+    void add_names(Range range, std::string_view word, std::string_view block) {
+        for (const std::size_t i : names_in(range)) {
+            const std::string path = path_of(i, block);
             add(path, word);
-            if (next == "[" && at(i + 2) == "]" && at(i + 3) != "=") add(path, "[]");
+            if (at(i + 1) == "[" && at(i + 2) == "]" && at(i + 3) != "=") add(path, "[]");
         }
     }
 
@@ -95,9 +110,40 @@ class Statements {
         std::size_t begin = body.begin;
         for (std::size_t i = body.begin; i < body.end; ++i) {
             if (at(i) != ";") continue;
-            for (const char* precision : {"highp", "mediump", "lowp"})
-                if (has({begin, i}, precision)) add_names({begin, i}, precision, name);
+            const Range member{begin, i};
+            add_names(member, precision_in(member), name);
+            add_precisions(member, name);
             begin = i + 1;
+        }
+        const auto first = stated_.lower_bound(name + ".");
+        if (first != stated_.end() && first->first.starts_with(name + ".")) precise_.insert(name);
+    }
+    /// That of a member, by default too; empty where none is stated.
+    [[nodiscard]] std::string_view precision_in(Range member) const {
+        for (std::size_t i = member.begin; i < member.end; ++i) {
+            const std::string_view token = at(i);
+            if (token == "highp" || token == "mediump" || token == "lowp") return token;
+            const bool is_float = token == "float" || token.starts_with("vec") || token.starts_with("mat");
+            const bool is_int =
+                token == "int" || token == "uint" || token.starts_with("ivec") || token.starts_with("uvec");
+            if (!is_float && !is_int) continue;
+            const auto by_default = precisions_.find(is_float ? "float" : "int");
+            return by_default == precisions_.end() ? std::string_view() : by_default->second;
+        }
+        return {};
+    }
+    /// Of what is of a struct, the precisions of its members.
+    void add_precisions(Range range, std::string_view block) {
+        if (precise_.empty()) return;
+        for (std::size_t type = range.begin; type < range.end; ++type) {
+            if (!precise_.contains(at(type))) continue;
+            const std::string from = std::string(at(type)) + ".";
+            for (const std::size_t name : names_in({type + 1, range.end}))
+                for (auto of = stated_.lower_bound(from); of != stated_.end() && of->first.starts_with(from);
+                     ++of)
+                    add(fmt::format("{}.{}", path_of(name, block), of->first.substr(from.size())),
+                        of->second);
+            return;
         }
     }
 
@@ -139,6 +185,7 @@ class Statements {
                 add_names(member, "smooth", block);
             if (has(member, "offset") || has(member, "align") || has(head, "align"))
                 add_names(member, "offset", block);
+            if (has(head, "in") || has(head, "out")) add_precisions(member, block);
             const std::string_view own = location_in(member);
             if (!own.empty() && location.empty()) add_names(member, "located", block);
             if (begin == body.begin && !location.empty() && !own.empty() && own != location)
@@ -149,6 +196,8 @@ class Statements {
 
     const ActiveText& text_;
     std::map<std::string_view, std::string_view> defaults_;  ///< layouts of "uniform" and "buffer"
+    DefaultPrecisions precisions_;
+    std::set<std::string, std::less<>> precise_;  ///< structs of whose members precisions are known
     Stated stated_;
 };
 
@@ -162,8 +211,14 @@ void set_precisions(const std::string& type, std::vector<Member>& members, const
 
 }  // namespace
 
-Stated stated_in(const ActiveText& text) {
-    return Statements(text).run();
+DefaultPrecisions default_precisions(StageKind kind, std::string_view prologue) {
+    if (!version_of(prologue).es || prologue.find("precision ") != std::string_view::npos) return {};
+    if (kind == StageKind::fragment) return {{"int", "mediump"}};
+    return {{"float", "highp"}, {"int", "highp"}};
+}
+
+Stated stated_in(const ActiveText& text, DefaultPrecisions precisions) {
+    return Statements(text, std::move(precisions)).run();
 }
 
 void set_stated(Interface& interface, const Stated& stated) {
@@ -182,8 +237,10 @@ void set_stated(Interface& interface, const Stated& stated) {
             const std::string path = without_indices(variable.name);
             const std::size_t dot = path.find('.');
             const bool is_of_block = variable.whole == Whole::block && dot != std::string::npos;
-            set(path.substr(0, is_of_block ? path.find('.', dot + 1) : dot), variable.usage,
-                &variable.location);
+            const std::size_t member = is_of_block ? path.find('.', dot + 1) : dot;  // of a struct
+            set(path.substr(0, member), variable.usage, &variable.location);
+            if (const auto found = stated.find(path); found != stated.end() && member != std::string::npos)
+                variable.usage.precision = found->second;
         }
     for (auto* const blocks : {&interface.blocks, &interface.storage_blocks})
         for (Block& block : *blocks) {

@@ -14,19 +14,26 @@ namespace gobo {
 /// - "smooth" of an input or output
 /// - "[]" of an array without a size
 /// - "offset" of a member whose place its block states by offset or align
-/// - "highp", "mediump" or "lowp" of a struct's member, "Lamp.color" of the struct's own name
+/// - "highp", "mediump" or "lowp" of a struct's member, "Lamp.color" of the struct's own name, and of what a
+///   stage hands on in it, "lamps.color" or "Surface.lamp.color"
 /// - "located" of a block's member that states its own location, and its block none
 /// - "std140", "std430", "shared" or "packed" of a uniform or storage block: its layout, by default too
 /// - "free" of a block without binding, and of an input or output without location
 /// - "apart" of a block's first member that stands at another location than its block
 using Stated = std::map<std::string, std::string, std::less<>>;
 
+/// By "float" and "int"; nothing on the desktop, where a precision is what is written.
+using DefaultPrecisions = std::map<std::string_view, std::string_view>;
+
+/// Those before a stage states any; nothing either where its prologue does.
+[[nodiscard]] DefaultPrecisions default_precisions(StageKind kind, std::string_view prologue);
+
 /// Those of a stage's active text; nothing of declarations in which macros stand.
-[[nodiscard]] Stated stated_in(const ActiveText& text);
+[[nodiscard]] Stated stated_in(const ActiveText& text, DefaultPrecisions precisions);
 
 /// Takes away the bindings and locations of what is free, which glslang gives what it links with others. The
 /// rest it puts into Usage::stated of variables, members of blocks, uniforms and samplers, and precisions
-/// into Usage::precision of the members of uniforms: on the desktop they make two types of a struct.
+/// into Usage::precision of the members of structs, of which they make two types.
 void set_stated(Interface& interface, const Stated& stated);
 
 }  // namespace gobo

@@ -1,5 +1,6 @@
 // What one stage hands to the next: matched by location or by name, and of one type, interpolated alike.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -44,6 +45,29 @@ std::vector<int> extents_of(const Variable& variable) {
     std::vector<int> extents = variable.array;
     if (states(variable, "[]") && variable.usage.unused && !extents.empty()) extents.front() = 0;
     return extents;
+}
+
+/// Whether the precisions of the members of its struct are compared: in arrays and in blocks they make two
+/// types of it.
+bool has_precise_type(const Variable& variable) {
+    const std::string_view after = std::string_view(variable.name).substr(root_of(variable.name).size());
+    return variable.whole == Whole::block || (variable.whole == Whole::structure && after.starts_with('['));
+}
+
+/// Whether the members of a block that states one location leave others free between them.
+bool has_gaps(const std::vector<Variable>& list, std::string_view block) {
+    std::map<int, int> ends;  // by where they begin
+    for (const Variable& member : list)
+        if (root_of(member.name) == block) {
+            int& end = ends[member.location];
+            end = std::max(end, member.location + location_count(member.type, member.array));
+        }
+    int expected = ends.empty() ? 0 : ends.begin()->first;
+    for (const auto& [begin, end] : ends) {
+        if (begin > expected) return true;
+        expected = std::max(expected, end);
+    }
+    return false;
 }
 
 class VaryingCheck {
@@ -133,17 +157,22 @@ class VaryingCheck {
     }
 
     void check_pair() {
-        std::set<std::string_view> told;  // of a struct or block one member will do
+        std::set<std::string_view> refused;  // of a struct or block one member will do
+        std::set<std::string_view> warned;
         for (const Variable& input : later_->interface.inputs) {
+            if (refused.contains(root_of(input.name))) continue;
             const auto output = std::ranges::find_if(earlier_->interface.outputs,
                                                      [&](const Variable& one) { return match(input, one); });
             const std::size_t before = found_.size();
-            if (told.contains(root_of(input.name))) continue;
             if (output != earlier_->interface.outputs.end())
                 check_varying(input, *output);
             else if (!input.usage.unused)
                 check_missing(input);
-            if (found_.size() > before) told.insert(root_of(input.name));
+            if (found_.size() == before) continue;
+            if (found_.back().severity == Severity::error)
+                refused.insert(root_of(input.name));
+            else if (!warned.insert(root_of(input.name)).second)
+                found_.resize(before);
         }
     }
 
@@ -190,6 +219,17 @@ class VaryingCheck {
         if (input.type != output.type || extents != other_extents)
             return differ(Severity::error, with_extents(input.type, extents),
                           with_extents(output.type, other_extents), "", "declare it alike in both stages");
+        const std::string& precision = input.usage.precision;
+        const std::string& other_precision = output.usage.precision;
+        const bool is_known = !version_.es || (!precision.empty() && !other_precision.empty());
+        if (is_known && precision != other_precision && has_precise_type(input)) {
+            const auto text = [](const std::string& stated) {
+                return stated.empty() ? "without precision" : stated;
+            };
+            return differ(Severity::error, text(precision), text(other_precision),
+                          ": it belongs to the type of its struct",
+                          "declare the struct once, in a piece that both stages include");
+        }
         const bool is_of_block = input.whole == Whole::block;
         if (input.patch != output.patch)
             return differ(Severity::error, input.patch ? "patch" : "not patch",
@@ -207,7 +247,9 @@ class VaryingCheck {
                           output.interpolation.invariant ? "invariant" : "not",
                           ": before GLSL 4.20 both stages must agree", "write invariant in both stages");
         if (is_of_block && input.location >= 0 && input.usage.anonymous != output.usage.anonymous &&
-            (states(input, "located") || !is_only_member(output)))
+            (states(input, "located") ||
+             (input.usage.anonymous && states(input, "apart") && states(output, "apart")) ||
+             !is_only_member(output)))
             return differ(Severity::error, input.usage.anonymous ? "of no instance" : "of an instance",
                           output.usage.anonymous ? "of none" : "of one", ", and their block states locations",
                           "name an instance in both stages, or in neither");
@@ -221,6 +263,13 @@ class VaryingCheck {
                 fmt::format("the block of '{}' states one location, and its first member another",
                             input.name),
                 "state the members' locations alone");
+        else if (is_of_block && input.location >= 0 && !input.usage.anonymous && !input.usage.unused &&
+                 !input.per_vertex && !states(input, "located") &&
+                 has_gaps(later_->interface.inputs, root_of(input.name)))
+            add(in_later(root_of(input.name), ""), Severity::error,
+                fmt::format("the block '{}' states a location, and its members leave some free between them",
+                            root_of(input.name)),
+                "state the members' locations alone, some drivers take no others");
         if (!input.usage.unused && !output.usage.access.empty())
             return add(in_later(input.name, input.type), Severity::error,
                        fmt::format("the {} stage reads {}, which belongs to {} of the {} stage",
