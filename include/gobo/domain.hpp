@@ -141,5 +141,18 @@ void check_member(std::vector<OutOfRange>& found, std::string_view path, std::in
     check_numbers(found, path, indices, components, range);
 }
 
+/// The same of one component of a vector, which the path names.
+template <class Member>
+void check_component(std::vector<OutOfRange>& found, std::string_view path,
+                     std::initializer_list<int> indices, const Member& member, int component,
+                     const Range& range) {
+    Components all;
+    all.add(member);
+    Components one;
+    one.are_single = all.are_single;
+    one.values[one.count++] = all.values[component];
+    check_numbers(found, path, indices, one, range);
+}
+
 }  // namespace runtime
 }  // namespace gobo

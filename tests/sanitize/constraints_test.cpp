@@ -44,6 +44,12 @@ const Row kRows[] = {
      "normalize() of a zero vector"},
     {"inverse_transpose", "color.rgb = normalize(normalMatrix * vec3(1.0, 0.0, 0.0));",
      "inverse_transpose_of(normalMatrix, modelView)", "normalize() of a zero vector"},
+    {"component_and_number", "color.r = sqrt(v.y - 0.5);", "v.y >= 0.5", "sqrt() of a negative number"},
+    {"component_is_not", "color.r = 1.0 / v.b;", "v.z != 0", "division by zero"},
+    {"two_components", "color.r = sqrt(v.z - v.y);", "v.y <= v.z", "sqrt() of a negative number"},
+    {"component_and_input", "color.r = 1.0 / (far - v.y);", "v.g < far", "division by zero"},
+    {"component_of_elements", "color.r = log(directions[1].y);", "directions[].y > 0",
+     "log() of a number not above 0"},
     {"of_elements", "color.rgb = normalize(directions[1]);", "unit(directions[])",
      "normalize() of a zero vector"},
 };
@@ -105,6 +111,9 @@ TEST(Contracts, ThatContradictOneAnotherAreErrors) {
     const std::vector<std::vector<std::string>> contradictory = {{"near < far", "far < near"},
                                                                  {"near < far", "far <= near"},
                                                                  {"near > 200"},
+                                                                 {"v.y > 200"},
+                                                                 {"v.y < v.z", "v.z < v.y"},
+                                                                 {"v.y < v.y"},
                                                                  {"near < near"},
                                                                  {"near != near"},
                                                                  {"near > 5", "far < 5", "near < far"}};
@@ -117,6 +126,26 @@ TEST(Contracts, OfAnotherFormAreNone) {
     for (const char* text : {"near == far", "near < far < 2", "2 * near < far", "1 < 2", "near <", "= far",
                              "abs(near) < 1", "unit(normal, v)", "unit(3)", "nonzero(v)", "near"})
         EXPECT_FALSE(constraint_of(text)) << text;
+}
+
+/// A component may have a range of its own: what only the others reach is found still.
+TEST(DomainOfAComponent, IsKeptBesideThatOfTheWhole) {
+    Domain whole;
+    whole.name = "v";
+    whole.low = -2;
+    whole.high = 2;
+    Domain second;
+    second.name = "v.y";
+    second.low = 0.25;
+    second.high = 0.5;
+    const std::string within = "color.r = sqrt(v.y - 0.25) + sqrt(0.5 - v.y) + sqrt(v.x + 2.0) ";
+    EXPECT_EQ(found_lines(sanitized_text("contract.frag", shader_with(within + ";"), {}, {whole, second})),
+              Lines{});
+    for (const char* beyond : {"+ sqrt(v.y - 0.26);", "+ sqrt(0.49 - v.y);", "+ sqrt(1.9 - v.x);"})
+        EXPECT_EQ(
+            found_lines(sanitized_text("contract.frag", shader_with(within + beyond), {}, {whole, second})),
+            Lines{"8: sqrt() of a negative number"})
+            << beyond;
 }
 
 /// A matrix of neither zeros nor ones.

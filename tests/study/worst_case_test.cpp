@@ -204,6 +204,19 @@ TEST(WorstCase, OfANormalInMediumpIsItsRounding) {
     EXPECT_LT(found[0].error, 0x1p-11);
 }
 
+TEST(WorstCase, KeepsWhatIsStatedOfAComponent) {
+    Domain depth;
+    depth.name = "eyePosition.z";
+    depth.low = -20;
+    depth.high = -10;
+    for (const WorstCase& one : searched({"point=1 fog=linear"}, {depth}, 512)) {
+        const auto position = one.input.inputs.find("eyePosition");
+        if (position == one.input.inputs.end()) continue;
+        EXPECT_GE(position->second.at(2), -20) << quality_text(lit_under_study().family, one.key);
+        EXPECT_LE(position->second.at(2), -10) << quality_text(lit_under_study().family, one.key);
+    }
+}
+
 TEST(WorstCase, OfAVariableInMediumpIsFoundWhereItOverflows) {
     EXPECT_TRUE(
         std::isinf(with_mediump("directional=1", "total").value().at(0).error));  // light above 65,504

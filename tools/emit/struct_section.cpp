@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
+#include "family/constraint.hpp"
 #include "spirv/glsl_type.hpp"
 
 namespace gobo {
@@ -121,6 +122,16 @@ struct StructText {
         assertions += fmt::format("static_assert(sizeof({}) == {});\n", name, size);
     }
 };
+
+constexpr std::string_view kComponents = "xyzw";
+
+std::string range_text(const Domain& domain) {
+    std::string text =
+        fmt::format("{}[{}, {}]", domain.of_length ? "length in " : "", domain.low, domain.high);
+    for (const double value : domain.also) text += fmt::format(", or {}", value);
+    if (!domain.last.empty()) text += fmt::format("; last [{}, {}]", domain.last[0], domain.last[1]);
+    return text;
+}
 
 const Domain* domain_of(const std::vector<Domain>& domains, const std::string& path) {
     const auto name = [](const Domain& domain) { return without_indices(domain.name); };
@@ -322,14 +333,24 @@ struct Spot {
 
 /// A call for the member's numbers; nothing where the family declares no range for them.
 std::string number_check(const Spot& spot, const std::vector<Domain>& domains) {
-    const Domain* domain = domain_of(domains, spot.path);
-    if (domain == nullptr) return {};
-    const std::string text = (domain->of_length ? "a " : "") + domain_text(domains, spot.path);
-    return fmt::format(
-        "{0}gobo::runtime::check_member(found, {1}, {{{2}}}, {3},\n{0}                            "
-        "{{{4}, {5}, {6}, {{{7}}}, {8}}});\n",
-        spot.indent(), cpp_literal(spot.path), fmt::join(spot.indices, ", "), spot.expression, domain->low,
-        domain->high, domain->of_length, fmt::join(domain->also, ", "), cpp_literal(text));
+    std::string checks;
+    const auto add = [&](const Domain& domain, std::string_view component, std::string_view call,
+                         const std::string& what) {
+        const std::string path = fmt::format("{}{}", spot.path, component);
+        const std::string text = (domain.of_length ? "a " : "") + range_text(domain);
+        checks += fmt::format(
+            "{0}gobo::runtime::check_{9}(found, {1}, {{{2}}}, {3},\n{0}                            "
+            "{{{4}, {5}, {6}, {{{7}}}, {8}}});\n",
+            spot.indent(), cpp_literal(path), fmt::join(spot.indices, ", "), what, domain.low, domain.high,
+            domain.of_length, fmt::join(domain.also, ", "), cpp_literal(text), call);
+    };
+    if (const Domain* const domain = domain_of(domains, spot.path))
+        add(*domain, "", "member", spot.expression);
+    for (std::size_t i = 0; i < kComponents.size(); ++i)
+        if (const Domain* const own = domain_of_component(domains, spot.path, i))
+            add(*own, fmt::format(".{}", kComponents[i]), "component",
+                fmt::format("{}, {}", spot.expression, i));
+    return checks;
 }
 
 /// The checks of a member, within a loop for each extent of its array; `count` is the outermost loop's bound
@@ -389,13 +410,12 @@ std::optional<CppMemberType> cpp_type_of(const Member& member) {
 }
 
 std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
-    const Domain* domain = domain_of(domains, path);
-    if (domain == nullptr) return {};
-    std::string text =
-        fmt::format("{}[{}, {}]", domain->of_length ? "length in " : "", domain->low, domain->high);
-    for (const double value : domain->also) text += fmt::format(", or {}", value);
-    if (!domain->last.empty()) text += fmt::format("; last [{}, {}]", domain->last[0], domain->last[1]);
-    return text;
+    std::vector<std::string> parts;
+    if (const Domain* const domain = domain_of(domains, path)) parts.push_back(range_text(*domain));
+    for (std::size_t i = 0; i < kComponents.size(); ++i)
+        if (const Domain* const own = domain_of_component(domains, path, i))
+            parts.push_back(fmt::format("{} {}", kComponents[i], range_text(*own)));
+    return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 namespace {

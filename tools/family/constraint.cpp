@@ -62,6 +62,23 @@ std::optional<Constraint> comparison_of(std::string_view text) {
 
 }  // namespace
 
+std::optional<ComponentName> component_name(std::string_view name) {
+    constexpr std::string_view kLetters = "xyzwrgbastpq";
+    if (name.size() < 3 || name[name.size() - 2] != '.') return std::nullopt;
+    const auto at = kLetters.find(name.back());
+    if (at == std::string_view::npos) return std::nullopt;
+    return ComponentName{std::string(name.substr(0, name.size() - 2)), at % 4};
+}
+
+const Domain* domain_of_component(const std::vector<Domain>& domains, std::string_view name,
+                                  std::size_t component) {
+    const auto found = std::ranges::find_if(domains, [&](const Domain& domain) {
+        const auto part = component_name(domain.name);
+        return part && part->component == component && part->of == name;
+    });
+    return found == domains.end() ? nullptr : &*found;
+}
+
 bool is_constraint(std::string_view text) {
     return text.find_first_of("<>=!(") != std::string_view::npos;
 }

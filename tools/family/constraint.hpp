@@ -40,6 +40,17 @@ inline constexpr std::string_view kConstraintHelp =
     "write a comparison of two inputs, or of one and a number, with <, <=, >, >= or != (near < far, "
     "a >= 0.5), or unit(), not_zero(), distinct(,), orthonormal(), inverse_transpose_of(,)";
 
+/// A component of a vector by its name in GLSL: "place.x" or "Fog.color.r".
+struct ComponentName {
+    std::string of;
+    std::size_t component = 0;  ///< from 0
+};
+/// Nothing where the name ends otherwise.
+[[nodiscard]] std::optional<ComponentName> component_name(std::string_view name);
+/// The range that [domain] states of a component of the vector of that name, if any.
+[[nodiscard]] const Domain* domain_of_component(const std::vector<Domain>& domains, std::string_view name,
+                                                std::size_t component);
+
 /// Whether the text is meant as one: no name of an input holds such signs.
 [[nodiscard]] bool is_constraint(std::string_view text);
 /// Nothing where it is none that is known.

@@ -132,12 +132,29 @@ Domain read_domain(TomlReader& reader, std::string name, const toml::node& node)
     return domain;
 }
 
+/// A component's range is a part of that of the whole, where one is stated.
+void check_components(TomlReader& reader, const std::vector<Domain>& domains) {
+    for (const Domain& domain : domains) {
+        const auto part = component_name(domain.name);
+        const auto whole = part ? std::ranges::find(domains, part->of, &Domain::name) : domains.end();
+        if (whole == domains.end()) continue;
+        if (whole->of_length)
+            reader.error(domain.place, fmt::format("the range of '{}' is one of its length", part->of),
+                         "state the length's range alone, or that of each component");
+        else if (!is_within(domain, *whole))
+            reader.error(domain.place,
+                         fmt::format("'{}' may hold more here than '{}'", domain.name, part->of),
+                         "a component's range is a part of that of the whole");
+    }
+}
+
 /// Sorted by name, as TOML tables are.
 std::vector<Domain> read_domains(const TomlTable& root) {
     std::vector<Domain> domains;
     if (const auto table = root.table("domain"))
         for (const auto& [key, node] : table->entries)
             domains.push_back(read_domain(root.reader, std::string(key.str()), node));
+    check_components(root.reader, domains);
     return domains;
 }
 
@@ -430,7 +447,15 @@ bool is_within(const Domain& narrower, const Domain& domain) {
 Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower) {
     Diagnostics errors;
     for (const Domain& domain : narrower) {
-        const auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
+        auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
+        if (const auto part = component_name(domain.name); part && own == family.domains.end()) {
+            // A component's range is within that of the whole.
+            const auto whole = std::ranges::find(family.domains, part->of, &Domain::name);
+            if (whole != family.domains.end() && !whole->of_length && is_within(domain, *whole)) {
+                family.domains.push_back(domain);
+                continue;
+            }
+        }
         if (own == family.domains.end() && is_constraint(domain.name)) {
             errors.push_back(
                 {.place = domain.place,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "family/constraint.hpp"
 
 namespace gobo {
 namespace {
@@ -131,13 +132,21 @@ std::string with_shown_extents(std::string_view path) {
     return text;
 }
 
+/// "ivec3" has 3.
+std::size_t components_of(std::string_view vector_type) {
+    return static_cast<std::size_t>(vector_type.back() - '0');
+}
+
 }  // namespace
 
-void DeclaredNames::add(const std::string& path, const std::vector<int>& extents,
+void DeclaredNames::add(const std::string& path, const std::string& type, const std::vector<int>& extents,
                         const std::vector<Member>& members) {
     const std::string here = with_extents(path, extents);
     if (members.empty()) names_.push_back(here);
-    for (const Member& member : members) add(here + "." + member.name, member.array, member.members);
+    if (members.empty() && type.find("vec") != std::string::npos)
+        vectors_.emplace_back(here, components_of(type));
+    for (const Member& member : members)
+        add(here + "." + member.name, member.type, member.array, member.members);
 }
 
 void DeclaredNames::add(const Interface& interface) {
@@ -145,11 +154,12 @@ void DeclaredNames::add(const Interface& interface) {
         for (const Block& block : *blocks) {
             for (const Member& member : block.members) {
                 if (block.usage.anonymous) members_.insert(member.name);
-                add(fmt::format("{}.{}", with_shown_extents(block.name), member.name), member.array,
-                    member.members);
+                add(fmt::format("{}.{}", with_shown_extents(block.name), member.name), member.type,
+                    member.array, member.members);
             }
         }
-    for (const Uniform& uniform : interface.uniforms) add(uniform.name, uniform.array, uniform.members);
+    for (const Uniform& uniform : interface.uniforms)
+        add(uniform.name, uniform.type, uniform.array, uniform.members);
     for (const Sampler& sampler : interface.samplers) {
         const std::string path = with_extents(with_shown_extents(sampler.name), sampler.array);
         for (const std::string_view part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
@@ -157,7 +167,7 @@ void DeclaredNames::add(const Interface& interface) {
     }
     for (const auto* const variables : {&interface.inputs, &interface.outputs})
         for (const Variable& variable : *variables)
-            add(with_shown_extents(variable.name), variable.array, {});
+            add(with_shown_extents(variable.name), variable.type, variable.array, {});
 }
 
 bool DeclaredNames::has_root(std::string_view name) const {
@@ -171,6 +181,11 @@ bool DeclaredNames::begins_with_member(std::string_view name) const {
 
 bool DeclaredNames::has(std::string_view name, const NameRules& rules) const {
     if (rules.builtins && std::ranges::find(kBuiltins, name) != kBuiltins.end()) return true;
+    if (const auto part = component_name(name); rules.components && part)
+        for (const auto& [declared, components] : vectors_)
+            if (part->component < components &&
+                match(part->of, declared, rules).difference == Difference::none)
+                return true;
     int least = std::numeric_limits<int>::max();  // of arrays that are too short
     int most = 0;
     int element = 0;

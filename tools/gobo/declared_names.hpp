@@ -16,6 +16,7 @@ struct NameRules {
     bool whole_arrays = false;  ///< "weights", of an array of numbers
     bool is_array = false;      ///< the name of an array and nothing within it
     bool builtins = false;      ///< "gl_FragDepth"
+    bool components = false;    ///< "place.x", of a vector
 };
 
 /// The uniforms, members, samplers, inputs and outputs of stages by their whole names, with the extents of
@@ -37,10 +38,13 @@ class DeclaredNames {
     [[nodiscard]] std::string help_for(std::string_view name, const NameRules& rules) const;
 
   private:
-    void add(const std::string& path, const std::vector<int>& extents, const std::vector<Member>& members);
+    void add(const std::string& path, const std::string& type, const std::vector<int>& extents,
+             const std::vector<Member>& members);
 
     int counted_;
     std::vector<std::string> names_;
+    std::vector<std::pair<std::string, std::size_t>>
+        vectors_;                                 ///< those among the names, and their components
     std::set<std::string, std::less<>> members_;  ///< of blocks without an instance
 };
 

@@ -29,7 +29,7 @@ struct Named {
     Place place;
 };
 
-constexpr NameRules kOfDomain{.builtins = true};
+constexpr NameRules kOfDomain{.builtins = true, .components = true};
 constexpr NameRules kOfRender{.elements = true, .whole_arrays = true};
 constexpr NameRules kOfRelation{.elements = true};
 constexpr NameRules kOfTurn{};

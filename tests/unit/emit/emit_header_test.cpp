@@ -237,8 +237,9 @@ TEST(EmitHeader, RefusesWhatIsNoNamespace) {
         EXPECT_EQ(exit_status(header.error()), 2);
     }
     EXPECT_TRUE(emit_header(built.input("game::log"), templates()));
-    EXPECT_NE(emit_header(built.input("game::shaders"), templates())->header.find("namespace game::shaders {"),
-              std::string::npos);
+    EXPECT_NE(
+        emit_header(built.input("game::shaders"), templates())->header.find("namespace game::shaders {"),
+        std::string::npos);
 }
 
 TEST(EmitHeader, RefusesALayoutThatOverlaps) {

@@ -249,6 +249,10 @@ void test_check() {
     expect(lit::check(lights, 2).empty(), "elements that are not used are not looked at");
     lights.lights[0].attenuation.x = 0.001F;  // not 0.001 exactly
     expect(lit::check(lights, 1).empty(), "bounds are compared as the member holds them");
+    lights.lights[0].attenuation = glm::vec3(3, 3, 3);
+    expect(lit::check(lights, 1).size() == 1, "a component with a range of its own");
+    expect_text(gobo::to_text(lit::check(lights, 1).front()),
+                "PointLights.lights[0].attenuation.x is 3, allowed is [0.001, 2], or 0");
     expect(lit::check(lit::Camera{}).empty(), "a block without ranges");
     expect(nasty::check(nasty::Lights{}).empty(), "names that were changed");
 

@@ -99,6 +99,7 @@ Built lit() {
     };
     family.domains = {{"Fog.near", 0, 1e6, false, {}, {}, {}},
                       {"PointLights.lights[].attenuation", 0.001, 10, false, {}, {0}, {}},
+                      {"PointLights.lights[].attenuation.x", 0.001, 2, false, {}, {0}, {}},
                       {"normal", 0.5, 2, true, {}, {}, {}}};
     built.interface = lit_interface();
     compose_keys(built,

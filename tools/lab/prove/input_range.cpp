@@ -36,7 +36,7 @@ Range whole_numbers(Scalar scalar, double low, double high) {
 
 Range range_of(const sanitize::InputField& field, std::size_t component, bool has_tiny_inputs) {
     const bool is_last = component >= field.ranged();
-    const Domain& domain = field.domain;
+    const Domain& domain = is_last ? field.domain : field.domain_of(component);
     if (is_last) {
         const Domain last = field.last_domain();
         Range range = between(nearest_float(last.low), nearest_float(last.high));

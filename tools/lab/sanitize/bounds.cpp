@@ -175,7 +175,12 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
         // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
         // within theirs can be anything.
         if (stage == StageKind::fragment && domain != nullptr) interval = interval_of(*domain);
-        declared_.insert(declared_.end(), output.components, interval);
+        const std::string name = verify::without_subscripts(output.name);
+        for (std::size_t i = 0; i < output.components; ++i) {
+            const Domain* const own =
+                stage == StageKind::fragment ? domain_of_component(family.domains, name, i) : nullptr;
+            declared_.push_back(own != nullptr ? interval_of(*own) : interval);
+        }
     }
     pixels_ = space.pixels;
     for (const InputField& field : space.fields)

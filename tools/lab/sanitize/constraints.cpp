@@ -34,6 +34,24 @@ std::string_view subscript_of(std::string_view name) {
     return open == std::string_view::npos ? "" : name.substr(open, name.find(']') - open);
 }
 
+/// Numbers of a field.
+struct Part {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// What a constraint's name means of a field: all of it, a component, or nothing.
+std::optional<Part> part_of(const InputField& field, const std::string& stated) {
+    if (field.is_texture) return std::nullopt;
+    const std::string name = verify::without_subscripts(field.name);
+    if (name == stated) return Part{0, field.components};
+    const auto component = component_name(stated);
+    if (!component || component->of != name || !field.has_named_components() ||
+        component->component >= field.components)
+        return std::nullopt;
+    return Part{component->component, 1};
+}
+
 class Keeper {
   public:
     Keeper(const InputSpace& space, std::span<double> point) : space_(space), point_(point) {}
@@ -46,6 +64,7 @@ class Keeper {
             if (constraint.names.size() == 1) keep(constraint.kind, field, nullptr);
             for (const InputField& other : space_.fields)
                 if (constraint.names.size() > 1 && !other.is_texture &&
+                    verify::without_subscripts(other.name) == constraint.names[1] &&
                     is_partner(field, other, constraint.names[1]))
                     keep(constraint.kind, field, &other);
         }
@@ -56,12 +75,12 @@ class Keeper {
         return point_.subspan(field.first, field.components);
     }
 
-    /// Whether the field has that name and is of the same element and pixel.
+    /// Whether the field, which has that name, is of the same element and pixel.
     static bool is_partner(const InputField& of, const InputField& field, const std::string& name) {
         const bool is_of_element = subscript_of(name).empty() || subscript_of(of.name).empty() ||
                                    subscript_of(field.name) == subscript_of(of.name);
         const bool is_of_pixel = of.pixel < 0 || field.pixel < 0 || of.pixel == field.pixel;
-        return is_of_element && is_of_pixel && verify::without_subscripts(field.name) == name;
+        return is_of_element && is_of_pixel;
     }
 
     void keep(Constraint::Kind kind, const InputField& field, const InputField* other) {
@@ -74,7 +93,7 @@ class Keeper {
                 return normalise(numbers(field), 0);
             case Constraint::Kind::not_zero:
                 if (length_of(numbers(field)) == 0)
-                    numbers(field).front() = std::max(field.domain.high, 1e-6);
+                    numbers(field).front() = std::max(field.domain_of(0).high, 1e-6);
                 return;
             case Constraint::Kind::distinct:
                 if (std::ranges::equal(numbers(field), numbers(*other))) move(*other);
@@ -89,52 +108,56 @@ class Keeper {
     /// Away from what it equals, and not out of its range.
     void move(const InputField& field) {
         double& number = numbers(field).front();
-        number = number < field.domain.high ? above(number, true) : below(number, true);
+        number = number < field.domain_of(0).high ? above(number, true) : below(number, true);
     }
 
     void keep_comparison(const Constraint& constraint) {
         for (const InputField& field : space_.fields) {
-            if (field.is_texture) continue;
-            const std::string name = verify::without_subscripts(field.name);
+            const auto part = part_of(field, constraint.names[0]);
+            if (!part) continue;
             if (constraint.has_number()) {
-                if (constraint.kind != Constraint::Kind::differ || name != constraint.names[0]) continue;
-                for (double& number : numbers(field))
+                if (constraint.kind != Constraint::Kind::differ) continue;
+                for (double& number : numbers(field).subspan(part->first, part->count))
                     if (number == constraint.number) number = above(number, field.is_float());
                 continue;
             }
-            if (name != constraint.names[0]) continue;
-            for (const InputField& other : space_.fields)
-                if (!other.is_texture && is_partner(field, other, constraint.names[1]))
-                    for (std::size_t i = 0; i < std::max(field.components, other.components); ++i)
-                        keep_pair(constraint.kind, field, i, other, i);
+            for (const InputField& other : space_.fields) {
+                const auto others = part_of(other, constraint.names[1]);
+                if (!others || !is_partner(field, other, constraint.names[1])) continue;
+                const std::size_t count = part->count == 1     ? others->count
+                                          : others->count == 1 ? part->count
+                                                               : std::min(part->count, others->count);
+                for (std::size_t i = 0; i < count; ++i)  // a single number is compared with each
+                    keep_pair(constraint.kind, field, part->first + std::min(i, part->count - 1), other,
+                              others->first + std::min(i, others->count - 1));
+            }
         }
     }
 
     void keep_pair(Constraint::Kind kind, const InputField& field, std::size_t i, const InputField& other,
                    std::size_t j) {
-        if ((i >= field.components && field.components > 1) ||
-            (j >= other.components && other.components > 1))
-            return;
-        double& less = numbers(field)[std::min(i, field.components - 1)];
-        double& more = numbers(other)[std::min(j, other.components - 1)];
+        double& less = numbers(field)[i];
+        double& more = numbers(other)[j];
+        const Domain& of_less = field.domain_of(i);
+        const Domain& of_more = other.domain_of(j);
         if (kind == Constraint::Kind::less_equal ? less <= more
             : kind == Constraint::Kind::less     ? less < more
                                                  : less != more)
             return;
-        const auto is_in = [](const InputField& of, double number) {
-            return number >= of.domain.low && number <= of.domain.high;
+        const auto is_in = [](const Domain& of, double number) {
+            return number >= of.low && number <= of.high;
         };
-        if (less > more && is_in(field, more) && is_in(other, less)) return std::swap(less, more);
+        if (less > more && is_in(of_less, more) && is_in(of_more, less)) return std::swap(less, more);
         const bool may_be_equal = kind == Constraint::Kind::less_equal;
         const double over = may_be_equal ? less : above(less, other.is_float());
         const double under = may_be_equal ? more : below(more, field.is_float());
-        if (is_in(other, over)) {
+        if (is_in(of_more, over)) {
             more = over;
-        } else if (is_in(field, under)) {
+        } else if (is_in(of_less, under)) {
             less = under;
         } else {
-            less = field.domain.low;
-            more = other.domain.high;
+            less = of_less.low;
+            more = of_more.high;
         }
     }
 
@@ -196,12 +219,19 @@ class Keeper {
 
 }  // namespace
 
-void narrow(Domain& domain, const std::string& name, bool is_float,
+bool narrow(Domain& domain, const std::string& name, std::optional<std::size_t> component, bool is_float,
             const std::vector<Constraint>& constraints) {
+    const auto is_of_this = [&](const std::string& stated) {
+        if (!component) return stated == name;
+        const auto part = component_name(stated);
+        return part && part->of == name && part->component == *component;
+    };
+    bool is_stated = false;
     for (const Constraint& constraint : constraints) {
         if (!constraint.has_number()) continue;
-        const bool is_upper = constraint.names[0] == name;  // name < number
-        if (!is_upper && constraint.names[1] != name) continue;
+        const bool is_upper = is_of_this(constraint.names[0]);  // name < number
+        if (!is_upper && !is_of_this(constraint.names[1])) continue;
+        is_stated = true;
         const double number = constraint.number;
         const bool is_strict = constraint.kind != Constraint::Kind::less_equal;
         const double over = is_strict ? above(number, is_float) : is_float ? number : std::ceil(number);
@@ -218,6 +248,7 @@ void narrow(Domain& domain, const std::string& name, bool is_float,
             std::erase_if(domain.also, [&](double also) { return also < over; });
         }
     }
+    return is_stated;
 }
 
 const Constraint* contradiction_in(const InputSpace& space) {
@@ -227,13 +258,21 @@ const Constraint* contradiction_in(const InputSpace& space) {
         bool is_float;
     };
     std::map<std::string, Interval> intervals;
-    for (const InputField& field : space.fields) {
-        Interval interval{field.domain.low, field.domain.high, field.is_float()};
-        for (const double also : field.domain.also) {
+    const auto add = [&](const std::string& name, const Domain& domain, bool is_float) {
+        Interval interval{domain.low, domain.high, is_float};
+        for (const double also : domain.also) {
             interval.low = std::min(interval.low, also);
             interval.high = std::max(interval.high, also);
         }
-        if (!field.is_texture) intervals.emplace(verify::without_subscripts(field.name), interval);
+        intervals.emplace(name, interval);
+    };
+    for (const InputField& field : space.fields) {
+        if (field.is_texture) continue;
+        add(verify::without_subscripts(field.name), field.domain, field.is_float());
+        for (const Constraint& constraint : space.constraints)
+            for (const std::string& name : constraint.names)
+                if (const auto part = part_of(field, name); part && part->count < field.components)
+                    add(name, field.domain_of(part->first), field.is_float());
     }
     // The least values follow from one another: where they still grow after as many rounds as there are
     // names, comparisons form a circle.

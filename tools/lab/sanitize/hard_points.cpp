@@ -72,9 +72,11 @@ class PointMaker {
         return point_.subspan(field.first, field.components);
     }
 
-    double number(const InputField& field) {
-        const double drawn =
-            random_.unit() < hardness_ ? random_.pick(field.hard) : ordinary_number(field.domain, random_);
+    double number(const InputField& field, std::size_t component = 0) {
+        const bool is_hard = random_.unit() < hardness_;
+        const double drawn = !is_hard              ? ordinary_number(field.domain_of(component), random_)
+                             : field.parts.empty() ? random_.pick(field.hard)
+                                                   : random_.pick(hard_numbers(field.parts[component]));
         return field.is_float() ? drawn : std::round(drawn);
     }
 
@@ -93,10 +95,10 @@ class PointMaker {
             for (double& component : numbers) component *= length;
         } else if (field.components > 4) {
             draw_matrix(field);
-        } else if (random_.one_in(16)) {
+        } else if (field.parts.empty() && random_.one_in(16)) {
             std::fill(numbers.begin(), numbers.end(), holds(field.domain, 0) ? 0.0 : number(field));
         } else {
-            for (double& component : numbers) component = number(field);
+            for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = number(field, i);
         }
     }
 
@@ -164,7 +166,7 @@ class PointMaker {
             length > 0 && random_.one_in(2) ? std::abs(ordinary_number(to.domain, random_)) / length : 1;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             const double component = direction[i] * factor;
-            if (holds(to.domain, component)) numbers[i] = component;
+            if (holds(to.domain_of(i), component)) numbers[i] = component;
         }
     }
 

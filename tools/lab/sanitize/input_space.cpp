@@ -146,6 +146,27 @@ Domain InputField::last_domain() const {
     return plain_domain(name, domain.last.at(0), domain.last.at(1));
 }
 
+namespace {
+
+/// What is stated of single components of a vector; nothing where nothing is.
+std::vector<Domain> parts_of(const InputField& field, const std::vector<Domain>& domains,
+                             const std::vector<Constraint>& constraints) {
+    if (!field.has_named_components() || field.domain.of_length) return {};
+    const std::string name = verify::without_subscripts(field.name);
+    std::vector<Domain> parts(field.ranged(), field.domain);
+    bool is_stated = false;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (const Domain* const own = domain_of_component(domains, name, i)) {
+            parts[i] = *own;
+            is_stated = true;
+        }
+        is_stated |= narrow(parts[i], name, i, field.is_float(), constraints);
+    }
+    return is_stated ? parts : std::vector<Domain>();
+}
+
+}  // namespace
+
 InputSpace input_space_of(const evaluate::Program& program, const std::vector<Domain>& domains,
                           bool in_quads) {
     InputSpace space;
@@ -159,10 +180,11 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
             field.scalar = port.scalar;
             field.domain = range_of(port, domains);
             if (!field.domain.of_length)
-                narrow(field.domain, verify::without_subscripts(port.name), field.is_float(),
+                narrow(field.domain, verify::without_subscripts(port.name), {}, field.is_float(),
                        space.constraints);
             field.hard = hard_numbers(field.domain);
             field.components = port.components;
+            field.parts = parts_of(field, domains, space.constraints);
             const bool is_of_pixel = space.pixels > 1 && ports == &program.inputs && field.is_float();
             for (int pixel = 0; is_of_pixel && pixel < static_cast<int>(space.pixels); ++pixel) {
                 field.pixel = pixel;
@@ -203,7 +225,8 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
         for (double& number : numbers)
             number = length == 0 ? number : number * (allowed == length ? 1 : allowed / length);
     } else {
-        for (double& number : numbers) number = nearest_allowed(field.domain, number);
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            numbers[i] = nearest_allowed(field.domain_of(i), numbers[i]);
     }
     for (double& number : numbers)
         number = field.is_float() ? static_cast<double>(static_cast<float>(number)) : std::round(number);

@@ -53,9 +53,10 @@ struct InputField {
     int pixel = -1;  ///< of a quad, where each has its own; -1: all share it
     Domain domain;
     std::vector<Domain>
-        channels;              ///< of a texture: r, g, b, a, then its side and its levels, 0 where unknown
-    std::vector<double> hard;  ///< hard numbers of the domain
-    std::size_t first = 0;     ///< of its numbers in a point
+        channels;               ///< of a texture: r, g, b, a, then its side and its levels, 0 where unknown
+    std::vector<Domain> parts;  ///< of a vector's components, where one has a range of its own; else empty
+    std::vector<double> hard;   ///< hard numbers of the domain
+    std::size_t first = 0;      ///< of its numbers in a point
     std::size_t components = 1;
 
     [[nodiscard]] bool is_float() const { return evaluate::is_float(scalar); }
@@ -64,6 +65,14 @@ struct InputField {
     [[nodiscard]] std::size_t ranged() const { return components - (domain.last.empty() ? 0 : 1); }
     /// The domain of that last component.
     [[nodiscard]] Domain last_domain() const;
+    /// The range of a component, which is not one of a length.
+    [[nodiscard]] const Domain& domain_of(std::size_t component) const {
+        return parts.empty() ? domain : parts[component];
+    }
+    /// Whether its numbers are x, y, z and w.
+    [[nodiscard]] bool has_named_components() const {
+        return !is_texture && type.find("vec") != std::string::npos;
+    }
     [[nodiscard]] bool is_number() const { return is_float() && components == 1; }
     /// Whether it says where a pixel lies, in its middle, which no search may change.
     [[nodiscard]] bool is_pixel_place() const { return name == "gl_FragCoord"; }

@@ -289,12 +289,23 @@ SanitizeReport sanitize(const Family& family, const Composition& composition, co
 
 namespace {
 
+using Names = std::set<std::string>;
+using Vectors = std::map<std::string, std::size_t>;  ///< by name, with their components
+
+/// Whether the name is of a component of one of the vectors.
+bool is_component(const std::string& name, const Vectors& vectors) {
+    const auto part = component_name(name);
+    const auto vector = part ? vectors.find(part->of) : vectors.end();
+    return vector != vectors.end() && part->component < vector->second;
+}
+
 /// What is wrong with a constraint, if anything.
-Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& names) {
+Diagnostics wrong_constraint(const Domain& domain, const Names& names, const Vectors& vectors) {
     const Constraint constraint = constraint_of(domain.name).value_or(Constraint{});
     Diagnostics errors;
     for (const std::string& name : constraint.names)
-        if (!name.empty() && !names.contains(name))
+        if (!name.empty() && !names.contains(name) &&
+            !(constraint.is_comparison() && is_component(name, vectors)))
             errors.push_back(evaluate::error_at(domain.place, fmt::format("no stage reads '{}'", name),
                                                 suggestion(name, {names.begin(), names.end()})));
     return errors;
@@ -304,7 +315,7 @@ Diagnostics wrong_constraint(const Domain& domain, const std::set<std::string>& 
 
 Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const std::vector<Domain>& known,
                                const Validated& validated) {
-    std::set<std::string> names;
+    Names names;
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
@@ -314,28 +325,37 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const std::ve
             for (const evaluate::ImagePort& image : program->images)
                 for (const char* part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
                     names.insert(verify::without_subscripts(image.name + part));
-    std::set<std::string> inputs;
+    Names inputs;
+    Vectors vectors;
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
-            for (const auto* ports : {&program->inputs, &program->uniforms})
-                for (const evaluate::Port& port : *ports)
-                    inputs.insert(verify::without_subscripts(port.name));
+            for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
+                for (const evaluate::Port& port : *ports) {
+                    const std::string name = verify::without_subscripts(port.name);
+                    if (ports != &program->outputs) inputs.insert(name);
+                    if (port.type.find("vec") != std::string::npos) vectors[name] = port.components;
+                }
     for (const Domain& domain : known)
-        if (!is_constraint(domain.name)) inputs.insert(domain.name);
+        if (!is_constraint(domain.name)) {
+            inputs.insert(domain.name);
+            vectors.emplace(domain.name, 4);
+        }
     Diagnostics errors;
     for (const Domain& domain : domains) {
         if (is_constraint(domain.name)) {
             const auto constraint = constraint_of(domain.name);
             for (const std::string& name : constraint ? constraint->names : std::vector<std::string>())
-                if (const Domain* const of = verify::domain_of(domains, name);
+                if (const Domain* const of =
+                        verify::domain_of(domains, component_name(name).value_or(ComponentName{name}).of);
                     constraint->is_comparison() && of != nullptr && of->of_length)
                     errors.push_back(evaluate::error_at(
                         domain.place, fmt::format("the range of '{}' is one of its length", name),
                         "state the length's range there, or compare another input"));
-            for (Diagnostic& error : wrong_constraint(domain, inputs)) errors.push_back(std::move(error));
+            for (Diagnostic& error : wrong_constraint(domain, inputs, vectors))
+                errors.push_back(std::move(error));
             continue;
         }
-        if (!names.contains(domain.name))
+        if (!names.contains(domain.name) && !is_component(domain.name, vectors))
             errors.push_back(evaluate::error_at(domain.place,
                                                 fmt::format("no stage reads or writes '{}'", domain.name),
                                                 suggestion(domain.name, {names.begin(), names.end()})));

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gobo/environment_brdf.hpp>
 
+#include "family/constraint.hpp"
 #include "lab/oracle/oracle.hpp"
 #include "lab/verify/random_points.hpp"
 
@@ -65,7 +66,12 @@ std::vector<SearchedField> searched_fields(const evaluate::Program& program,
             const auto field = verify::field_of(port.name);
             if (!field || port.scalar != evaluate::Scalar::float32) continue;
             const Domain* domain = verify::domain_of(domains, port.name);
-            fields.push_back({*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain)});
+            fields.push_back(
+                {*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain), {}});
+            const std::string name = verify::without_subscripts(port.name);
+            for (std::size_t i = 0; i < port.components; ++i)
+                if (const Domain* const own = domain_of_component(domains, name, i))
+                    fields.back().parts.emplace_back(i, *own);
         }
     return fields;
 }
@@ -131,6 +137,7 @@ void bring_into_domain(const SearchedField& field, Sample& sample) {
             for (double& number : first) number *= nearest_in(domain, length) / length;
     } else {
         for (double& number : first) number = nearest_in(domain, number);
+        for (const auto& [component, own] : field.parts) first[component] = nearest_in(own, first[component]);
     }
     if (!domain.last.empty()) numbers.back() = std::clamp(numbers.back(), domain.last[0], domain.last[1]);
     field.field.set(sample, numbers);

@@ -21,6 +21,7 @@ struct SearchedField {
     verify::Field field;
     std::string name;  ///< reflected
     std::optional<Domain> domain;
+    std::vector<std::pair<std::size_t, Domain>> parts;  ///< components with a range of their own
 
     [[nodiscard]] bool is_of_length() const { return domain && domain->of_length; }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "family/constraint.hpp"
 #include "lab/raster/random.hpp"
 
 namespace gobo::verify {
@@ -21,8 +22,12 @@ double component(double low, double high, Random& random) {
 
 /// The values of one port for all invocations, as floats hold them. Vectors whose length is bounded get
 /// components that give about such a length.
-std::vector<double> draw(const evaluate::Port& port, const Domain* domain, std::size_t count,
+std::vector<double> draw(const evaluate::Port& port, const std::vector<Domain>& domains, std::size_t count,
                          Random& random) {
+    const Domain* const domain = domain_of(domains, port.name);
+    const std::string name = without_subscripts(port.name);
+    std::vector<const Domain*> own;
+    for (std::size_t c = 0; c < port.components; ++c) own.push_back(domain_of_component(domains, name, c));
     std::vector<double> values(port.components * count);
     const bool is_length = domain != nullptr && domain->of_length;
     for (std::size_t i = 0; i < count; ++i) {
@@ -32,6 +37,7 @@ std::vector<double> draw(const evaluate::Port& port, const Domain* domain, std::
         for (std::size_t c = 0; c < port.components; ++c) {
             double value = domain != nullptr && !is_length ? component(domain->low, domain->high, random)
                                                            : scale * component(-1, 1, random);
+            if (own[c] != nullptr) value = component(own[c]->low, own[c]->high, random);
             if (port.name == "gl_FragCoord") value = c < 2 ? random.whole(0, 63) + 0.5 : random.unit();
             if (!evaluate::is_float(port.scalar)) value = std::floor(value);
             if (port.scalar == evaluate::Scalar::boolean) value = random.whole(0, 1);
@@ -82,7 +88,7 @@ evaluate::Invocations draw_points(const evaluate::Program& program, const std::v
     invocations.count = count;
     for (const auto* ports : {&program.inputs, &program.uniforms})
         for (const evaluate::Port& port : *ports)
-            invocations.values[port.name] = draw(port, domain_of(domains, port.name), count, random);
+            invocations.values[port.name] = draw(port, domains, count, random);
     // A smooth picture, the same in every texture: one that has no texels has no edges.
     const evaluate::Image smooth = [](const evaluate::ImageRequest& request) {
         const double x = request.coordinates[0];
