@@ -119,24 +119,43 @@ bool may_lack_bindings(const Interface& interface) {
                                [](const Sampler& sampler) { return sampler.binding == 0; });
 }
 
-/// Drops that a block's instance is called as a uniform of another stage, which no linker minds: its name
-/// stays in its stage. Of one such pair glslang says several lines, the last with both declarations.
-bool drop_names_of_instances(Diagnostics& log) {
-    const auto is_block = [](std::string_view declaration) {
-        return declaration.find("uniform {") != std::string_view::npos ||
-               declaration.find("buffer {") != std::string_view::npos;
-    };
+bool is_block(std::string_view declaration) {
+    return declaration.find("uniform {") != std::string_view::npos ||
+           declaration.find("buffer {") != std::string_view::npos;
+}
+
+/// Whether one states component 0, and the other none.
+bool differ_in_component_0(std::string_view one, std::string_view other) {
+    const bool states = one.find("component=") != std::string_view::npos;
+    if (states == (other.find("component=") != std::string_view::npos)) return false;
+    return (states ? one : other).find("component=0") != std::string_view::npos;
+}
+
+/// Drops what no linker minds: that a block's instance is called as a uniform of another stage, since its
+/// name stays in its stage; component 0 that one stage states; the order of a matrix where there is none, for
+/// the layouts of blocks are compared; and on the desktop how the memory of images is accessed. Of one pair
+/// glslang says several lines, the last with both declarations.
+bool drop_what_links(Diagnostics& log, bool is_es) {
     const std::size_t known = log.size();
-    for (std::size_t i = 0; i < log.size();) {
-        std::size_t end = i;
-        while (end + 1 < log.size() && log[end].message.find('"') == std::string::npos) ++end;
-        const std::vector<std::string> parts = split(log[end].message, '"');
-        const bool is_pair = log[i].message.ends_with("Types must match:") && parts.size() > 3;
-        if (is_pair && is_block(parts[1]) != is_block(parts[3]))
-            log.erase(log.begin() + static_cast<std::ptrdiff_t>(i),
-                      log.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    for (auto first = log.begin(); first != log.end();) {
+        auto last = first;
+        while (last + 1 != log.end() && last->message.find('"') == std::string::npos) ++last;
+        const std::vector<std::string> parts = split(last->message, '"');
+        const auto links = [&](const Diagnostic& line) {
+            const auto says = [&](std::string_view what) {
+                return line.message.find(what) != std::string::npos;
+            };
+            return (says("Types must match:") && is_block(parts[1]) != is_block(parts[3])) ||
+                   (says("Layout component qualifier must match:") &&
+                    differ_in_component_0(parts[1], parts[3])) ||
+                   says("member layout matrix qualifier must match:") ||
+                   (!is_es && says("Memory ") && says(" qualifier must match:") && !is_block(parts[1]));
+        };
+        const bool is_instance = first->message.ends_with("Types must match:");
+        if (parts.size() > 3 && std::all_of(first, is_instance ? first + 1 : last + 1, links))
+            first = log.erase(first, last + 1);
         else
-            i = end + 1;
+            first = last + 1;
     }
     return log.size() < known;
 }
@@ -304,7 +323,8 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
         earlier.insert(earlier.end(), stages[i]->pieces_.begin(), stages[i]->pieces_.end());
     Diagnostics log =
         diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0});
-    if (!is_spirv(stages.front()->dialect_) && drop_names_of_instances(log) && log.empty()) {
+    const bool is_es = version_of(stages.front()->pieces_.front()->text).es;
+    if (!is_spirv(stages.front()->dialect_) && drop_what_links(log, is_es) && log.empty()) {
         for (GlslangStage* const stage : stages) stage->parse();  // glslang keeps the error in them
         return {};
     }

@@ -260,6 +260,10 @@ class LinkCheck {
         } else if (!here.usage.stated.empty() && !there.usage.stated.empty() &&
                    here.usage.stated != there.usage.stated) {
             differ(fmt::format("layout {}", here.usage.stated), there.usage.stated, once);
+        } else if (here.usage.stated == "packed" && here.name != root_of(here.name) &&
+                   here.usage.unused != there.usage.unused) {
+            differ(here.usage.unused ? "layout packed and is not read" : "layout packed and is read",
+                   there.usage.unused ? "is not" : "is", "write layout(std140) before it");
         } else if (here.usage.anonymous != there.usage.anonymous) {
             differ(here.usage.anonymous ? "no instance name" : "an instance name",
                    there.usage.anonymous ? "none" : "one", once);

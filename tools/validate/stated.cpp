@@ -185,7 +185,10 @@ class Statements {
                 add_names(member, "smooth", block);
             if (has(member, "offset") || has(member, "align") || has(head, "align"))
                 add_names(member, "offset", block);
-            if (has(head, "in") || has(head, "out")) add_precisions(member, block);
+            if (has(head, "in") || has(head, "out")) {
+                add_precisions(member, block);
+                if (at(body.end + 2) == "[") add_names(member, precision_in(member), block);
+            }
             const std::string_view own = location_in(member);
             if (!own.empty() && location.empty()) add_names(member, "located", block);
             if (begin == body.begin && !location.empty() && !own.empty() && own != location)

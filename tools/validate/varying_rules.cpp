@@ -47,11 +47,18 @@ std::vector<int> extents_of(const Variable& variable) {
     return extents;
 }
 
-/// Whether the precisions of the members of its struct are compared: in arrays and in blocks they make two
-/// types of it.
-bool has_precise_type(const Variable& variable) {
-    const std::string_view after = std::string_view(variable.name).substr(root_of(variable.name).size());
-    return variable.whole == Whole::block || (variable.whole == Whole::structure && after.starts_with('['));
+/// Of an array of blocks the members' qualifiers belong to its type.
+bool is_of_array_of_blocks(const Variable& variable) {
+    return variable.whole == Whole::block && variable.name[root_of(variable.name).size()] == '[';
+}
+
+/// That of a struct's member, where it makes two types of the struct, and of a member of an array of blocks.
+std::string_view precision_of(const Variable& variable) {
+    if (is_of_array_of_blocks(variable))
+        for (const std::string_view precision : {"highp", "mediump", "lowp"})
+            if (states(variable, precision)) return precision;
+    const bool is_array = variable.name[root_of(variable.name).size()] == '[';
+    return variable.whole == Whole::block || is_array ? variable.usage.precision : std::string_view();
 }
 
 /// Whether the members of a block that states one location leave others free between them.
@@ -68,6 +75,14 @@ bool has_gaps(const std::vector<Variable>& list, std::string_view block) {
         expected = std::max(expected, end);
     }
     return false;
+}
+
+/// The members of a block.
+std::vector<std::string_view> members_of(const std::vector<Variable>& list, std::string_view block) {
+    std::vector<std::string_view> members;
+    for (const Variable& one : list)
+        if (root_of(one.name) == block) members.push_back(std::string_view(one.name).substr(block.size()));
+    return members;
 }
 
 class VaryingCheck {
@@ -219,16 +234,16 @@ class VaryingCheck {
         if (input.type != output.type || extents != other_extents)
             return differ(Severity::error, with_extents(input.type, extents),
                           with_extents(output.type, other_extents), "", "declare it alike in both stages");
-        const std::string& precision = input.usage.precision;
-        const std::string& other_precision = output.usage.precision;
+        const std::string_view precision = precision_of(input);
+        const std::string_view other_precision = precision_of(output);
         const bool is_known = !version_.es || (!precision.empty() && !other_precision.empty());
-        if (is_known && precision != other_precision && has_precise_type(input)) {
-            const auto text = [](const std::string& stated) {
+        if (is_known && precision != other_precision) {
+            const auto text = [](std::string_view stated) {
                 return stated.empty() ? "without precision" : stated;
             };
             return differ(Severity::error, text(precision), text(other_precision),
-                          ": it belongs to the type of its struct",
-                          "declare the struct once, in a piece that both stages include");
+                          ": it belongs to the type of what holds it",
+                          "declare that once, in a piece that both stages include");
         }
         const bool is_of_block = input.whole == Whole::block;
         if (input.patch != output.patch)
@@ -236,10 +251,13 @@ class VaryingCheck {
                           output.patch ? "patch" : "not", "", "write patch in both stages, or in neither");
         if (interpolation_differs(input, output))
             return differ(Severity::error, shading_of(input, output), shading_of(output, input),
-                          version_.es ? ": OpenGL ES wants the same interpolation in both stages"
-                                      : ": before GLSL 4.40 both stages must interpolate alike",
+                          version_.es         ? ": OpenGL ES wants the same interpolation in both stages"
+                          : is_before(440, 0) ? ": before GLSL 4.40 both stages must interpolate alike"
+                                              : ": the members of an array of blocks must agree",
                           "write the same qualifier in both stages");
-        if (input.interpolation.sample != output.interpolation.sample)
+        // GLSL ES 3.20, 9.2.1, wants no agreement; drivers do outside blocks and in arrays of them.
+        const bool may_differ = version_.es && is_of_block && !is_of_array_of_blocks(input);
+        if (input.interpolation.sample != output.interpolation.sample && !may_differ)
             return differ(Severity::error, sampling_of(input.interpolation),
                           sampling_of(output.interpolation), "", "write sample in both stages");
         if (invariance_differs(input, output))
@@ -257,6 +275,15 @@ class VaryingCheck {
             return differ(Severity::error, fmt::format("a member of '{}'", root_of(input.name)),
                           fmt::format("one of '{}'", root_of(output.name)), "",
                           "give the block one name in both stages, or a location to the block itself");
+        const std::string_view block = root_of(input.name);
+        const std::string_view other_block = root_of(output.name);
+        if (is_of_block && input.location >= 0 && block != other_block &&
+            members_of(later_->interface.inputs, block) !=
+                members_of(earlier_->interface.outputs, other_block))
+            return add(in_later(block, ""), Severity::error,
+                       fmt::format("the block '{}' has other members than '{}' in {} at its location", block,
+                                   other_block, in_earlier(other_block, "").text()),
+                       "declare the block once, in a piece that both stages include");
         if (!input.usage.anonymous && (states(input, "apart") || states(output, "apart")) &&
             !(input.usage.unused && states(input, "apart") && states(output, "apart")))
             add(in_later(root_of(input.name), ""), Severity::error,
@@ -297,7 +324,7 @@ class VaryingCheck {
                                   [](const Variable& one) { return root_of(one.name); }) == 1;
     }
     [[nodiscard]] bool interpolation_differs(const Variable& input, const Variable& output) const {
-        if (!version_.es && version_.number >= 440) return false;
+        if (!version_.es && version_.number >= 440 && !is_of_array_of_blocks(input)) return false;
         // Outside blocks OpenGL ES takes what is not stated for smooth.
         const bool compares_words = !version_.es || input.whole == Whole::block;
         return shading_of(input.interpolation) != shading_of(output.interpolation) ||
@@ -308,7 +335,8 @@ class VaryingCheck {
                input.interpolation.invariant != output.interpolation.invariant;
     }
     [[nodiscard]] bool centroid_differs(const Variable& input, const Variable& output) const {
-        return (is_before(430, 310) || (!version_.es && input.whole == Whole::block)) &&
+        return (is_before(430, 310) || (!version_.es && input.whole == Whole::block) ||
+                is_of_array_of_blocks(input)) &&
                input.interpolation.centroid != output.interpolation.centroid;
     }
 
