@@ -71,6 +71,7 @@ struct FamilyRow {
     const char* vertex;
     const char* fragment;
     const char* mistake;  ///< where both see one; empty: both take it
+    bool is_lax = false;  ///< the driver takes it all the same
 };
 
 class FamilyInTheDriver : public testing::TestWithParam<FamilyRow> {};
@@ -91,7 +92,11 @@ TEST_P(FamilyInTheDriver, IsAsGlslangSays) {
     ASSERT_TRUE(context) << first_text(context.error());
     const Result<Program> program =
         link_program(*context, stages_of(composition, composition.permutations.front()));
-    EXPECT_EQ(program ? "" : place_of(program.error()), row.mistake);
+    const std::string place = program ? "" : place_of(program.error());
+    if (place == ":0")  // Mesa names no line of an #error
+        EXPECT_STRNE(row.mistake, "");
+    else
+        EXPECT_EQ(place, row.is_lax ? "" : row.mistake);
 }
 
 constexpr const char* core_vertex = "in vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
@@ -195,6 +200,27 @@ INSTANTIATE_TEST_SUITE_P(
                   "precision mediump float;\nvarying vec2 uv;\nuniform sampler2D map;\n"
                   "void main() { gl_FragColor = texture2D(map, uv) + texture2DLodEXT(map, uv, 1.0); }\n",
                   ""},
+        FamilyRow{"legacy_point_and_clip_planes", "version = \"330 core\"\ncompatibility = true\n", "default",
+                  "void main() { gl_PointSize = gl_Point.size; gl_ClipDistance[0] = dot(gl_ClipPlane[0], "
+                  "gl_Vertex); gl_Position = ftransform(); }\n",
+                  "void main() { gl_FragColor = vec4(1.0); }\n", ""},
+        FamilyRow{"legacy_clip_vertex", "version = \"330 core\"\ncompatibility = true\n", "default",
+                  "void main() { gl_ClipVertex = gl_Vertex; gl_Position = ftransform(); }\n",
+                  "void main() { gl_FragColor = vec4(1.0); }\n",
+                  GOBO_SOURCE_DIR "/templates/compatibility.glsl:206"},
+        FamilyRow{"legacy_array_read_beyond_what_is_written", "version = \"150\"\ncompatibility = true\n",
+                  "default",
+                  "void main() { gl_TexCoord[0] = gl_MultiTexCoord0; gl_Position = ftransform(); }\n",
+                  "void main() { gl_FragColor = gl_TexCoord[1]; }\n", ""},
+        FamilyRow{"legacy_color_that_the_vertex_stage_lacks", "version = \"150\"\ncompatibility = true\n",
+                  "default", "void main() { gl_Position = ftransform(); }\n",
+                  "void main() { gl_FragColor = gl_Color; }\n",
+                  GOBO_SOURCE_DIR "/templates/compatibility.glsl:122", true},
+        FamilyRow{"legacy_coordinates_that_the_vertex_stage_lacks",
+                  "version = \"150\"\ncompatibility = true\n", "default",
+                  "void main() { gl_Position = ftransform(); }\n",
+                  "void main() { gl_FragColor = gl_TexCoord[0]; }\n",
+                  GOBO_SOURCE_DIR "/templates/compatibility.glsl:149", true},
         FamilyRow{"mistake_in_legacy", "version = \"150\"\ncompatibility = true\n", "default",
                   "\nvoid main() { gl_Position = ftransform(); oops; }\n",
                   "void main() { gl_FragColor = vec4(1.0); }\n", "tiny.vert:2"}),

@@ -197,6 +197,10 @@ class VaryingCheck {
                         with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
         std::string help =
             fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
+        constexpr std::string_view legacy = "legacy_";  // of a family with `compatibility = true`
+        if (input.name.starts_with(legacy))
+            help = fmt::format("write gl_{} in the {} stage", root_of(input.name).substr(legacy.size()),
+                               name_of(earlier_->kind));
         for (const Variable& output : earlier_->interface.outputs) {
             if (output.name != input.name) continue;
             const auto located = [](int location) {
