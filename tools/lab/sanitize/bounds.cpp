@@ -171,6 +171,8 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
             interval = {0, 1};
             depth_ = declared_.size();
         }
+        // OpenGL leaves points of any other size undefined.
+        if (output.name == "gl_PointSize") interval.low = kLeastAboveZero;
         const Domain* domain = verify::domain_of(family.domains, output.name);
         // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
         // within theirs can be anything.

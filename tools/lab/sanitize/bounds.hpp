@@ -23,6 +23,9 @@ enum class DepthPromise { none, greater, less, unchanged };
 /// That of a SPIR-V module; `none` where it has none, or is none.
 [[nodiscard]] DepthPromise depth_promise_of(std::span<const std::uint32_t> spirv);
 
+/// The low end of what has to be above 0.
+inline constexpr double kLeastAboveZero = std::numeric_limits<float>::denorm_min();
+
 /// Both ends belong to it.
 struct Interval {
     double low = -static_cast<double>(std::numeric_limits<float>::max());

@@ -479,6 +479,7 @@ void TrapObserver::judge_outputs(const evaluate::Outputs& outputs) {
 /// Which way an output left its bounds; nothing where it did not.
 std::string_view fault_of(double value, const Interval& bounds) {
     if (std::isnan(value)) return "is not a number";
+    if (value < bounds.low && bounds.low == kLeastAboveZero) return "is not above 0";
     if (value < bounds.low) return bounds.low == 0 ? "is negative" : "is below what its inputs allow";
     if (value > bounds.high) return std::isinf(value) ? "is infinite" : "is above what its inputs allow";
     return {};
@@ -535,12 +536,15 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
     std::size_t component = 0;
     for (const evaluate::Port& port : findings.run.program.outputs) {
         const std::vector<double>& values = outputs.values.at(port.name);
+        // Every vertex stage has one: it matters where it is written.
+        const bool is_left_out =
+            port.name == "gl_PointSize" && !last_store(findings.run.program, port).has_value();
         for (std::uint32_t c = 0; c < port.components; ++c, ++component)
             for (std::size_t i = 0; i < outputs.count; ++i) {
                 const double value = values[c * outputs.count + i];
                 const Interval& bounds = all[i * components + component];
                 if (value >= bounds.low && value <= bounds.high) continue;
-                if (outputs.discarded[i] || observer.trapped(i)) continue;
+                if (is_left_out || outputs.discarded[i] || observer.trapped(i)) continue;
                 const auto low = static_cast<float>(bounds.low);
                 const auto high = static_cast<float>(bounds.high);
                 const std::string_view promise = broken_promise(value, bounds);
