@@ -1,6 +1,7 @@
 // A program's picture from meshes, a camera and values by name.
 #include <optional>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -238,8 +239,61 @@ void main() { color = vec4(lights[1].color, texture(table, lights[0].range).r); 
               "gobo: warning: 'Lights.lights[].range' has no value and stays 0\n"
               "  help: give it one under [render] in the family file\n"
               "gobo: warning: the attribute 'wind' has no value and stays 0\n"
-              "  help: give it one under [render] in the family file\n");
+              "  help: give it one under [render] in the family file\n"
+              // planes seen along themselves
+              "gobo: warning: the picture is the background alone: nothing of the objects is drawn\n"
+              "  help: see what gl_Position is, and which fragments are discarded\n");
 }
+
+struct ColorRow {
+    const char* name;
+    const char* version;
+    const char* body;     ///< of the fragment stage
+    const char* warning;  ///< in part; empty where green is drawn
+};
+
+class Colors : public ::testing::TestWithParam<ColorRow> {};
+
+TEST_P(Colors, AreDrawnOrWarnedOf) {
+    const auto context = open_context(Backend::osmesa);
+    ASSERT_TRUE(context) << text_of(context.error());
+    const bool is_old = std::string_view(GetParam().version) < "130";
+    const std::string head = fmt::format("#version {}\n", GetParam().version);
+    const std::string vertex = head + (is_old ? "attribute" : "in") +
+                               " vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
+    const std::string fragment = head + "void main() { " + GetParam().body + " }\n";
+    Variable position;
+    position.name = "position";
+    position.type = "vec3";
+    position.location = -1;
+    Interface interface;
+    interface.stages = {"vertex", "fragment"};
+    interface.inputs = {position};
+    View view;
+    view.width = view.height = 9;
+    const auto picture = render_permutation(*context, stages(vertex.c_str(), fragment.c_str()), interface,
+                                            {{make_sphere(16, 8), glm::dmat4(1), {}}}, {}, view);
+    ASSERT_TRUE(picture) << text_of(picture.error());
+    const std::string warning = GetParam().warning;
+    EXPECT_EQ(picture->color.at(4, 4, 1), warning.empty() ? 1.0F : 0.0F);
+    EXPECT_EQ(text_of(picture->warnings),
+              warning.empty() ? "" : "gobo: warning: the picture is the background alone: " + warning);
+}
+
+constexpr const char* nothing_drawn =
+    "nothing of the objects is drawn\n  help: see what gl_Position is, and which fragments are discarded\n";
+constexpr const char* no_color =
+    "the fragment stage writes no color\n  help: declare an output at location 0\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Render, Colors,
+    ::testing::Values(ColorRow{"fragment_color_100", "100", "gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0);", ""},
+                      ColorRow{"fragment_color_120", "120", "gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0);", ""},
+                      ColorRow{"fragment_data_120", "120", "gl_FragData[0] = vec4(0.0, 1.0, 0.0, 1.0);", ""},
+                      ColorRow{"fragment_color_130", "130", "gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0);", ""},
+                      ColorRow{"discarded", "120", "gl_FragColor = vec4(1.0); discard;", nothing_drawn},
+                      ColorRow{"no_color", "330", "", no_color}),
+    [](const auto& row) { return row.param.name; });
 
 struct BadValue {
     const char* name;
@@ -304,18 +358,22 @@ TEST_P(Spellings, AreUnderstood) {
     EXPECT_EQ(attribute_source_of(GetParam().spelling), GetParam().attribute);
 }
 
-INSTANTIATE_TEST_SUITE_P(Render, Spellings,
-                         ::testing::Values(SpellingRow{"capitals", "uMVP", "model_view_projection", ""},
-                                           SpellingRow{"underscore", "u_mvp", "model_view_projection", ""},
-                                           SpellingRow{"words", "model_view_projection_matrix",
-                                                       "model_view_projection", ""},
-                                           SpellingRow{"member", "Camera.viewMatrix", "view", ""},
-                                           SpellingRow{"in_prefix", "inPosition", "", "position"},
-                                           SpellingRow{"a_prefix", "a_texCoord", "", "texcoord"},
-                                           SpellingRow{"v_is_a_letter_of_view", "view", "view", ""},
-                                           SpellingRow{"normal", "aNormal", "normal_matrix", "normal"},
-                                           SpellingRow{"none", "shininess", "", ""}),
-                         [](const auto& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Render, Spellings,
+    ::testing::Values(SpellingRow{"capitals", "uMVP", "model_view_projection", ""},
+                      SpellingRow{"underscore", "u_mvp", "model_view_projection", ""},
+                      SpellingRow{"words", "model_view_projection_matrix", "model_view_projection", ""},
+                      SpellingRow{"member", "Camera.viewMatrix", "view", ""},
+                      SpellingRow{"in_prefix", "inPosition", "", "position"},
+                      SpellingRow{"a_prefix", "a_texCoord", "", "texcoord"},
+                      SpellingRow{"v_is_a_letter_of_view", "view", "view", ""},
+                      SpellingRow{"once_built_in", "legacy_Vertex", "", "position"},
+                      SpellingRow{"matrix_once_built_in", "legacy_ModelViewProjectionMatrix",
+                                  "model_view_projection", ""},
+                      SpellingRow{"texcoord_once_built_in", "legacy_MultiTexCoord0", "", "texcoord"},
+                      SpellingRow{"normal", "aNormal", "normal_matrix", "normal"},
+                      SpellingRow{"none", "shininess", "", ""}),
+    [](const auto& row) { return row.param.name; });
 
 }  // namespace
 }  // namespace gobo

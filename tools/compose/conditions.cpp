@@ -249,11 +249,7 @@ std::string_view macro_name(std::string_view text) {
 }
 
 Conditions::Conditions(std::string_view prologue, bool is_for_driver) : is_for_driver_(is_for_driver) {
-    const GlslVersion version = version_of(prologue);
-    define(fmt::format("__VERSION__ {}", version.number));
-    if (version.es) define("GL_ES 1");
-    if (!version.es && version.number >= 150)
-        define(version.profile == "compatibility" ? "GL_compatibility_profile 1" : "GL_core_profile 1");
+    for (const std::string& macro : version_macros(version_of(prologue))) define(macro);
     for (const std::string& line : split(prologue, '\n'))
         if (line.starts_with("#define ")) define(std::string_view(line).substr(8));
 }

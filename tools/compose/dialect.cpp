@@ -119,6 +119,16 @@ GlslVersion version_of(std::string_view source) {
     return version;
 }
 
+std::vector<std::string> version_macros(const GlslVersion& version) {
+    std::vector<std::string> macros = {fmt::format("__VERSION__ {}", version.number)};
+    if (version.es)
+        macros.emplace_back("GL_ES 1");
+    else if (version.number >= 150)
+        macros.push_back(
+            fmt::format("GL_{}_profile 1", version.profile == "compatibility" ? "compatibility" : "core"));
+    return macros;
+}
+
 bool add_extension(Extensions& extensions, const std::string& name, Extension extension) {
     constexpr std::array<std::string_view, 4> by_strength = {"disable", "warn", "enable", "require"};
     const auto strength_of = [&](const Extension& one) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compose/composition.hpp"
 
@@ -28,6 +29,9 @@ struct GlslVersion {
 
 /// The version that a source states.
 [[nodiscard]] GlslVersion version_of(std::string_view source);
+
+/// The macros that drivers define by the version: "__VERSION__ 330", "GL_core_profile 1".
+[[nodiscard]] std::vector<std::string> version_macros(const GlslVersion& version);
 
 /// What `#extension` asks for.
 struct Extension {

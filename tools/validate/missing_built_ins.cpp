@@ -18,6 +18,15 @@ constexpr std::string_view kOwnPrefix = "gobo_built_in_";
 constexpr std::string_view kUndefinedPrefix = "gobo_undefined_";
 constexpr std::string_view kDefinedByDrivers = "gobo_defined_by_drivers";
 
+/// The macros that are defined by the version, which glslang is given another one of, with names for it of
+/// the same length: columns stay.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kVersionMacros = {
+    {{"__VERSION__", "own_VERSION"},
+     {"GL_ES", "gL_ES"},
+     {"GL_core_profile", "gL_core_profile"},
+     {"GL_es_profile", "gL_es_profile"},
+     {"GL_compatibility_profile", "gL_compatibility_profile"}}};
+
 struct BuiltIn {
     std::string_view name;
     std::string_view type;
@@ -51,6 +60,13 @@ bool contains(std::string_view text, std::string_view part) {
 void replace_all(std::string& text, std::string_view old, std::string_view by) {
     for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size()))
         text.replace(at, old.size(), by);
+}
+
+/// Empty where the name is no macro of the version.
+std::string_view name_for_glslang(std::string_view name) {
+    for (const auto& [own, other] : kVersionMacros)
+        if (own == name) return other;
+    return {};
 }
 
 /// What asks for an extension, or defines such a macro itself, which no compiler takes.
@@ -110,13 +126,17 @@ std::string driver_declarations(const std::string& prologue, const std::vector<c
         !version.es && version.number < 400 && prologue.find("GL_ARB_gpu_shader5 ") != std::string::npos &&
         std::ranges::any_of(pieces, [](const Piece* piece) { return contains(piece->text, "fma"); });
     std::string text = fmt::format("#define {} 1\n", kDefinedByDrivers);
+    for (const std::string& macro : version_macros(version_of(pieces.front()->text))) {
+        const std::size_t end = macro.find(' ');
+        text += fmt::format("#define {}{}\n", name_for_glslang(macro.substr(0, end)), macro.substr(end));
+    }
     for (const char* type : {"float", "vec2", "vec3", "vec4"})
         if (has_fma) text += fmt::format("{0} fma({0} a, {0} b, {0} c) {{ return a * b + c; }}\n", type);
     return text;
 }
 
 std::string with_driver_macros(std::string_view text) {
-    if (!contains(text, "GL_")) return std::string(text);
+    if (!contains(text, "GL_") && !contains(text, "__VERSION__")) return std::string(text);
     std::string result;
     for (std::string_view rest = text; !rest.empty();) {
         const std::string_view line = rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1);
@@ -124,9 +144,14 @@ std::string with_driver_macros(std::string_view text) {
         const std::vector<std::string_view> tokens = tokens_of(line);
         const bool is_condition =
             tokens.size() > 2 && tokens[0] == "#" && (tokens[1].starts_with("if") || tokens[1] == "elif");
+        const bool is_definition =
+            tokens.size() > 2 && tokens[0] == "#" && (tokens[1] == "define" || tokens[1] == "undef");
         Substitutions known;
-        for (const std::string_view name : tokens)
+        for (const std::string_view name : tokens) {
             if (is_condition && is_unknown_to_glslang(name)) known.emplace_back(name, kDefinedByDrivers);
+            const std::string_view other = name_for_glslang(name);
+            if (!other.empty() && !(is_definition && tokens[2] == name)) known.emplace_back(name, other);
+        }
         result += known.empty() ? std::string(line) : substituted(line, known);
     }
     return without_foreign_macros(result);
@@ -147,12 +172,14 @@ std::string without_own_layouts(std::string text) {
 }
 
 bool differs_from_drivers(std::string_view text) {
-    return contains(text, "GL_") || contains(text, "shared") || contains(text, "packed");
+    return contains(text, "GL_") || contains(text, "__VERSION__") || contains(text, "shared") ||
+           contains(text, "packed");
 }
 
 void name_built_ins(Diagnostic& diagnostic) {
     replace_all(diagnostic.message, kOwnPrefix, "gl_");
     replace_all(diagnostic.message, kUndefinedPrefix, "");
+    for (const auto& [own, other] : kVersionMacros) replace_all(diagnostic.message, other, own);
 }
 
 }  // namespace gobo

@@ -27,14 +27,15 @@ struct MissingBuiltIns {
 [[nodiscard]] bool is_missing_built_in(std::string_view uniform);
 
 /// For the end of the prologue: functions that an extension brings and glslang lacks, as fma() before GLSL
-/// 4.00, and the macro that with_driver_macros() names.
+/// 4.00, and the macros that with_driver_macros() names.
 [[nodiscard]] std::string driver_declarations(const std::string& prologue,
                                               const std::vector<const Piece*>& pieces);
 
 /// The text with other names for the macros that glslang defines and no driver of OpenGL does: `GL_SPIRV`,
 /// and those of extensions that Vulkan or tools alone have. Its `#extension` lines stay as they are.
 [[nodiscard]] std::string without_foreign_macros(std::string_view text);
-/// That, and with the macros of extensions that drivers have and glslang does not know as 1.
+/// That, with the macros of extensions that drivers have and glslang does not know as 1, and with the macros
+/// that driver_declarations() gives the values of the shader's own version.
 [[nodiscard]] std::string with_driver_macros(std::string_view text);
 /// The text without `shared` and `packed` in layouts, of which glslang makes no SPIR-V: blocks that state no
 /// layout are laid out so, too.

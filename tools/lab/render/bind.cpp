@@ -141,12 +141,14 @@ static_assert(std::ranges::all_of(kUniformSources,
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kAttributeSpellings = {
     {{"position", "position pos vertex vertexposition"},
      {"normal", "normal vertexnormal"},
-     {"texcoord", "texcoord texcoords texcoord0 texturecoordinate texturecoord textureuv uv uv0"},
+     {"texcoord",
+      "texcoord texcoords texcoord0 multitexcoord0 texturecoordinate texturecoord textureuv uv uv0"},
      {"color", "color colour color0 vertexcolor"}}};
 
-/// Takes off `u_`, `in_` and the like, and a lower-case letter or "in" before a capital.
+/// Takes off `u_`, `in_`, the `legacy_` of what OpenGL once had built in and the like, and a lower-case
+/// letter or "in" before a capital.
 std::string_view without_prefix(std::string_view name) {
-    for (const std::string_view prefix : {"in", "attr", "u", "a", "v", "i", "m", "g", "vs"}) {
+    for (const std::string_view prefix : {"in", "attr", "legacy", "u", "a", "v", "i", "m", "g", "vs"}) {
         if (!name.starts_with(prefix) || name.size() <= prefix.size()) continue;
         const char next = name[prefix.size()];
         if (next == '_') return name.substr(prefix.size() + 1);

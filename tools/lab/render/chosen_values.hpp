@@ -21,7 +21,7 @@ struct ChosenAttribute {
 [[nodiscard]] Result<ChosenAttribute> chosen_attribute(const std::string& name, const Mesh& mesh,
                                                        const std::vector<RenderValue>& values);
 
-/// False for a fragment stage without an output for the picture's colours, which stay the background then.
+/// False for a fragment stage without a declared output for the picture's colours, which stay the background then.
 [[nodiscard]] bool writes_color(const Interface& interface);
 
 /// Fault::input where `values` give a sampler a source that is none of textures.

@@ -31,6 +31,30 @@ glm::dmat4 placed(const Mesh& mesh) {
            glm::scale(glm::dmat4(1), glm::dvec3(scale)) * glm::translate(glm::dmat4(1), -foot);
 }
 
+/// Whether the fragment stage may write gl_FragColor or gl_FragData, which are no outputs of an interface.
+bool mentions_built_in_color(const std::vector<StageText>& stages) {
+    return std::ranges::any_of(stages, [](const StageText& stage) {
+        return stage.kind == StageKind::fragment && std::ranges::any_of(stage.pieces, [](const Piece& piece) {
+                   return piece.text.find("gl_Frag") != std::string::npos &&
+                          (piece.text.find("gl_FragColor") != std::string::npos ||
+                           piece.text.find("gl_FragData") != std::string::npos);
+               });
+    });
+}
+
+/// Says of a picture that shows its background alone that it does.
+Diagnostics warnings_of_nothing(const Picture& picture, bool is_written) {
+    const bool is_covered = std::ranges::any_of(picture.depth.values, [](float depth) { return depth < 1; });
+    if (is_covered && is_written) return {};
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.message = is_covered ? "the picture is the background alone: the fragment stage writes no color"
+                                 : "the picture is the background alone: nothing of the objects is drawn";
+    warning.help = is_covered ? "declare an output at location 0"
+                              : "see what gl_Position is, and which fragments are discarded";
+    return {warning};
+}
+
 }  // namespace
 
 ViewedObject viewed_from(const View& view) {
@@ -60,13 +84,16 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     set_bindings(context, program, interface);
     GOBO_TRY(const DrawList list,
              make_draw_list(context, program, interface, objects, values, viewed_from(view), textures));
-    return take_picture(framebuffer, view.background, list.warnings(), [&] {
-        const GladGLContext& gl = context.gl();
-        const GLboolean written = writes_color(interface) ? GL_TRUE : GL_FALSE;
-        gl.ColorMask(written, written, written, written);
-        list.draw();
-        gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    });
+    const bool is_written = writes_color(interface) || mentions_built_in_color(stages);
+    GOBO_TRY(Picture picture, take_picture(framebuffer, view.background, list.warnings(), [&] {
+                 const GladGLContext& gl = context.gl();
+                 const GLboolean written = is_written ? GL_TRUE : GL_FALSE;
+                 gl.ColorMask(written, written, written, written);
+                 list.draw();
+                 gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+             }));
+    std::ranges::move(warnings_of_nothing(picture, is_written), std::back_inserter(picture.warnings));
+    return picture;
 }
 
 RenderedSelection draw_each(
