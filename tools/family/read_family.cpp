@@ -446,16 +446,13 @@ bool is_within(const Domain& narrower, const Domain& domain) {
 
 Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower) {
     Diagnostics errors;
+    std::vector<std::string> names;
+    for (const Domain& known : family.domains) names.push_back(known.name);
     for (const Domain& domain : narrower) {
         auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
-        if (const auto part = component_name(domain.name); part && own == family.domains.end()) {
-            // A component's range is within that of the whole.
-            const auto whole = std::ranges::find(family.domains, part->of, &Domain::name);
-            if (whole != family.domains.end() && !whole->of_length && is_within(domain, *whole)) {
-                family.domains.push_back(domain);
-                continue;
-            }
-        }
+        const auto component = component_name(domain.name);
+        const bool is_part = component && own == family.domains.end();  // of the whole's range
+        if (is_part) own = std::ranges::find(family.domains, component->of, &Domain::name);
         if (own == family.domains.end() && is_constraint(domain.name)) {
             errors.push_back(
                 {.place = domain.place,
@@ -463,17 +460,21 @@ Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower)
                  .help = "narrow ranges here; what holds between inputs belongs into the "
                          "family's [domain]"});
         } else if (own == family.domains.end()) {
-            std::vector<std::string> names;
-            for (const Domain& known : family.domains) names.push_back(known.name);
             errors.push_back({.place = domain.place,
                               .message = fmt::format("the family '{}' declares no domain for '{}'",
                                                      family.name, domain.name),
                               .help = suggestion(domain.name, names)});
+        } else if (is_part && own->of_length) {
+            errors.push_back({.place = domain.place,
+                              .message = fmt::format("the range of '{}' is one of its length", own->name),
+                              .help = "narrow the length's range"});
         } else if (!is_within(domain, *own)) {
             errors.push_back(
                 {.place = domain.place,
                  .message = fmt::format("'{}' may hold more here than the family allows", domain.name),
                  .help = "what the shaders are made for stands in the family's [domain]: narrow it"});
+        } else if (is_part) {
+            family.domains.push_back(domain);
         } else {
             const std::vector<double> last = domain.last.empty() ? own->last : domain.last;
             *own = domain;
