@@ -30,7 +30,10 @@ class Statements {
                 const Range head{begin, i};
                 if (is_block(head)) add_block(head, {i + 1, end});
                 if (i > begin + 1 && at(i - 2) == "struct") add_struct({i + 1, end}, std::string(at(i - 1)));
-                if (i > begin && at(i - 1) == ")") begin = end + 1;  // a function's body ends its statement
+                if (i > begin && at(i - 1) == ")") {
+                    add_reads(head, {i + 1, end});
+                    begin = end + 1;  // a function's body ends its statement
+                }
                 i = end;
             } else if (at(i) == ";") {
                 const Range whole{begin, i};
@@ -40,6 +43,9 @@ class Statements {
                 if (is_varying || has(whole, "varying") || has(whole, "uniform"))
                     add_names(whole, has(whole, "smooth") ? "smooth" : "", "");
                 if (is_varying && !has(whole, "location")) add_names(whole, "free", "");
+                if (has(whole, "in"))
+                    for (const std::size_t name : names_in(whole))
+                        inputs_[at(name)].push_back(std::string(at(name)));
                 if (is_varying) add_precisions(whole, "");
                 if (i == begin + 3 && at(begin) == "precision" && !precisions_.empty())
                     precisions_[at(i - 1)] = at(i - 2);
@@ -104,6 +110,27 @@ class Statements {
             add(path, word);
             if (at(i + 1) == "[" && at(i + 2) == "]" && at(i + 3) != "=") add(path, "[]");
         }
+    }
+
+    /// Marks the inputs that a function mentions, called or not. A name that it declares itself is not one.
+    void add_reads(Range head, Range body) {
+        if (inputs_.empty()) return;
+        std::set<std::string_view> mentioned;
+        std::set<std::string_view> own;
+        int brackets = 0;
+        for (std::size_t i = head.begin; i < body.end; ++i) {
+            const std::string_view token = at(i);
+            if (token == "(" || token == "[") ++brackets;
+            if (token == ")" || token == "]") --brackets;
+            if (!inputs_.contains(token) || at(i - 1) == ".") continue;
+            const std::string_view before = at(i - 1);
+            const bool is_declared = i < body.begin || (is_identifier(before) && before != "return") ||
+                                     before == "]" || (before == "," && brackets == 0);
+            (is_declared ? own : mentioned).insert(token);
+        }
+        for (const std::string_view name : mentioned)
+            if (!own.contains(name))
+                for (const std::string& path : inputs_.find(name)->second) add(path, "read");
     }
 
     void add_struct(Range body, const std::string& name) {
@@ -176,6 +203,8 @@ class Statements {
             return word < range.end ? at(word + 2) : std::string_view();
         };
         const std::string_view location = location_in(head);
+        const std::string_view instance = at(body.end + 1);
+        const bool has_instance = is_identifier(instance);
         std::size_t begin = body.begin;
         for (std::size_t i = body.begin; i < body.end; ++i) {
             if (at(i) != ";") continue;
@@ -189,6 +218,9 @@ class Statements {
                 add_precisions(member, block);
                 if (at(body.end + 2) == "[") add_names(member, precision_in(member), block);
             }
+            if (has(head, "in"))
+                for (const std::size_t name : names_in(member))
+                    inputs_[has_instance ? instance : at(name)].push_back(path_of(name, block));
             const std::string_view own = location_in(member);
             if (!own.empty() && location.empty()) add_names(member, "located", block);
             if (begin == body.begin && !location.empty() && !own.empty() && own != location)
@@ -201,6 +233,8 @@ class Statements {
     std::map<std::string_view, std::string_view> defaults_;  ///< layouts of "uniform" and "buffer"
     DefaultPrecisions precisions_;
     std::set<std::string, std::less<>> precise_;  ///< structs of whose members precisions are known
+    /// By the name under which a stage mentions them, an input or a block's instance.
+    std::map<std::string_view, std::vector<std::string>> inputs_;
     Stated stated_;
 };
 

@@ -12,6 +12,7 @@ namespace gobo {
 
 /// Words by the path of what is declared, "tint" or "Surface.normal" of a block's member:
 /// - "smooth" of an input or output
+/// - "read" of an input that a function mentions, even where nothing calls it
 /// - "[]" of an array without a size
 /// - "offset" of a member whose place its block states by offset or align
 /// - "highp", "mediump" or "lowp" of a struct's member, "Lamp.color" of the struct's own name, and of what a

@@ -181,7 +181,7 @@ class VaryingCheck {
             const std::size_t before = found_.size();
             if (output != earlier_->interface.outputs.end())
                 check_varying(input, *output);
-            else if (!input.usage.unused)
+            else if (!input.usage.unused || is_mentioned(input))
                 check_missing(input);
             if (found_.size() == before) continue;
             if (found_.back().severity == Severity::error)
@@ -189,6 +189,11 @@ class VaryingCheck {
             else if (!warned.insert(root_of(input.name)).second)
                 found_.resize(before);
         }
+    }
+
+    /// Whether the text reads it where SPIR-V keeps no trace, as in a function that nothing calls.
+    [[nodiscard]] bool is_mentioned(const Variable& input) const {
+        return !is_before(420, 300) && states(input, "read");
     }
 
     void check_missing(const Variable& input) {
