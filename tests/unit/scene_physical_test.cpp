@@ -57,6 +57,19 @@ Result<Scene> read_physical_scene(const nlohmann::json& json) {
     return read_scene(files, "quad.gltf", Reading::physical);
 }
 
+/// Gives the quad's mesh an attribute of floats.
+void add_attribute(nlohmann::json& scene, const char* name, const char* type, const std::string& bytes) {
+    const std::size_t buffer = scene["buffers"].size();
+    scene["meshes"][0]["primitives"][0]["attributes"][name] = scene["accessors"].size();
+    scene["buffers"].push_back(
+        {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+    scene["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", bytes.size()}});
+    scene["accessors"].push_back({{"bufferView", scene["bufferViews"].size() - 1},
+                                  {"componentType", 5126},
+                                  {"count", 4},
+                                  {"type", type}});
+}
+
 /// The quad's scene with this material and picture.
 nlohmann::json scene_with(const std::string& material, const std::string& image) {
     nlohmann::json scene = quad_scene();
@@ -65,15 +78,7 @@ nlohmann::json scene_with(const std::string& material, const std::string& image)
     scene["textures"] = {{{"source", 0}}};
     scene["meshes"][0]["primitives"][0]["material"] = 0;
     // Texture coordinates of the usual picture, v running down.
-    const std::string places = float_bytes({0, 1, 1, 1, 1, 0, 0, 0});
-    scene["buffers"].push_back(
-        {{"byteLength", places.size()}, {"uri", "data:application/octet-stream;base64," + base64(places)}});
-    scene["bufferViews"].push_back({{"buffer", 1}, {"byteLength", places.size()}});
-    scene["accessors"].push_back({{"bufferView", scene["bufferViews"].size() - 1},
-                                  {"componentType", 5126},
-                                  {"count", 4},
-                                  {"type", "VEC2"}});
-    scene["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = scene["accessors"].size() - 1;
+    add_attribute(scene, "TEXCOORD_0", "VEC2", float_bytes({0, 1, 1, 1, 1, 0, 0, 0}));
     return scene;
 }
 
@@ -356,15 +361,7 @@ TEST(PhysicalScene, MakesTangentsAsMikkTSpaceHasThem) {
         EXPECT_TRUE(scene) << to_text(scene.error().front());
         return scene->meshes[0].primitives[0].tangents;
     };
-    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json["accessors"].size();
-    const std::string normals = float_bytes({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-    json["buffers"].push_back(
-        {{"byteLength", normals.size()}, {"uri", "data:application/octet-stream;base64," + base64(normals)}});
-    json["bufferViews"].push_back({{"buffer", 2}, {"byteLength", normals.size()}});
-    json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
-                                 {"componentType", 5126},
-                                 {"count", 4},
-                                 {"type", "VEC3"}});
+    add_attribute(json, "NORMAL", "VEC3", float_bytes({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
     ASSERT_EQ(tangents().size(), 4U);
     for (const glm::vec4& tangent : tangents()) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
     const std::string mirrored = float_bytes({1, 1, 0, 1, 0, 0, 1, 0});
@@ -374,6 +371,45 @@ TEST(PhysicalScene, MakesTangentsAsMikkTSpaceHasThem) {
     const std::string half = float_bytes({0, 1, 1, 1, 1, 0, 2, 0});
     json["buffers"][1]["uri"] = "data:application/octet-stream;base64," + base64(half);
     EXPECT_EQ(tangents().size(), 6U);
+}
+
+/// As T runs to the right and N x T up on the usual picture, so both run on one that is turned or mirrored.
+TEST(PhysicalScene, MakesTangentsOfTheCoordinatesThatTheNormalPictureIsLookedUpBy) {
+    struct Row {
+        const char* name;
+        const char* transform;
+        glm::vec4 tangent;
+        bool has_own = false;  ///< the mesh states tangents
+    };
+    const Row rows[] = {
+        {"as it is", "{}", {1, 0, 0, 1}},
+        {"moved and stretched", R"({"offset": [0.5, 2], "scale": [2, 3]})", {1, 0, 0, 1}},
+        {"turned by a quarter", R"({"rotation": 1.5707963267948966})", {0, -1, 0, 1}},
+        {"upside down", R"({"rotation": 3.141592653589793})", {-1, 0, 0, 1}},
+        {"mirrored from left to right", R"({"scale": [-1, 1]})", {-1, 0, 0, -1}},
+        {"mirrored from top to bottom", R"({"scale": [1, -1]})", {1, 0, 0, -1}},
+        {"by the second set", R"({"texCoord": 1})", {0, 1, 0, 1}},
+        {"stated by the mesh", R"({"rotation": 1.5707963267948966})", {0, 0.6F, 0.8F, -1}, true},
+    };
+    for (const Row& row : rows) {
+        nlohmann::json json =
+            scene_with(R"({"normalTexture": {"index": 0}})", png({130, 128, 255, 255}, 1, 1));
+        json["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] =
+            nlohmann::json::parse(row.transform);
+        add_attribute(json, "NORMAL", "VEC3", float_bytes({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
+        add_attribute(json, "TEXCOORD_1", "VEC2", float_bytes({0, 0, 0, 1, 1, 1, 1, 0}));
+        if (row.has_own)
+            add_attribute(
+                json, "TANGENT", "VEC4",
+                float_bytes({0, 0.6F, 0.8F, -1, 0, 0.6F, 0.8F, -1, 0, 0.6F, 0.8F, -1, 0, 0.6F, 0.8F, -1}));
+        const Result<Scene> scene = read_physical_scene(json);
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        const std::vector<glm::vec4>& tangents = scene->meshes[0].primitives[0].tangents;
+        ASSERT_EQ(tangents.size(), 4U) << row.name;
+        for (const glm::vec4& tangent : tangents)
+            EXPECT_LT(glm::length(tangent - row.tangent), 1e-6F)
+                << row.name << ": " << tangent.x << " " << tangent.y << " " << tangent.z << " " << tangent.w;
+    }
 }
 
 TEST(PhysicalScene, PutsAnEnvironmentWhereNoLightIsStated) {

@@ -135,12 +135,12 @@ struct TextureSide {
     bool runs_down = false;  ///< v turns against u as on paper: the usual picture, whose v runs down
 };
 
-TextureSide side_of(const Primitive& primitive, const std::vector<glm::vec2>& places, std::size_t first) {
+TextureSide side_of(const Primitive& primitive, const std::vector<glm::dvec2>& places, std::size_t first) {
     const auto edge = [&](std::size_t corner) {
         const std::uint32_t from = primitive.indices[first];
         const std::uint32_t to = primitive.indices[first + corner];
         return std::pair(glm::dvec3(primitive.positions[to]) - glm::dvec3(primitive.positions[from]),
-                         glm::dvec2(places[to]) - glm::dvec2(places[from]));
+                         places[to] - places[from]);
     };
     const auto [p1, t1] = edge(1);
     const auto [p2, t2] = edge(2);
@@ -152,9 +152,11 @@ TextureSide side_of(const Primitive& primitive, const std::vector<glm::vec2>& pl
 /// glTF 2.0, 3.7.2.1): at each vertex the directions in which u rises on its triangles, each in the plane of
 /// the vertex' normal, their mean by the triangles' angles there; a vertex at which the texture is mirrored
 /// on some of its triangles becomes two. The bitangent w (N x T) is where v falls: up, on a picture that is
-/// not mirrored.
-void add_tangents(Primitive& primitive, std::int64_t set) {
-    const std::vector<glm::vec2>& places = set == 1 ? primitive.texcoords1 : primitive.texcoords;
+/// not mirrored. The coordinates are those that the picture is looked up by.
+void add_tangents(Primitive& primitive, const TextureUse& use) {
+    std::vector<glm::dvec2> places;
+    for (const glm::vec2& place : use.set == 1 ? primitive.texcoords1 : primitive.texcoords)
+        places.push_back(use.placed(place));
     if (places.size() != primitive.positions.size() || primitive.normals.empty()) return;
     const std::size_t vertices = primitive.positions.size();
     std::vector<std::array<glm::dvec3, 2>> sums(vertices, {glm::dvec3(0), glm::dvec3(0)});
@@ -231,7 +233,7 @@ Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& 
         scene.is_physical &&
         scene.materials[primitive.material].physical.of_extensions.at("Material.anisotropy").front() > 0;
     if ((normals || is_brushed) && primitive.tangents.empty())
-        add_tangents(primitive, normals ? normals->set : 0);
+        add_tangents(primitive, normals.value_or(TextureUse()));
     return primitive;
 }
 

@@ -96,6 +96,11 @@ struct TextureUse {
     int wrap_t = 10497;
     bool is_nearest = false;  ///< magnified without interpolation
 
+    /// Where the picture is looked up.
+    [[nodiscard]] glm::dvec2 placed(const glm::dvec2& place) const {
+        return {linear[0] * place.x + linear[1] * place.y + offset.x,
+                linear[2] * place.x + linear[3] * place.y + offset.y};
+    }
     [[nodiscard]] bool is_placed() const {
         return set != 0 || linear != glm::dvec4(1, 0, 0, 1) || offset != glm::dvec2(0);
     }
