@@ -276,6 +276,7 @@ void Renderer::draw(std::size_t number, const Settings& settings, const glm::dma
 void Renderer::draw_depths(const gobo::ShadowCamera& camera) {
     const GLuint program = program_of(depth::Key());
     for (std::size_t i = 0; i < stage_.draws.size(); ++i) {
+        if (stage_.draws[i].physical && stage_.draws[i].physical->is_blended) continue;
         set(transform_block(camera.view * stage_.draws[i].model, camera.projection));
         draw_mesh(i, program);
     }

@@ -24,7 +24,7 @@ gobo::Result<EnvironmentMaps> studio_maps() {
 
 GLuint Textures::of(const gobo::scene::TextureImage& picture, const gobo::scene::TextureUse& use,
                     bool is_srgb) {
-    GLuint& name = pictures_[{&picture, use.wrap_s, use.wrap_t, use.is_nearest, is_srgb}];
+    GLuint& name = pictures_[{&picture, use.wrap_s, use.wrap_t, use.is_nearest, use.min_filter, is_srgb}];
     if (name != 0) return name;
     gl_.GenTextures(1, &name);
     gl_.BindTexture(GL_TEXTURE_2D, name);
@@ -33,7 +33,7 @@ GLuint Textures::of(const gobo::scene::TextureImage& picture, const gobo::scene:
     for (const gobo::scene::TextureImage& level : gobo::scene::picture_levels(picture, is_srgb))
         gl_.TexImage2D(GL_TEXTURE_2D, number++, is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width,
                        level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, use.min_filter);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, use.is_nearest ? GL_NEAREST : GL_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, use.wrap_s);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, use.wrap_t);

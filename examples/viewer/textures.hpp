@@ -34,7 +34,7 @@ class Textures {
 
   private:
     const GladGLContext& gl_;
-    std::map<std::tuple<const gobo::scene::TextureImage*, int, int, bool, bool>, GLuint> pictures_;
+    std::map<std::tuple<const gobo::scene::TextureImage*, int, int, bool, int, bool>, GLuint> pictures_;
 };
 
 }  // namespace viewer

@@ -1,6 +1,7 @@
 // Scenes drawn by OpenGL and by the evaluator are the same picture.
 #include <gtest/gtest.h>
 
+#include "../unit/scene_support.hpp"
 #include "lab/render/image.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "scene_library.hpp"
@@ -129,6 +130,31 @@ TEST(SceneViews, AreOfTheCamerasThatNodesHold) {
     EXPECT_EQ(first_camera(scene), 0U);
     EXPECT_TRUE(view_of_camera(scene, 0, 4, 3));
     EXPECT_FALSE(view_of_camera(scene, 1, 4, 3));
+}
+
+TEST(SceneViews, TellWhetherAllFacesAreTurnedAway) {
+    const Scene teapot = shipped_scene("teapot.gltf");
+    const Scene quad = read_patched("[]");
+    const Scene mirrored = read_patched(R"([{"op": "add", "path": "/nodes/0/scale", "value": [-1, 1, 1]}])");
+    const Scene two_sided =
+        read_patched(R"([{"op": "add", "path": "/materials/0/doubleSided", "value": true}])");
+    struct Seen {
+        const char* name;
+        const Scene& scene;
+        double z;  ///< of the direction to the viewer
+        bool are_away;
+    };
+    const Seen seen[] = {{"a closed mesh", teapot, -1, false},
+                         {"the quad's front", quad, 1, false},
+                         {"its back", quad, -1, true},
+                         {"mirrored, its front", mirrored, 1, false},
+                         {"mirrored, its back", mirrored, -1, true},
+                         {"both sides", two_sided, -1, false}};
+    for (const Seen& row : seen) {
+        const auto draws = required_effects(row.scene, {}, {});
+        const SceneView view = view_of_all(draws, glm::dvec3(0.1, 0.2, row.z), 40, 30);
+        EXPECT_EQ(turns_all_faces_away(row.scene, draws, view), row.are_away) << row.name;
+    }
 }
 
 TEST(SceneViews, OfEverythingHoldAllBounds) {

@@ -174,8 +174,9 @@ SoftwareImages software_images(SceneImages images, const std::vector<Object>& ca
     const auto layer = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     maps->depths.assign(plan.cameras.size() * layer, 1.0);
     for (std::size_t i = 0; i < plan.cameras.size(); ++i)
-        for (const Object& object : casters)
-            draw_depths(plan.cameras[i], object, slope, side, maps->depths.data() + i * layer);
+        for (const Object& object : casters)  // those with holes as a whole: no scene compared has any
+            if (object.shadow_shape != ShadowShape::none)
+                draw_depths(plan.cameras[i], object, slope, side, maps->depths.data() + i * layer);
     result.maps = std::move(maps);
     return result;
 }

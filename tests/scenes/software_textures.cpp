@@ -33,6 +33,25 @@ int wrapped(double index, int count, int wrap) {
     return inside < count ? inside : 2 * count - 1 - inside;
 }
 
+constexpr int kNearest = 9728;
+constexpr int kLinear = 9729;
+constexpr int kNearestOfNearestLevel = 9984;
+constexpr int kLinearOfNearestLevel = 9985;
+constexpr int kNearestBetweenLevels = 9986;
+
+bool is_nearest_within_level(int min_filter) {
+    return min_filter == kNearest || min_filter == kNearestOfNearestLevel ||
+           min_filter == kNearestBetweenLevels;
+}
+
+/// Which level is looked up, between two where it is no whole number (OpenGL 4.5, 8.14.3).
+double level_of(int min_filter, double lod) {
+    if (min_filter == kNearest || min_filter == kLinear) return 0;
+    if (min_filter == kNearestOfNearestLevel || min_filter == kLinearOfNearestLevel)
+        return std::ceil(lod + 0.5) - 1;
+    return lod;
+}
+
 /// The four texels around a place in texels.
 Color filtered(const Level& level, double x, double y, int wrap_s, int wrap_t) {
     const double left = std::floor(x - 0.5);
@@ -81,12 +100,12 @@ evaluate::Image picture_image(const PictureUse& use) {
             const Level& level = (*levels)[static_cast<std::size_t>(number)];
             const double x = request.coordinates[0] * level.width;
             const double y = request.coordinates[1] * level.height;
-            if (lod <= 0 && how.is_nearest)
+            if (lod <= 0 ? how.is_nearest : is_nearest_within_level(how.min_filter))
                 return level.at(wrapped(std::floor(x), level.width, how.wrap_s),
                                 wrapped(std::floor(y), level.height, how.wrap_t));
             return filtered(level, x, y, how.wrap_s, how.wrap_t);
         };
-        const double held = std::clamp(lod, 0.0, levels->size() - 1.0);
+        const double held = level_of(how.min_filter, std::clamp(lod, 0.0, levels->size() - 1.0));
         const double finer = std::floor(held);
         Color color = sampled(finer);
         if (finer == held) return color;

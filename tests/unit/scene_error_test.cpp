@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
             "without it; read are EXT_mesh_gpu_instancing, KHR_lights_punctual, "
             "KHR_materials_emissive_strength, "
             "KHR_materials_specular, "
-            "KHR_materials_unlit, KHR_mesh_quantization, KHR_texture_transform"},
+            "KHR_materials_unlit, KHR_mesh_quantization, KHR_node_visibility, KHR_texture_transform"},
         Broken{
             "light_too_bright", put("/extensions/KHR_lights_punctual/lights/0/intensity", "1e38"),
             "extensions.KHR_lights_punctual.lights[0].intensity is 1e+38, but must be between 0 and 1e+12"},
@@ -122,6 +122,11 @@ INSTANTIATE_TEST_SUITE_P(
                "nodes[0].translation must hold 3 numbers, not 2"},
         Broken{"zero_rotation", put("/nodes/0/rotation", "[0, 0, 0, 0]"),
                "nodes[0].rotation is not a rotation: its length must be 1"},
+        Broken{"long_rotation", put("/nodes/0/rotation", "[1, 1, 1, 1]"),
+               "nodes[0].rotation is not a rotation: its length must be 1"},
+        Broken{"visibility_no_truth",
+               put("/nodes/0/extensions", R"({"KHR_node_visibility": {"visible": 0}})"),
+               "nodes[0].extensions.KHR_node_visibility.visible must be true or false, not a number"},
         Broken{"projective_matrix", put("/nodes/0/matrix", "[1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
                "nodes[0].matrix is not an affine transform: its last row must be 0 0 0 1"},
         Broken{"matrix_and_scale",
@@ -181,6 +186,12 @@ INSTANTIATE_TEST_SUITE_P(
                "meshes[0].primitives must hold at least one primitive"},
         Broken{"no_attributes", take("/meshes/0/primitives/0/attributes"),
                "meshes[0].primitives[0].attributes is missing"},
+        Broken{"compressed_alone",
+               R"([{"op": "remove", "path": "/accessors/0/bufferView"},
+                   {"op": "add", "path": "/meshes/0/primitives/0/extensions",
+                    "value": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}])",
+               "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression holds what gobo does not read: "
+               "the mesh is nowhere else\n  help: export the mesh uncompressed"},
         Broken{"unknown_mode", put("/meshes/0/primitives/0/mode", "7"),
                "meshes[0].primitives[0].mode is 7, but must be between 0 and 6"},
         Broken{"material_out_of_range", put("/meshes/0/primitives/0/material", "1"),
@@ -250,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"image_out_of_range", put("/textures", R"([{"source": 1}])"),
                "textures[0].source is 1, but the file has 0 images"},
         Broken{"picture_cut_short", masked(R"({"uri": "data:;base64,iVBORw0KGgoAAAA="})"),
-               "images[0] is no PNG that can be decoded: PNG file is smaller than a PNG header"},
+               "images[0] is a PNG that is cut short"},
         Broken{"picture_nowhere", masked("{}"), "images[0] has neither uri nor bufferView"},
         Broken{"picture_twice", masked(R"({"uri": "quad.bin", "bufferView": 0})"),
                "images[0] has both uri and bufferView\n  help: leave one out"},
@@ -364,6 +375,10 @@ INSTANTIATE_TEST_SUITE_P(
             "cut.glb: error: this container is cut short: the chunk at byte 12 should have 2147483647 bytes, "
             "but only "
             "1160 follow"},
+        Cut{"length_below_the_header", whole().replace(8, 4, std::string("\x0b\0\0\0", 4)),
+            "cut.glb: error: this container says in its header that it has 11 bytes, but the header alone "
+            "has "
+            "12"},
         Cut{"version_1", whole().replace(4, 1, "\x01"),
             "cut.glb: error: this container has version 1, but only version 2 is read"}),
     [](const auto& row) { return row.param.name; });

@@ -1,6 +1,7 @@
 // From draws to keys, buckets and the funnel, over a family small enough to count by hand.
 #include "scene/scene_keys.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
@@ -171,9 +172,10 @@ TEST(SceneDemo, CallsForTwoPermutationsOfLit) {
 
 TEST(NotesOnAScene, SayOnceWhatIsNotDrawn) {
     const Family family = small_family();
-    Scene scene;
+    Scene scene = read_patched("[]");
     scene.path = "x.gltf";
-    std::vector<Draw> draws = {draw("a", {in("sheen")}), draw("b", {in("sheen"), in("fog", "linear")}),
+    std::vector<Draw> draws = {draw("a", {in("sheen"), in("point")}),
+                               draw("b", {in("sheen"), in("fog", "linear")}),
                                draw("c", {in("fog", "volumetric")}), draw("d", {}), draw("e", {})};
     draws[3].excluded = draws[4].excluded = "its primitives are lines";
     const auto keys = keys_for_draws(family, draws, {}, "450");
@@ -182,6 +184,12 @@ TEST(NotesOnAScene, SayOnceWhatIsNotDrawn) {
     EXPECT_EQ(notes_on_scene(scene, draws, *keys),
               Notes{"x.gltf: not drawn: fog, sheen, 2 draws (its primitives are lines)"});
     EXPECT_EQ(notes_on_scene(scene, {draws[0]}, {std::nullopt}), Notes{});
+    std::vector<Effect> many = points(3);
+    for (const int i : {2, 9, 10, 11, 12, 30, 100})
+        many.push_back({fmt::format("point {}", i), "point", "", true, "in"});
+    const std::vector<Draw> lit = {draw("a", many)};
+    EXPECT_EQ(notes_on_scene(scene, lit, *keys_for_draws(family, lit, {}, "450")),
+              Notes{"x.gltf: not drawn: point 2, point 9 to 12, point 30, point 100"});
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ std::string png(const std::vector<unsigned char>& rgba, unsigned width, unsigned
     return "data:image/png;base64," + base64(std::string(bytes.begin(), bytes.end()));
 }
 
-/// 8 x 8 texels of one grey; progressive in several scans.
-std::string jpeg(unsigned char grey, bool is_progressive = false) {
+/// 8 x 8 texels of one grey; progressive in several scans. Other colours have as many components as they do.
+std::string jpeg(unsigned char grey, bool is_progressive = false, J_COLOR_SPACE colors = JCS_GRAYSCALE) {
     jpeg_compress_struct info{};
     jpeg_error_mgr errors{};
     info.err = jpeg_std_error(&errors);
@@ -36,12 +36,12 @@ std::string jpeg(unsigned char grey, bool is_progressive = false) {
     unsigned long size = 0;
     jpeg_mem_dest(&info, &bytes, &size);
     info.image_width = info.image_height = 8;
-    info.input_components = 1;
-    info.in_color_space = JCS_GRAYSCALE;
+    info.input_components = colors == JCS_CMYK ? 4 : 1;
+    info.in_color_space = colors;
     jpeg_set_defaults(&info);
     if (is_progressive) jpeg_simple_progression(&info);
     jpeg_start_compress(&info, TRUE);
-    std::vector<unsigned char> row(8, grey);
+    std::vector<unsigned char> row(std::size_t{8} * static_cast<std::size_t>(info.input_components), grey);
     JSAMPROW rows[] = {row.data()};
     for (int i = 0; i < 8; ++i) jpeg_write_scanlines(&info, rows, 1);
     jpeg_finish_compress(&info);
@@ -463,6 +463,157 @@ TEST(PhysicalScene, RefusesAPictureThatIsCutShort) {
     const auto cut = decode_picture(whole.substr(0, whole.size() - 4));
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().message, "is no JPEG that can be decoded: Premature end of JPEG file");
+}
+
+TEST(PhysicalScene, RefusesAPngThatIsCutShort) {
+    std::vector<unsigned char> bytes;
+    ASSERT_EQ(lodepng::encode(bytes, {1, 2, 3, 255}, 1, 1), 0U);
+    const std::string whole(bytes.begin(), bytes.end());
+    EXPECT_TRUE(decode_picture(whole));
+    for (const std::size_t size : {std::size_t{8}, std::size_t{33}, std::size_t{45}, whole.size() - 12}) {
+        const auto cut = decode_picture(whole.substr(0, size));
+        ASSERT_FALSE(cut) << size;
+        EXPECT_EQ(cut.error().message, "is a PNG that is cut short") << size;
+    }
+}
+
+TEST(PhysicalScene, SaysWhatToDoAboutInks) {
+    const auto refused = decode_picture(jpeg(128, false, JCS_CMYK));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "is a JPEG in CMYK, but RGB and grey are read");
+    EXPECT_EQ(refused.error().help, "convert it (convert FILE.jpg -colorspace sRGB FILE.png)");
+}
+
+TEST(PhysicalScene, DrawsNormalsWithinTheDomainOfTheirScale) {
+    struct Row {
+        const char* scale;
+        double drawn;
+        const char* told;
+    };
+    const Row rows[] = {{"10", 10, nullptr},
+                        {"-10", -10, nullptr},
+                        {"100", 10, "normalTexture.scale 100 (it is drawn as 10)"},
+                        {"-10.5", -10, "normalTexture.scale -10.5 (it is drawn as -10)"}};
+    for (const Row& row : rows) {
+        const Result<Scene> scene = read_physical_scene(
+            scene_with(fmt::format(R"({{"normalTexture": {{"index": 0, "scale": {}}}}})", row.scale),
+                       png({130, 128, 255, 255}, 1, 1)));
+        ASSERT_TRUE(scene) << to_text(scene.error().front());
+        const PhysicalMaterial& material = scene->materials[0].physical;
+        EXPECT_EQ(material.normal_scale, row.drawn) << row.scale;
+        std::vector<std::string> told;
+        if (row.told != nullptr) told.emplace_back(row.told);
+        EXPECT_EQ(material.not_drawn, told) << row.scale;
+    }
+}
+
+TEST(PhysicalScene, RefusesASheenThatReflectsMoreThanItReceives) {
+    const Result<Scene> scene = read_physical_scene(
+        scene_with(R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 5, 0]}}})",
+                   png({9, 9, 9, 9}, 1, 1)));
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(to_text(scene.error().front()),
+              "quad.gltf: error: materials[0].extensions.KHR_materials_sheen.sheenColorFactor holds a number "
+              "that is not between 0 and 1\n");
+}
+
+TEST(PhysicalScene, ReadsHowPicturesAreMinified) {
+    nlohmann::json json = scene_with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})",
+                                     png({9, 9, 9, 255}, 1, 1));
+    const auto filter = [&] { return read_physical_scene(json)->materials[0].physical.maps[0]->min_filter; };
+    EXPECT_EQ(filter(), 9987) << "without a sampler";
+    json["textures"][0]["sampler"] = 0;
+    json["samplers"] = {nlohmann::json::object()};
+    EXPECT_EQ(filter(), 9987) << "a sampler that states none";
+    for (const int stated : {9728, 9729, 9984, 9985, 9986, 9987}) {
+        json["samplers"][0]["minFilter"] = stated;
+        EXPECT_EQ(filter(), stated);
+    }
+}
+
+/// The quad, its lamp and its camera, each of which may hang below a hidden node.
+TEST(PhysicalScene, LeavesOutWhatIsHidden) {
+    struct Row {
+        const char* name;
+        std::size_t hidden;  ///< the node that is not visible
+        std::size_t child;   ///< hangs below it
+        std::size_t draws, lights;
+        bool has_camera;
+    };
+    const Row rows[] = {{"the mesh", 0, 0, 0, 1, true},
+                        {"the lamp", 1, 1, 1, 0, true},
+                        {"a camera stays", 2, 2, 1, 1, true},
+                        {"what hangs below", 0, 1, 0, 0, true}};
+    for (const Row& row : rows) {
+        nlohmann::json json = scene_with("{}", png({9, 9, 9, 255}, 1, 1));
+        json["extensionsRequired"] = {"KHR_node_visibility"};
+        json["nodes"][row.hidden]["extensions"]["KHR_node_visibility"]["visible"] = false;
+        if (row.child != row.hidden) {
+            json["nodes"][row.child]["extensions"]["KHR_node_visibility"]["visible"] = true;
+            json["nodes"][row.hidden]["children"] = {row.child};
+            json["scenes"][0]["nodes"] = {0, 2};
+        }
+        const Result<Scene> scene = read_physical_scene(json);
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        EXPECT_EQ(required_effects(*scene, {}, {}).size(), row.draws) << row.name;
+        EXPECT_EQ(place_lights(*scene).size(), row.lights) << row.name;
+        EXPECT_EQ(eye_of_cameras(*scene).has_value(), row.has_camera) << row.name;
+    }
+}
+
+/// The lamp stands 2 above the middle of the quad.
+TEST(PhysicalScene, TellsOnceWhatIsNotRead) {
+    struct Row {
+        const char* name;
+        const char* patch;
+        std::vector<std::string> told;
+    };
+    const Row rows[] = {
+        {"nothing", "[]", {}},
+        {"extensions of any kind",
+         R"([{"op": "add", "path": "/extensionsUsed",
+              "value": ["KHR_lights_punctual", "EXT_lights_image_based", "KHR_materials_volume", "ACME_fur"]},
+             {"op": "add", "path": "/materials/0/extensions", "value": {"KHR_materials_volume": {}}}])",
+         {"quad.gltf: not drawn: ACME_fur, EXT_lights_image_based, KHR_materials_volume"}},
+        {"extensions whose place core glTF takes",
+         R"([{"op": "add", "path": "/extensionsUsed",
+              "value": ["EXT_texture_webp", "KHR_draco_mesh_compression", "KHR_xmp_json_ld"]}])",
+         {}},
+        {"a light of 0",
+         R"([{"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/intensity", "value": 0}])",
+         {"quad.gltf: nothing lights this scene"}},
+        {"a black light",
+         R"([{"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/color", "value": [0, 0, 0]}])",
+         {"quad.gltf: nothing lights this scene"}},
+        {"a black light and what emits",
+         R"([{"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/color", "value": [0, 0, 0]},
+             {"op": "add", "path": "/materials/0/emissiveFactor", "value": [0, 1, 0]}])",
+         {}},
+        {"no light and no reflection",
+         R"([{"op": "remove", "path": "/nodes/1/extensions"},
+             {"op": "add", "path": "/scenes/0/extras", "value": {"gobo": {"reflection": 0}}}])",
+         {"quad.gltf: nothing lights this scene"}},
+        {"no light at all: the studio", R"([{"op": "remove", "path": "/nodes/1/extensions"}])", {}},
+        {"shadows of what is blended",
+         R"([{"op": "add", "path": "/materials/0/alphaMode", "value": "BLEND"},
+             {"op": "add", "path": "/extensions/KHR_lights_punctual/lights/0/extras",
+              "value": {"gobo": {"shadow": true}}}])",
+         {"quad.gltf: not drawn: shadows of 1 blended draw"}},
+    };
+    for (const Row& row : rows) {
+        const nlohmann::json json =
+            scene_with("{}", png({9, 9, 9, 255}, 1, 1)).patch(nlohmann::json::parse(row.patch));
+        const Result<Scene> scene = read_physical_scene(json);
+        ASSERT_TRUE(scene) << row.name << ": " << to_text(scene.error().front());
+        const std::vector<Draw> draws = required_effects(*scene, {}, {});
+        std::vector<std::optional<DrawKey>> keys(draws.size());
+        for (std::size_t i = 0; i < draws.size(); ++i) {
+            keys[i].emplace();
+            for (const std::string& name : material_of(*scene, draws[i]).physical.not_drawn)
+                keys[i]->missing.push_back(name + ": needed, but not yet in the family");
+        }
+        EXPECT_EQ(notes_on_scene(*scene, draws, keys), row.told) << row.name;
+    }
 }
 
 TEST(PhysicalScene, RefusesAPictureOfManyScans) {

@@ -133,13 +133,15 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     append(validated.diagnostics, check_depfile_names(target, files));
     const std::string manifest = emit_manifest(input);
     const std::string depfile = emit_depfile({target}, {files.begin(), files.end()});
-    Outcome outcome{
-        {},
-        std::move(validated.diagnostics),
-        fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", stem, composition.permutations.size(),
-                    composition.stages.size(), composition.pieces.size(), modules_text(input.modules)),
-        {},
-        world.cache == nullptr ? -1 : static_cast<int>(validated.compiled)};
+    std::vector<std::string> summary = family.scene_notes;
+    summary.push_back(fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", stem,
+                                  composition.permutations.size(), composition.stages.size(),
+                                  composition.pieces.size(), modules_text(input.modules)));
+    Outcome outcome{{},
+                    std::move(validated.diagnostics),
+                    join(summary, "\n"),
+                    {},
+                    world.cache == nullptr ? -1 : static_cast<int>(validated.compiled)};
     const bool is_printed = options.folder == kStandardOutput;
     // The header is what others are compiled with: where it is new, the rest is.
     if (!is_printed || !options.depfile.empty())

@@ -87,6 +87,7 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
     GOBO_TRY(const scene::Scene scene, load_scene(world, family, path));
     const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
+    std::ranges::move(scene::notes_on_scene(scene, draws, keys), std::back_inserter(family.scene_notes));
     std::vector<NamedKey> named;
     for (const Key& key : scene::distinct_keys(keys)) named.push_back({key_text(family.family, key), {path}});
     // An empty selection would mean the family's default set.

@@ -73,8 +73,9 @@ struct LoadedFamily {
     std::string text;  ///< of the family file, for messages
     Family family;
     SearchPath search;
-    std::vector<std::string> files;     ///< on disk, for the depfile
-    std::vector<Domain> narrowed = {};  ///< of its domains, those that --domain narrowed
+    std::vector<std::string> files;             ///< on disk, for the depfile
+    std::vector<std::string> scene_notes = {};  ///< notes_on_scene() of the scenes that chose keys
+    std::vector<Domain> narrowed = {};          ///< of its domains, those that --domain narrowed
     /// By constant_id the constants of counts with `specialize = true`, which may be numbers at the moment.
     std::map<int, std::string> count_constants = {};
     Dialect dialect = Dialect::own;

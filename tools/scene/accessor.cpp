@@ -116,7 +116,10 @@ Container open_container(std::string_view content) {
     if (const std::uint32_t version = bits_at(content, 4); version != 2)
         container.fail("has version {}, but only version 2 is read", version);
     const std::size_t length = bits_at(content, 8);
-    if (length > content.size() || length < header_size)
+    if (length < header_size)
+        container.fail("says in its header that it has {} bytes, but the header alone has {}", length,
+                       header_size);
+    if (length > content.size())
         container.fail("is cut short: its header says {} bytes, but there are {}", length, content.size());
     Container parts;
     for (std::size_t at = header_size; parts.json.data() == nullptr || at < length;) {
@@ -260,6 +263,11 @@ void Accessors::read_array(const Value& value, std::string_view shape, std::size
 std::optional<std::string_view> Accessors::view(const Value& user) const {
     const auto index = user.index(views_.size(), "buffer views");
     return index ? std::optional(views_[*index].bytes) : std::nullopt;
+}
+
+bool Accessors::has_view(const Value& user) const {
+    const auto number = user.index(accessors_.size(), "accessors");
+    return number && accessors_[*number].numbers.stride != 0;
 }
 
 Values Accessors::read(const Value& user, const Wanted& wanted) {

@@ -65,6 +65,8 @@ class Accessors {
 
     /// The bytes of the buffer view whose number `user` holds; nothing where it is absent.
     [[nodiscard]] std::optional<std::string_view> view(const Value& user) const;
+    /// Whether the accessor whose number `user` holds is there and has numbers in a buffer: others are zeros.
+    [[nodiscard]] bool has_view(const Value& user) const;
     /// The values of the accessor whose number `user` holds, normalized ones as numbers from 0 or -1 to 1. A
     /// kind that is not wanted, and numbers that are not finite, are errors.
     [[nodiscard]] Values read(const Value& user, const Wanted& wanted);

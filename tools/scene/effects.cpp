@@ -507,6 +507,7 @@ void judge_shadows(const Subject& subject, const std::vector<PlacedLight>& light
         const bool is_light_in = subject.draw.effects[i].is_in;
         const auto caster = std::ranges::find_if(draws, [&](const Draw& draw) {
             if (!receives || !is_light_in || !draw.excluded.empty()) return false;
+            if (!casts_shadow(subject.scene, draw)) return false;
             return &draw == &subject.draw ? may_shade_itself(draw)
                                           : may_stand_between(light, draw, subject.draw);
         });
@@ -571,6 +572,10 @@ const Primitive& primitive_of(const Scene& scene, const Draw& draw) {
 
 const Material& material_of(const Scene& scene, const Draw& draw) {
     return scene.materials[primitive_of(scene, draw).material];
+}
+
+bool casts_shadow(const Scene& scene, const Draw& draw) {
+    return !scene.is_physical || material_of(scene, draw).alpha_mode != AlphaMode::blend;
 }
 
 Overrides overrides_of(const Scene& scene, const Draw& draw) {

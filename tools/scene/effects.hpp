@@ -50,6 +50,8 @@ struct Draw {
 
 [[nodiscard]] const Primitive& primitive_of(const Scene& scene, const Draw& draw);
 [[nodiscard]] const Material& material_of(const Scene& scene, const Draw& draw);
+/// What is blended casts no shadow: a map holds one depth, not how much light passes.
+[[nodiscard]] bool casts_shadow(const Scene& scene, const Draw& draw);
 /// What the draw's material asks for, else its node, else the scene.
 [[nodiscard]] Overrides overrides_of(const Scene& scene, const Draw& draw);
 

@@ -14,7 +14,7 @@ struct ExtensionProperty {
     const char* name;             ///< "clearcoatFactor"
     const char* uniform;          ///< "Material.clearcoat"
     std::vector<double> initial;  ///< where the file does not state it; three numbers are a colour
-    Range range = kUpToOne;       ///< of a number
+    Range range = kUpToOne;       ///< of each number
     std::vector<double> (*to_uniform)(double) = nullptr;  ///< where the uniform holds something else
 };
 

@@ -28,6 +28,9 @@ tl::expected<TextureImage, NoPicture> decode_png(std::string_view bytes) {
     // Enough for 16 bits a channel and for interlaced rows: a small file may hold a thousand times its size.
     state.decoder.zlibsettings.max_output_size = std::size_t{8} * (width + 8) * (height + 8);
     if (error == 0) error = lodepng::decode(picture.texels, width, height, state, data, bytes.size());
+    // Decoders tell what is missing by some ten errors; every whole file has this chunk at its end.
+    if (error != 0 && bytes.find("IEND") == std::string_view::npos)
+        return tl::unexpected(NoPicture{"is a PNG that is cut short", ""});
     if (error != 0)
         return tl::unexpected(
             NoPicture{fmt::format("is no PNG that can be decoded: {}", lodepng_error_text(error)), ""});
@@ -70,7 +73,7 @@ void refuse_many_scans(j_common_ptr info) {
 
 /// Nothing with a destructor lives between setjmp() and what leaps.
 bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_view bytes,
-                 TextureImage& picture, bool& is_too_large) {
+                 TextureImage& picture, bool& is_too_large, bool& has_inks) {
     if (setjmp(errors.back) != 0) return false;
     jpeg_create_decompress(&info);
     info.progress = &errors.progress;
@@ -79,7 +82,8 @@ bool decode_rows(jpeg_decompress_struct& info, JpegErrors& errors, std::string_v
     picture.width = static_cast<int>(info.image_width);
     picture.height = static_cast<int>(info.image_height);
     is_too_large = std::size_t{info.image_width} * info.image_height > kMostTexels;
-    if (is_too_large) return true;
+    has_inks = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
+    if (is_too_large || has_inks) return true;
     info.out_color_space = JCS_EXT_RGBA;
     jpeg_start_decompress(&info);
     const std::size_t stride = std::size_t{4} * info.output_width;
@@ -102,11 +106,15 @@ tl::expected<TextureImage, NoPicture> decode_jpeg(std::string_view bytes) {
     errors.progress.progress_monitor = refuse_many_scans;
     TextureImage picture;
     bool is_too_large = false;
-    const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large);
+    bool has_inks = false;
+    const bool is_decoded = decode_rows(info, errors, bytes, picture, is_too_large, has_inks);
     jpeg_destroy_decompress(&info);
     if (!is_decoded)
         return tl::unexpected(
             NoPicture{fmt::format("is no JPEG that can be decoded: {}", errors.message), ""});
+    if (has_inks)
+        return tl::unexpected(NoPicture{"is a JPEG in CMYK, but RGB and grey are read",
+                                        "convert it (convert FILE.jpg -colorspace sRGB FILE.png)"});
     if (is_too_large)
         return too_large(static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height));
     return picture;

@@ -202,6 +202,14 @@ void add_tangents(Primitive& primitive, const TextureUse& use) {
     for (const glm::dvec4& one : tangents) primitive.tangents.emplace_back(one);
 }
 
+/// Accessors without a buffer view are zeros, which a mesh that is compressed alone does not mean.
+void refuse_draco_alone(const Value& primitive, const Value& attributes, const Accessors& accessors) {
+    const Value draco = primitive["extensions"]["KHR_draco_mesh_compression"];
+    if (draco && !accessors.has_view(attributes["POSITION"]))
+        draco.fail_with("export the mesh uncompressed",
+                        "holds what gobo does not read: the mesh is nowhere else");
+}
+
 Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& scene) {
     Primitive primitive;
     const std::size_t default_material = scene.materials.size() - 1;
@@ -211,6 +219,7 @@ Primitive read_primitive(const Value& value, Accessors& accessors, const Scene& 
     value["mode"].read(mode, {0, kFan});
     if (mode < kTriangles) primitive.topology = mode == 0 ? Topology::points : Topology::lines;
     const Value source = value["attributes"].required().object();
+    refuse_draco_alone(value, source, accessors);
     Attributes attributes{accessors, source, "positions"};
     primitive.positions = read_vectors<glm::vec3>(attributes, "POSITION", kTriples);
     if (primitive.positions.empty()) return primitive;  // allowed: something else supplies them

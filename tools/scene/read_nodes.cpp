@@ -1,5 +1,6 @@
 // Nodes, and what moves them: skins, and animations as bounds, since no time is ever chosen.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -18,6 +19,9 @@ constexpr int kDeepestHierarchy = 1024;
 /// What all instances together may hold: drawing lays them out one by one.
 constexpr std::size_t kMostInstancedVertices = 16'777'216;
 
+/// Rotations are written with few digits as a rule: as much as a quaternion's length may differ from 1.
+constexpr double kLengthSlack = 0.01;
+
 const std::vector<Component> kSigned = {Component::float32, Component::int8, Component::int16};
 
 void read_transform(const Value& value, Node& node) {
@@ -34,7 +38,7 @@ void read_transform(const Value& value, Node& node) {
     if (glm::dvec4 r(0); value["rotation"].read_numbers(&r.x, 4)) {
         const glm::dquat rotation(r.w, r.x, r.y, r.z);
         const double length = glm::length(rotation);
-        if (!(length > 1e-6 && length < 1e6))
+        if (std::abs(length - 1) > kLengthSlack)
             value["rotation"].fail("is not a rotation: its length must be 1");
         node.rotation = rotation / length;
     }
@@ -89,6 +93,7 @@ Node read_node(const Value& value, Accessors& accessors, std::size_t node_count,
     node.camera = value["camera"].index(scene.cameras.size(), "cameras");
     if (const Value extension = value["extensions"]["KHR_lights_punctual"].object())
         node.light = extension["light"].required().index(scene.lights.size(), "lights");
+    value["extensions"]["KHR_node_visibility"]["visible"].read(node.is_visible);
     read_transform(value, node);
     read_instancing(value, accessors, scene, node);
     node.overrides = read_overrides(value.gobo_extras());

@@ -9,6 +9,9 @@
 namespace gobo::scene {
 namespace {
 
+/// The bounds of Material.normalScale in templates/pbr.toml.
+constexpr double kMostNormalScale = 10;
+
 /// What Fresnel's equations give head-on, from air; the extension's 0 stands for all of it.
 double reflectance_of(double ior) {
     if (ior == 0) return 1;
@@ -30,6 +33,9 @@ void read_extension(const MaterialExtension& extension, const Value& value, Phys
         if (numbers.size() == 3) {
             glm::dvec3 color(numbers[0], numbers[1], numbers[2]);
             value[property.name].read_color(color);
+            if (std::max({color.r, color.g, color.b}) > property.range.high)
+                value[property.name].fail("holds a number that is not between 0 and {:g}",
+                                          property.range.high);
             numbers = {color.r, color.g, color.b};
         } else {
             value[property.name].read(numbers.front(), property.range);
@@ -48,7 +54,12 @@ PhysicalMaterial read_physical(const Value& value, Textures& textures) {
     model["baseColorFactor"].read_numbers(&material.base_color.x, 4);
     model["metallicFactor"].read(material.metallic, kUpToOne);
     model["roughnessFactor"].read(material.roughness, kUpToOne);
-    value["normalTexture"]["scale"].read(material.normal_scale, {-10, 10});
+    double normal_scale = 1;
+    value["normalTexture"]["scale"].read(normal_scale);
+    material.normal_scale = std::clamp(normal_scale, -kMostNormalScale, kMostNormalScale);
+    if (material.normal_scale != normal_scale)
+        material.not_drawn.push_back(fmt::format("normalTexture.scale {:g} (it is drawn as {:g})",
+                                                 normal_scale, material.normal_scale));
     value["occlusionTexture"]["strength"].read(material.occlusion_strength, kUpToOne);
     const auto use = [&](const Value& of, const char* name) {
         auto picture = textures.use(of[name]);

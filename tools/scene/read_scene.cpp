@@ -16,9 +16,16 @@ namespace {
 /// What the file may require. A transform of textures is of no concern: colours are not sampled, and what is
 /// cut by a transformed picture is taken to be cut anywhere.
 const std::vector<std::string> kKnownExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
-    "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",  "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_unlit",  "KHR_mesh_quantization",
+    "KHR_node_visibility",     "KHR_texture_transform"};
+
+/// What is drawn without them is the same: they hold another copy of what core glTF holds beside them, or
+/// words about the file.
+const std::vector<std::string> kExtensionsToSkip = {
+    "EXT_meshopt_compression", "EXT_texture_avif",   "EXT_texture_webp", "KHR_draco_mesh_compression",
+    "KHR_meshopt_compression", "KHR_texture_basisu", "KHR_xmp",          "KHR_xmp_json_ld",
+    "MSFT_texture_dds"};
 
 /// A scene without any light would be black: for `pbr` an environment stands in for it.
 void add_default_light(Scene& scene) {
@@ -51,9 +58,9 @@ void read_asset(const Value& root) {
     if (least != "2.0") asset["minVersion"].fail("is '{}', but only glTF 2.0 is read", least);
 }
 
-void check_extensions(const Value& root, bool is_physical) {
+void check_extensions(const Value& root, Scene& scene) {
     std::vector<std::string> known = kKnownExtensions;
-    if (is_physical)
+    if (scene.is_physical)
         for (std::string& name : read_material_extensions()) known.push_back(std::move(name));
     std::ranges::sort(known);
     known.erase(std::ranges::unique(known).begin(), known.end());
@@ -63,6 +70,12 @@ void check_extensions(const Value& root, bool is_physical) {
         if (std::ranges::find(known, name) == known.end())
             value.fail_with(fmt::format("export without it; read are {}", join(known, ", ")),
                             "is {}, which gobo does not read", name);
+    }
+    known.insert(known.end(), kExtensionsToSkip.begin(), kExtensionsToSkip.end());
+    for (const Value& value : root["extensionsUsed"].elements()) {
+        std::string name;
+        value.read(name);
+        if (std::ranges::find(known, name) == known.end()) scene.not_read.push_back(std::move(name));
     }
 }
 
@@ -192,6 +205,11 @@ void place_nodes(const Value& root, Scene& scene) {
         const Node* const parent = node.parent ? &scene.nodes[*node.parent] : nullptr;
         node.world = parent != nullptr ? parent->world * node.local : node.local;
         node.overrides.fill_from(parent != nullptr ? parent->overrides : scene.overrides);
+        if (parent != nullptr && !parent->is_visible) node.is_visible = false;
+        if (!node.is_visible) {  // cameras and joints stay
+            node.mesh.reset();
+            node.light.reset();
+        }
         if (!is_placed(node.world))
             root[fmt::format("nodes[{}]", index)].fail("is transformed beyond {:g} units, or not finitely",
                                                        kFarthest);
@@ -231,7 +249,7 @@ Result<Scene> read_scene(const FileSystem& files, const std::string& path, Readi
         const nlohmann::json document = parse_document(container.json);
         const Value root{&document, ""};
         read_asset(root);
-        check_extensions(root, scene.is_physical);
+        check_extensions(root, scene);
         const std::vector<std::string> buffers = read_buffers(files, root, container.binary, scene);
         Accessors accessors(root, buffers);
         for (const Value& light : root["extensions"]["KHR_lights_punctual"]["lights"].objects())

@@ -95,6 +95,7 @@ struct TextureUse {
     int wrap_s = 10497;  ///< OpenGL's numbers
     int wrap_t = 10497;
     bool is_nearest = false;  ///< magnified without interpolation
+    int min_filter = 9987;    ///< OpenGL's number; where the file states none, GL_LINEAR_MIPMAP_LINEAR
 
     /// Where the picture is looked up.
     [[nodiscard]] glm::dvec2 placed(const glm::dvec2& place) const {
@@ -244,6 +245,7 @@ struct Node {
     glm::dmat4 local{1};  ///< to the parent's space, at rest
     glm::dmat4 world{1};  ///< to world space, at rest
     bool in_scene = false;
+    bool is_visible = true;  ///< KHR_node_visibility: what hangs below a hidden node is hidden
     std::optional<Motion> motion;
     Overrides overrides;
 };
@@ -256,8 +258,9 @@ struct Skin {
 /// A scene with everything that decides which effects its draws need, and what a renderer needs to draw it.
 struct Scene {
     std::string path;
-    std::vector<std::string> files;  ///< every file read, the scene first
-    Diagnostics warnings;            ///< of what the specification forbids and can still be drawn
+    std::vector<std::string> files;     ///< every file read, the scene first
+    std::vector<std::string> not_read;  ///< extensions that it uses, and that gobo does not know
+    Diagnostics warnings;               ///< of what the specification forbids and can still be drawn
     std::vector<Node> nodes;
     std::vector<std::size_t> order;  ///< the nodes of the scene, parents before children
     std::vector<Mesh> meshes;

@@ -71,6 +71,59 @@ DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, s
     return result;
 }
 
+/// "point 8 to 31" in place of these names, each of which is words and a number; others stay. In order.
+std::vector<std::string> with_runs(const std::vector<std::string>& names) {
+    std::map<std::string, std::set<int>> numbers;  // by the words before them; none: the name is no such
+    for (const std::string& name : names) {
+        const std::size_t space = name.rfind(' ');
+        int number = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + std::min(space + 1, name.size()), end, number);
+        const bool is_numbered = space != std::string::npos && read.ec == std::errc() && read.ptr == end;
+        if (is_numbered)
+            numbers[name.substr(0, space)].insert(number);
+        else
+            numbers[name];
+    }
+    std::vector<std::string> texts;
+    for (const auto& [words, own] : numbers) {
+        if (own.empty()) texts.push_back(words);
+        for (auto at = own.begin(); at != own.end();) {
+            const int first = *at;
+            int last = first;
+            while (++at != own.end() && *at == last + 1) ++last;
+            texts.push_back(last == first ? fmt::format("{} {}", words, first)
+                                          : fmt::format("{} {} to {}", words, first, last));
+        }
+    }
+    return texts;
+}
+
+/// How many draws would cast a shadow if they were not blended.
+std::size_t blended_before_shadows(const Scene& scene, const std::vector<Draw>& draws) {
+    const std::vector<PlacedLight> lights = place_lights(scene);
+    if (std::ranges::none_of(lights, [](const PlacedLight& light) { return light.light->casts_shadow; }))
+        return 0;
+    return static_cast<std::size_t>(std::ranges::count_if(
+        draws, [&](const Draw& draw) { return draw.excluded.empty() && !casts_shadow(scene, draw); }));
+}
+
+/// Whether every draw is black: none has a light, an environment or an emission of its own.
+bool is_dark(const Scene& scene, const std::vector<Draw>& draws) {
+    const auto is_drawn = [](const Draw& draw) { return draw.excluded.empty(); };
+    const auto is_black = [&](const Draw& draw) {
+        const auto lights = [](const Effect& effect) {
+            return effect.is_in && (effect.feature == "ambient" || effect.feature == "reflection" ||
+                                    std::ranges::find(kLightKinds, effect.feature) != kLightKinds.end());
+        };
+        const Material& material = material_of(scene, draw);
+        return !is_drawn(draw) || (!material.unlit && material.emission == glm::dvec3(0) &&
+                                   std::ranges::none_of(draw.effects, lights));
+    };
+    return scene.ambient == glm::dvec3(0) && std::ranges::any_of(draws, is_drawn) &&
+           std::ranges::all_of(draws, is_black);
+}
+
 }  // namespace
 
 Reading reading_for(const Family& family) {
@@ -125,11 +178,16 @@ std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Dr
         if (key)
             for (const std::string& missing : key->missing)
                 effects.insert(missing.substr(0, missing.find(": ")));
-    std::vector<std::string> parts(effects.begin(), effects.end());
+    effects.insert(scene.not_read.begin(), scene.not_read.end());
+    std::vector<std::string> parts = with_runs({effects.begin(), effects.end()});
+    if (const std::size_t count = blended_before_shadows(scene, draws))
+        parts.push_back(fmt::format("shadows of {} blended draw{}", count, count == 1 ? "" : "s"));
     for (const auto& [reason, count] : excluded)
         parts.push_back(fmt::format("{} draw{} ({})", count, count == 1 ? "" : "s", reason));
     std::vector<std::string> notes;
     if (!parts.empty()) notes.push_back(fmt::format("{}: not drawn: {}", scene.path, fmt::join(parts, ", ")));
+    if (!scene.has_no_light && is_dark(scene, draws))
+        notes.push_back(fmt::format("{}: nothing lights this scene", scene.path));
     const auto needs_physical = [](const Material& material) {
         return !material.unlit && (material.is_textured || material.is_metal);
     };

@@ -110,6 +110,7 @@ std::optional<TextureUse> Textures::use(const Value& info) {
         use.wrap_s = static_cast<int>(samplers[*sampler]["wrapS"].integer().value_or(kRepeat));
         use.wrap_t = static_cast<int>(samplers[*sampler]["wrapT"].integer().value_or(kRepeat));
         use.is_nearest = samplers[*sampler]["magFilter"].integer().value_or(0) == kNearest;
+        use.min_filter = static_cast<int>(samplers[*sampler]["minFilter"].integer().value_or(use.min_filter));
     }
     // uv' = offset + R(-rotation) (scale uv), as the extension's page has it: v runs down.
     const Value transform = info["extensions"]["KHR_texture_transform"].object();

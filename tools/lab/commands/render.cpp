@@ -2,6 +2,7 @@
 #include "lab/render/render.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -184,6 +185,26 @@ Result<scene::SceneView> view_of(const scene::Scene& scene, const std::vector<sc
                 fmt::format("the file has {} cameras, numbered from 0", scene.cameras.size()));
 }
 
+/// Named after the scene's file.
+std::string picture_path(const RenderOptions& options, const PictureOptions& pictures,
+                         const std::string& scene) {
+    return fmt::format("{}/{}.{}", options.folder, stem_of(scene), name_of(pictures.format));
+}
+
+/// Two scenes' pictures would be one file.
+Result<void> refuse_equal_names(const RenderOptions& options, const PictureOptions& pictures) {
+    std::map<std::string, std::string> scenes;  // by the path of the picture
+    for (const std::string& scene : options.scenes) {
+        const auto [first, is_new] = scenes.emplace(picture_path(options, pictures, scene), scene);
+        if (!is_new && first->second != scene)
+            return fail(Fault::usage,
+                        fmt::format("'{}' and '{}' would both be drawn into '{}'", first->second, scene,
+                                    first->first),
+                        "draw them by two commands, into two folders");
+    }
+    return {};
+}
+
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
 /// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
@@ -197,6 +218,11 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     GOBO_TRY(const scene::SceneView view, view_of(scene, draws, options.camera, pictures.view));
     GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
     std::ranges::move(scene::notes_on_scene(scene, draws, keys), std::back_inserter(notes));
+    if (scene::turns_all_faces_away(scene, draws, view))
+        notes.push_back(
+            one_line(fmt::format("{}: every face is turned away from the viewer: mark its materials "
+                                 "doubleSided, or mend the winding",
+                                 scene.path)));
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
                                                           buckets, family.dialect, world.jobs()));
     scene::SceneTextures textures;
@@ -211,8 +237,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
     Image opaque = picture.color;
     for (std::size_t i = 3; i < opaque.values.size(); i += 4) opaque.values[i] = 1;
-    rendered.files.push_back(
-        fmt::format("{}/{}.{}", options.folder, stem_of(path), name_of(pictures.format)));
+    rendered.files.push_back(picture_path(options, pictures, path));
     append(rendered.diagnostics, picture.warnings);
     GOBO_TRY_DO(write_image(world.disk, rendered.files.back(), shrunk(opaque, options.smooth)));
     return {};
@@ -266,6 +291,7 @@ Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pict
 
 Result<Outcome> render(const RenderOptions& options, const World& world) {
     GOBO_TRY(const PictureOptions pictures, picture_options(options));
+    GOBO_TRY_DO(refuse_equal_names(options, pictures));
     GOBO_TRY(const std::string dialect, dialect_for(options.backend, options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
     if (options.backend == kVulkanBackend) {

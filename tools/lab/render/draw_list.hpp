@@ -10,6 +10,10 @@
 
 namespace gobo {
 
+/// What shadow maps hold of an object: all of its triangles, these without what its own program discards, or
+/// nothing.
+enum class ShadowShape { whole, with_holes, none };
+
 /// A mesh in the world.
 struct Object {
     Mesh mesh;
@@ -17,6 +21,7 @@ struct Object {
     std::vector<RenderValue> values;  ///< uniforms and attributes that differ from those of other objects
     bool culls_back_faces = false;    ///< the model matrix may mirror: a front face stays one
     bool casts_shadow = true;         ///< shadow maps are fitted to the objects that do
+    ShadowShape shadow_shape = ShadowShape::whole;
 
     /// Whether the model matrix turns counter-clockwise faces into clockwise ones.
     [[nodiscard]] bool is_mirrored() const;

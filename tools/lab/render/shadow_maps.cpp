@@ -137,16 +137,23 @@ void add_values(std::vector<RenderValue>& values, std::size_t shadow, int layer,
 }
 
 Result<void> draw_one(const Context& context, const Program& program, const DepthPass& pass,
-                      const ShadowCamera& camera, const std::vector<Object>& objects) {
+                      const ShadowCamera& camera, const std::vector<Object>& objects,
+                      const std::vector<ObjectWithHoles>& with_holes) {
     const ViewedObject viewed{glm::dmat4(1), camera.view, camera.projection, {pass.side, pass.side}};
-    GOBO_TRY(const DrawList list,
-             make_draw_list(context, program, pass.interface, objects, pass.values, viewed));
+    std::vector<DrawList> lists;
+    GOBO_TRY(DrawList whole, make_draw_list(context, program, pass.interface, objects, pass.values, viewed));
+    lists.push_back(std::move(whole));
+    for (const ObjectWithHoles& own : with_holes) {
+        GOBO_TRY(DrawList list, make_draw_list(context, own.program, own.interface, {own.object}, own.values,
+                                               viewed, own.textures));
+        lists.push_back(std::move(list));
+    }
     const GladGLContext& gl = context.gl();
     gl.ClearDepth(1);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
     gl.Enable(GL_POLYGON_OFFSET_FILL);
     gl.PolygonOffset(static_cast<GLfloat>(pass.slope), static_cast<GLfloat>(pass.units));
-    list.draw();
+    for (const DrawList& list : lists) list.draw();
     gl.Disable(GL_POLYGON_OFFSET_FILL);
     return {};
 }
@@ -225,7 +232,10 @@ Image ShadowMaps::layer(int number) const {
 
 Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pass,
                                     const std::vector<ShadowLight>& lights,
-                                    const std::vector<Object>& objects, const glm::dmat4& view) {
+                                    const std::vector<Object>& objects, const glm::dmat4& view,
+                                    const std::vector<ObjectWithHoles>& with_holes) {
+    std::vector<Object> whole = objects;
+    std::erase_if(whole, [](const Object& object) { return object.shadow_shape != ShadowShape::whole; });
     GOBO_TRY(const Program program, link_program(context, pass.stages));
     set_bindings(context, program, pass.interface);
     const ShadowPlan plan = shadow_plan(lights, objects, view, pass.side);
@@ -256,7 +266,7 @@ Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pas
         if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             return fail(Fault::file, fmt::format("the driver gives no {} shadow maps of {} x {} texels",
                                                  plan.cameras.size(), pass.side, pass.side));
-        GOBO_TRY_DO(draw_one(context, program, pass, plan.cameras[i], objects));
+        GOBO_TRY_DO(draw_one(context, program, pass, plan.cameras[i], whole, with_holes));
     }
     return maps;
 }

@@ -55,6 +55,16 @@ struct DepthPass {
     double units = 4;
 };
 
+/// An object whose depth is drawn by the program that shades it, as that knows its holes. What is referred to
+/// outlives it.
+struct ObjectWithHoles {
+    const Program& program;
+    const Interface& interface;
+    const Object& object;
+    const std::vector<RenderValue>& values;  ///< of the program's family
+    const GivenTextures& textures;
+};
+
 /// The maps of several lights as layers of one array, deleted with this object.
 class ShadowMaps {
   public:
@@ -68,7 +78,8 @@ class ShadowMaps {
   private:
     friend Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pass,
                                                const std::vector<ShadowLight>& lights,
-                                               const std::vector<Object>& objects, const glm::dmat4& view);
+                                               const std::vector<Object>& objects, const glm::dmat4& view,
+                                               const std::vector<ObjectWithHoles>& with_holes);
     ShadowMaps(const Context& context, int side) : resources_(context), side_(side) {}
     void attach(int layer) const;
 
@@ -79,10 +90,12 @@ class ShadowMaps {
     std::vector<RenderValue> values_;
 };
 
-/// Draws the depth of all objects as each light sees them. `view` is the view matrix of the camera that looks
-/// the maps up. Errors as of render_permutation().
+/// Draws the depth of all objects as each light sees them, those with holes by programs of their own, one
+/// each in `with_holes`. `view` is the view matrix of the camera that looks the maps up. Errors as of
+/// render_permutation().
 [[nodiscard]] Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pass,
                                                   const std::vector<ShadowLight>& lights,
-                                                  const std::vector<Object>& objects, const glm::dmat4& view);
+                                                  const std::vector<Object>& objects, const glm::dmat4& view,
+                                                  const std::vector<ObjectWithHoles>& with_holes = {});
 
 }  // namespace gobo

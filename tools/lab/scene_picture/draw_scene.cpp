@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -16,12 +17,40 @@
 namespace gobo::scene {
 namespace {
 
+/// Without those above the renderer's largest texture: the first that fits is drawn in their place.
+std::vector<TextureImage> levels_within(const Context& context, std::vector<TextureImage> levels,
+                                        Diagnostics& warnings) {
+    GLint most = 0;
+    context.gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const auto first = std::ranges::find_if(
+        levels, [&](const TextureImage& level) { return std::max(level.width, level.height) <= most; });
+    if (first == levels.begin()) return levels;
+    Diagnostic& warning = warnings.emplace_back();
+    warning.severity = Severity::warning;
+    warning.message =
+        fmt::format("a picture of {} x {} texels is drawn by {} x {}: the renderer's largest side is {}",
+                    levels.front().width, levels.front().height, first->width, first->height, most);
+    levels.erase(levels.begin(), first);
+    return levels;
+}
+
+/// A map that fits into the renderer's largest texture.
+AlphaMap alpha_map_within(const Context& context, const AlphaMap& map, Diagnostics& warnings) {
+    TextureImage picture{map.width, map.height, {}};
+    for (const std::uint8_t alpha : map.texels) picture.texels.insert(picture.texels.end(), 4, alpha);
+    const TextureImage level = levels_within(context, picture_levels(picture, false), warnings).front();
+    AlphaMap result{level.width, level.height, {}};
+    for (std::size_t i = 3; i < level.texels.size(); i += 4) result.texels.push_back(level.texels[i]);
+    return result;
+}
+
 /// The map as the alpha of a texture that is white otherwise: filtered linearly, repeated. Opaque where the
 /// draw has none.
-Texture make_alpha_map(const Context& context, const SceneImages& images, std::size_t draw) {
+Texture make_alpha_map(const Context& context, const SceneImages& images, std::size_t draw,
+                       Diagnostics& warnings) {
     const AlphaMap opaque{1, 1, {255}};
     const bool has_map = draw < images.opacity.size() && !images.opacity[draw].texels.empty();
-    const AlphaMap& map = has_map ? images.opacity[draw] : opaque;
+    const AlphaMap map = alpha_map_within(context, has_map ? images.opacity[draw] : opaque, warnings);
     const GladGLContext& gl = context.gl();
     context.make_current();
     Texture texture;
@@ -127,8 +156,8 @@ std::vector<Object> objects_of(const Scene& scene, const SceneShaders& shaders) 
 /// Four channels of 8 bits, of which the colours of an sRGB picture are decoded before they are filtered,
 /// with all smaller levels.
 Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) {
-    const auto key =
-        std::tuple(use.picture, use.is_srgb, use.use->wrap_s, use.use->wrap_t, use.use->is_nearest);
+    const auto key = std::tuple(use.picture, use.is_srgb, use.use->wrap_s, use.use->wrap_t,
+                                use.use->is_nearest, use.use->min_filter);
     if (const auto found = pictures_.find(key); found != pictures_.end()) return found->second;
     const GladGLContext& gl = context.gl();
     context.make_current();
@@ -139,10 +168,11 @@ Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) 
     // Not by glGenerateMipmap: llvmpipe's takes one sample of the level above, which misses texels where a
     // side is odd.
     GLint number = 0;
-    for (const TextureImage& level : picture_levels(*use.picture, use.is_srgb))
+    for (const TextureImage& level :
+         levels_within(context, picture_levels(*use.picture, use.is_srgb), warnings_))
         gl.TexImage2D(GL_TEXTURE_2D, number++, use.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width,
                       level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, use.use->min_filter);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, use.use->is_nearest ? GL_NEAREST : GL_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, use.use->wrap_s);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, use.use->wrap_t);
@@ -168,18 +198,33 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
                                         const std::vector<RenderValue>& values, const SceneView& view,
                                         const SceneImages& images, const SceneTextures& textures) {
     SceneDrawing drawing(context);
-    GivenTextures given = textures.given;
-    if (textures.depth_pass != nullptr && !images.lights.empty()) {
-        GOBO_TRY(auto maps,
-                 draw_shadow_maps(context, *textures.depth_pass, images.lights, objects, view.view));
-        drawing.shadow_maps_ = std::make_unique<ShadowMaps>(std::move(maps));
-        given["shadowMaps"] = drawing.shadow_maps_->texture();
-    }
     const Composition& composition = shaders.composition;
     for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
         GOBO_TRY(auto program, link_program(context, stages_of(composition, composition.permutations[i])));
         set_bindings(context, program, shaders.interfaces[i]);
         drawing.programs_.push_back(std::make_unique<Program>(std::move(program)));
+    }
+    std::vector<GivenTextures> given(shaders.draws.size(), textures.given);  // one per draw
+    std::vector<ObjectWithHoles> with_holes;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const auto& permutation = shaders.permutation[i];
+        if (!permutation) continue;
+        const Interface& interface = shaders.interfaces[*permutation];
+        if (reads(interface, "opacityMap")) {
+            given[i]["opacityMap"] = make_alpha_map(context, images, i, drawing.warnings_);
+            drawing.alpha_maps_.adopt(given[i]["opacityMap"]);
+        }
+        if (i < images.pictures.size())
+            for (const auto& [sampler, use] : images.pictures[i])
+                if (reads(interface, sampler)) given[i][sampler] = drawing.texture_of(context, use);
+        if (objects[i].shadow_shape == ShadowShape::with_holes)
+            with_holes.push_back({*drawing.programs_[*permutation], interface, objects[i], values, given[i]});
+    }
+    if (textures.depth_pass != nullptr && !images.lights.empty()) {
+        GOBO_TRY(auto maps, draw_shadow_maps(context, *textures.depth_pass, images.lights, objects, view.view,
+                                             with_holes));
+        drawing.shadow_maps_ = std::make_unique<ShadowMaps>(std::move(maps));
+        for (GivenTextures& own : given) own["shadowMaps"] = drawing.shadow_maps_->texture();
     }
     // In the scene's order, whatever their permutations: surfaces in one place are drawn alike by any keys.
     for (const std::size_t i : drawing_order(shaders.draws, images, view)) {
@@ -190,15 +235,8 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
             std::ranges::move(shadow_values(drawing.shadow_maps_->values(), images.shadows[i]),
                               std::back_inserter(object.values));
         const Interface& interface = shaders.interfaces[*permutation];
-        if (reads(interface, "opacityMap")) {
-            given["opacityMap"] = make_alpha_map(context, images, i);
-            drawing.alpha_maps_.adopt(given["opacityMap"]);
-        }
-        if (i < images.pictures.size())
-            for (const auto& [sampler, use] : images.pictures[i])
-                if (reads(interface, sampler)) given[sampler] = drawing.texture_of(context, use);
         GOBO_TRY(auto list, make_draw_list(context, *drawing.programs_[*permutation], interface, {object},
-                                           values, view, given));
+                                           values, view, given[i]));
         Diagnostics& warnings = drawing.warnings_;
         for (const Diagnostic& warning : list.warnings())
             if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
@@ -206,6 +244,29 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
         (is_blended ? drawing.blended_ : drawing.lists_).push_back(std::move(list));
     }
     return drawing;
+}
+
+bool turns_all_faces_away(const Scene& scene, const std::vector<Draw>& draws, const SceneView& view) {
+    bool has_faces = false;
+    const bool is_perspective = view.projection[2][3] != 0;
+    for (const Draw& draw : draws) {
+        if (!draw.excluded.empty()) continue;
+        if (material_of(scene, draw).double_sided) return false;
+        const PosedMesh posed = posed_mesh(scene, draw.node, primitive_of(scene, draw));
+        const glm::dmat4 to_eye = view.view * posed.model;
+        const double side = glm::determinant(glm::dmat3(posed.model)) < 0 ? -1 : 1;
+        const std::vector<std::uint32_t>& indices = posed.mesh.indices;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+            const auto corner = [&](std::size_t k) {
+                return glm::dvec3(to_eye * glm::dvec4(posed.mesh.positions[indices[i + k]], 1));
+            };
+            const glm::dvec3 first = corner(0);
+            const glm::dvec3 normal = side * glm::cross(corner(1) - first, corner(2) - first);
+            if (glm::dot(normal, is_perspective ? -first : glm::dvec3(0, 0, 1)) > 0) return false;
+            has_faces = has_faces || normal != glm::dvec3(0);
+        }
+    }
+    return has_faces;
 }
 
 Result<Picture> draw_scene(const Context& context, const Scene& scene, const SceneShaders& shaders,

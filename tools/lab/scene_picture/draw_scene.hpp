@@ -110,12 +110,16 @@ class SceneDrawing {
 
     std::vector<std::unique_ptr<Program>> programs_;  ///< draw lists point at them
     GlResources alpha_maps_;
-    std::map<std::tuple<const TextureImage*, bool, int, int, bool>, Texture> pictures_;
+    std::map<std::tuple<const TextureImage*, bool, int, int, bool, int>, Texture> pictures_;
     std::unique_ptr<ShadowMaps> shadow_maps_;
     std::vector<DrawList> lists_;
     std::vector<DrawList> blended_;  ///< behind the others, the farthest from the viewer first
     Diagnostics warnings_;
 };
+
+/// Whether the picture is empty since every face of every draw is turned away from the viewer, and culled.
+[[nodiscard]] bool turns_all_faces_away(const Scene& scene, const std::vector<Draw>& draws,
+                                        const SceneView& view);
 
 /// Draws the scene once and reads the picture. `family_values` are the family's [render] table; blocks that a
 /// scene fills take nothing from it.

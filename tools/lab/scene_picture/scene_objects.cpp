@@ -77,6 +77,11 @@ Object object_of(const Scene& scene, const Draw& draw) {
     if (posed.mesh.tangents.empty()) posed.mesh.tangents.resize(posed.mesh.positions.size());
     Object object{std::move(posed.mesh), posed.model, std::move(values)};
     object.culls_back_faces = !material.double_sided;
+    const bool has_holes = std::ranges::any_of(
+        draw.effects, [](const Effect& effect) { return effect.feature == "cutout" && effect.is_in; });
+    if (has_holes) object.shadow_shape = ShadowShape::with_holes;
+    if (!casts_shadow(scene, draw)) object.shadow_shape = ShadowShape::none;
+    object.casts_shadow = object.shadow_shape != ShadowShape::none;
     return object;
 }
 
