@@ -228,6 +228,37 @@ const LinkRow names[] = {
      "uniform B { vec4 tint; } b;\nout vec4 c;\nvoid main() { c = b.tint; }\n",
      Mesa::refuses,
      {"the block 'B' has layout shared here, but std140 in tiny.vert:3"}},
+    {"image_that_a_function_is_called_with",
+     "450",
+     plain,
+     "layout(binding = 0, rgba8) uniform image2D m;\nvec4 at(image2D i) { return imageLoad(i, ivec2(0)); }\n"
+     "out vec4 c;\nvoid main() { c = at(m); }\n",
+     Mesa::links,
+     {}},
+    {"image_that_a_function_is_called_with_es",
+     "310 es",
+     plain,
+     "layout(r32f) uniform highp image2D m;\nvec4 at(readonly highp image2D i) { return imageLoad(i, "
+     "ivec2(0)); }\n"
+     "out vec4 c;\nvoid main() { c = at(m); }\n",
+     Mesa::is_lax,
+     {"tiny.frag:6: error: 'format' : image formats must match"}},
+    {"image_without_format_beside_one_that_a_function_is_called_with",
+     "450",
+     plain,
+     "layout(rgba8) uniform image2D m;\nuniform image2D n;\n"
+     "vec4 at(image2D i) { return imageLoad(i, ivec2(0)); }\n"
+     "out vec4 c;\nvoid main() { c = at(m) + imageLoad(n, ivec2(1)); }\n",
+     Mesa::refuses,
+     {"image variables not declared 'writeonly'"}},
+    {"formats_of_an_image_that_a_function_is_called_with",
+     "450",
+     "layout(rgba16f, binding = 0) writeonly uniform image2D m;\n"
+     "void main() { gl_Position = vec4(imageSize(m).x); }\n",
+     "layout(rgba8, binding = 0) uniform image2D m;\nvec4 at(image2D i) { return imageLoad(i, ivec2(0)); }\n"
+     "out vec4 c;\nvoid main() { c = at(m); }\n",
+     Mesa::refuses,
+     {"'m' is of format rgba8 here, but of format rgba16f in tiny.vert:2"}},
     {"instance_called_as_a_sampler",
      "330 core",
      "uniform sampler2D map;\nvoid main() { gl_Position = texture(map, vec2(0.0)); }\n",

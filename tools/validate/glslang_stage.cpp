@@ -186,13 +186,16 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     if (!is_spirv(dialect_)) built_ins.declarations += driver_declarations(prologue, pieces_);
     const bool is_shipped = !is_spirv(dialect_);
     const auto seen_by_drivers = [&](const std::string& text) {
-        return is_shipped ? without_own_layouts(with_driver_macros(text)) : text;
+        const std::string seen = is_shipped ? without_own_layouts(with_driver_macros(text)) : text;
+        return without_formats_ ? without_formats(seen) : seen;
     };
-    shader_->prologue = seen_by_drivers(prologue) + built_ins.declarations;
+    shader_->prologue = seen_by_drivers(prologue) +
+                        (without_formats_ ? "#extension GL_EXT_shader_image_load_formatted : enable\n" : "") +
+                        built_ins.declarations;
     for (const Piece* piece : pieces_) {
         const bool is_prologue = piece == pieces_.front();
-        const bool is_changed =
-            !built_ins.renamed.empty() || (is_shipped && differs_from_drivers(piece->text));
+        const bool is_changed = !built_ins.renamed.empty() || without_formats_ ||
+                                (is_shipped && differs_from_drivers(piece->text));
         const std::string& text =
             is_prologue ? shader_->prologue
             : !is_changed
@@ -267,6 +270,7 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
 }
 
 Diagnostics GlslangStage::parse() {
+    without_formats_ = false;
     const std::string prologue = without_requirements(pieces_.front()->text);
     const bool has_switches = has_strict_switches(pieces_);
     further_messages_ = has_switches || asks_for_tree(pieces_) ? EShMsgAST : EShMsgDefault;
@@ -279,6 +283,11 @@ Diagnostics GlslangStage::parse() {
     if (is_relaxed) {
         further_messages_ |= EShMsgRelaxedErrors;
         found = parse_by_glslang(prologue);
+    }
+    without_formats_ = !is_spirv(dialect_) && are_of_formats(found);
+    if (without_formats_) {
+        Diagnostics without = parse_by_glslang(prologue);
+        if (!has_errors(without)) found = std::move(without);
     }
     drop_consequences(found);
     if (has_errors(found)) return found;

@@ -60,7 +60,8 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
-    Precisions precisions_;  ///< of the stage as OpenGL ES, where it is that
+    bool without_formats_ = false;  ///< glslang sees no formats of images
+    Precisions precisions_;         ///< of the stage as OpenGL ES, where it is that
     Stated stated_;
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };

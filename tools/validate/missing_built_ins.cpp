@@ -171,6 +171,48 @@ std::string without_own_layouts(std::string text) {
     return text;
 }
 
+std::string without_formats(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t at = text.find("layout");
+        const std::size_t open = text.find('(', std::min(at, text.size()));
+        const std::size_t end = text.find(')', std::min(open, text.size()));
+        if (end == std::string_view::npos) break;
+        const std::string_view list = text.substr(open + 1, end - open - 1);
+        std::vector<std::string> kept = split(list, ',');
+        const auto removed =
+            std::erase_if(kept, [](const std::string& word) { return is_image_format(trim(word)); });
+        if (removed == 0)
+            result += text.substr(0, end + 1);
+        else
+            result += std::string(text.substr(0, at)) +
+                      (kept.empty() ? "" : fmt::format("layout({})", join(kept, ",")));
+        text.remove_prefix(end + 1);
+    }
+    return result + std::string(text);
+}
+
+bool is_image_format(std::string_view word) {
+    for (const std::string_view format :
+         {"rgba32f",     "rgba16f",    "rg32f",     "rg16f",     "r11f_g11f_b10f",
+          "r32f",        "r16f",       "rgba16",    "rgb10_a2",  "rgba8",
+          "rg16",        "rg8",        "r16",       "r8",        "rgba16_snorm",
+          "rgba8_snorm", "rg16_snorm", "rg8_snorm", "r16_snorm", "r8_snorm",
+          "rgba32i",     "rgba16i",    "rgba8i",    "rg32i",     "rg16i",
+          "rg8i",        "r32i",       "r16i",      "r8i",       "rgba32ui",
+          "rgba16ui",    "rgb10_a2ui", "rgba8ui",   "rg32ui",    "rg16ui",
+          "rg8ui",       "r32ui",      "r16ui",     "r8ui"})
+        if (word == format) return true;
+    return false;
+}
+
+bool are_of_formats(const Diagnostics& found) {
+    return exit_status(found) != 0 && std::ranges::all_of(found, [](const Diagnostic& one) {
+               return one.severity != Severity::error ||
+                      one.message.starts_with("'format' : image formats must match");
+           });
+}
+
 bool differs_from_drivers(std::string_view text) {
     return contains(text, "GL_") || contains(text, "__VERSION__") || contains(text, "shared") ||
            contains(text, "packed");

@@ -23,6 +23,15 @@ struct MissingBuiltIns {
 [[nodiscard]] MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
                                                 const std::vector<const Piece*>& pieces);
 
+/// Whether all errors are that a function is called with an image that has a format.
+[[nodiscard]] bool are_of_formats(const Diagnostics& found);
+/// Whether a word of a layout is the format of an image: "rgba8".
+[[nodiscard]] bool is_image_format(std::string_view word);
+
+/// The text without the formats of images: glslang wants a function's parameter, which can state none, to
+/// have that of what it is called with.
+[[nodiscard]] std::string without_formats(std::string_view text);
+
 /// Whether a uniform is one of those.
 [[nodiscard]] bool is_missing_built_in(std::string_view uniform);
 

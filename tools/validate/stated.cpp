@@ -7,6 +7,7 @@
 
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
+#include "validate/missing_built_ins.hpp"
 
 namespace gobo {
 namespace {
@@ -47,6 +48,7 @@ class Statements {
                     for (const std::size_t name : names_in(whole))
                         inputs_[at(name)].push_back(std::string(at(name)));
                 if (is_varying) add_precisions(whole, "");
+                if (has(whole, "uniform")) add_format(whole);
                 if (i == begin + 3 && at(begin) == "precision" && !precisions_.empty())
                     precisions_[at(i - 1)] = at(i - 2);
                 begin = i + 1;
@@ -158,6 +160,11 @@ class Statements {
             return by_default == precisions_.end() ? std::string_view() : by_default->second;
         }
         return {};
+    }
+    void add_format(Range range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            if (is_image_format(at(i)))
+                for (const std::size_t name : names_in(range)) add(std::string(at(name)) + ".format", at(i));
     }
     /// Of what is of a struct, the precisions of its members.
     void add_precisions(Range range, std::string_view block) {
@@ -289,7 +296,11 @@ void set_stated(Interface& interface, const Stated& stated) {
         set(uniform.name, uniform.usage);
         set_precisions(uniform.type, uniform.members, stated);
     }
-    for (Sampler& sampler : interface.samplers) set(sampler.name, sampler.usage);
+    for (Sampler& sampler : interface.samplers) {
+        set(sampler.name, sampler.usage);
+        const auto format = stated.find(sampler.name + ".format");
+        if (format != stated.end() && sampler.usage.access.empty()) sampler.usage.access = format->second;
+    }
 }
 
 }  // namespace gobo

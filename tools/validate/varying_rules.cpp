@@ -293,13 +293,16 @@ class VaryingCheck {
                        fmt::format("the block '{}' has other members than '{}' in {} at its location", block,
                                    other_block, in_earlier(other_block, "").text()),
                        "declare the block once, in a piece that both stages include");
+        const bool is_read = std::ranges::any_of(later_->interface.inputs, [&](const Variable& one) {
+            return root_of(one.name) == block && !one.usage.unused;
+        });
         if (!input.usage.anonymous && (states(input, "apart") || states(output, "apart")) &&
-            !(input.usage.unused && states(input, "apart") && states(output, "apart")))
+            (is_read || !states(input, "apart")))
             add(in_later(root_of(input.name), ""), Severity::error,
                 fmt::format("the block of '{}' states one location, and its first member another",
                             input.name),
                 "state the members' locations alone");
-        else if (is_of_block && input.location >= 0 && !input.usage.anonymous && !input.usage.unused &&
+        else if (is_of_block && input.location >= 0 && !input.usage.anonymous && is_read &&
                  !input.per_vertex && !states(input, "located") &&
                  has_gaps(later_->interface.inputs, root_of(input.name)))
             add(in_later(root_of(input.name), ""), Severity::error,
