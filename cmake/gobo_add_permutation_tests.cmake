@@ -1,7 +1,7 @@
 # gobo_add_permutation_tests(NAME name FAMILY family
 #                            [KEYS key...] [KEYS_FROM file...] [SCENES file...] [BUCKET_LIGHTS count...]
 #                            [COVER t] [ALL] [WHERE condition] [OVER feature...] [EXCLUDED]
-#                            [RENDER] [BACKEND osmesa|egl] [SHARDS n] [INCLUDE folder...] [LIBRARY folder]
+#                            [RENDER] [BACKEND osmesa|egl|vulkan] [DIALECT dialect] [SHARDS n] [INCLUDE folder...] [LIBRARY folder]
 #                            [COST_BASELINE file GPU chip...])
 #
 # Registers tests that run `gobo test` on the selected permutations: with CTest, and so in what `ctest --output-junit`
@@ -19,7 +19,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
 function(gobo_add_permutation_tests)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;EXCLUDED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;SHARDS;LIBRARY;COST_BASELINE"
+  cmake_parse_arguments(PARSE_ARGV 0 arg "ALL;EXCLUDED;RENDER" "NAME;FAMILY;COVER;WHERE;BACKEND;DIALECT;SHARDS;LIBRARY;COST_BASELINE"
                         "GPU;KEYS;KEYS_FROM;SCENES;BUCKET_LIGHTS;OVER;INCLUDE")
   _gobo_check_test_arguments()
   if(NOT arg_LIBRARY)

@@ -94,7 +94,8 @@ struct PushConstants {
     std::uint32_t stages = 0;  ///< as in Descriptor
 };
 
-/// A location of a vertex attribute: matrices have one for each column, arrays for each element.
+/// A location of a vertex attribute: matrices have one for each column, arrays for each element. In Vulkan a
+/// column of three or four doubles takes the next location, too.
 struct VertexInput {
     std::string_view name;
     std::string_view type;  ///< the GLSL type of the whole attribute

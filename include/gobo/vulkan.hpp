@@ -180,8 +180,9 @@ struct VertexMember<Element[Extent]> : runtime::NumbersOf<Element> {
 }  // namespace detail
 
 /// Reads an attribute from a member of the vertices of a buffer bound at `binding`: one description for each
-/// location that it takes. The member is of the attribute's type (GLM's in any layout), of an array attribute
-/// an array of as many elements or fewer; else it does not compile.
+/// column of a matrix and element of an array, two locations apart where that is of three or four doubles.
+/// The member is of the attribute's type (GLM's in any layout), of an array attribute an array of as many
+/// elements or fewer; else it does not compile.
 template <class Value, int Extent, class Vertex, class Member>
 [[nodiscard]] auto vertex_attributes(AttributePlace<Value, Extent> attribute, Member Vertex::*member,
                                      std::uint32_t binding = 0) {
@@ -197,8 +198,10 @@ template <class Value, int Extent, class Vertex, class Member>
     auto offset = static_cast<std::uint32_t>(reinterpret_cast<const char*>(&(vertex.*member)) - begin);
     std::array<VkVertexInputAttributeDescription, static_cast<std::size_t>(columns)> descriptions{};
     auto location = static_cast<std::uint32_t>(attribute.location);
+    constexpr bool is_wide = Given::rows * sizeof(typename Given::Number) > 16;
     for (VkVertexInputAttributeDescription& description : descriptions) {
-        description = {location++, binding, detail::format_of<typename Given::Number>(Given::rows), offset};
+        description = {location, binding, detail::format_of<typename Given::Number>(Given::rows), offset};
+        location += is_wide ? 2 : 1;
         offset += static_cast<std::uint32_t>(column_size);
     }
     return descriptions;

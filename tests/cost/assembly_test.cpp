@@ -1,6 +1,7 @@
 // Assembly counted by kind of instruction.
 #include <gtest/gtest.h>
 
+#include "cost_support.hpp"
 #include "lab/cost/nvidia_assembly.hpp"
 #include "lab/cost/stage_cost.hpp"
 
@@ -26,6 +27,26 @@ TEST(Assembly, IsCountedByKind) {
     //                        branch, output, wait
     EXPECT_EQ(kinds, (ByKind{1, 1, 1, 1, 1, 1, 1, 2, 1, 1}));
 }
+
+struct OccupancyRow {
+    std::string name;
+    std::string chip;
+    std::uint64_t radv;
+    std::uint64_t waves;
+};
+class Occupancy : public testing::TestWithParam<OccupancyRow> {};
+
+TEST_P(Occupancy, IsNotAboveThePlacesOfASimd) {
+    const CompiledStage stage{"fragment", 32, {{"Subgroups per SIMD", GetParam().radv}}, ""};
+    EXPECT_EQ(cost_of(stage, chips_of({GetParam().chip}).front(), false).occupancy, GetParam().waves);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, Occupancy,
+                         testing::Values(OccupancyRow{"rdna1_of_few_registers", "navi10", 40, 20},
+                                         OccupancyRow{"rdna2_of_few_registers", "navi21", 32, 16},
+                                         OccupancyRow{"rdna2_of_most_registers", "navi21", 4, 4},
+                                         OccupancyRow{"gcn_of_few_registers", "vega10", 10, 10}),
+                         [](const auto& row) { return row.param.name; });
 
 TEST(Assembly, HasALoopWhereItBranchesBack) {
     EXPECT_FALSE(branches_back("BB0:\n\ts_cbranch_scc0 BB2\nBB1:\n\ts_branch BB2\nBB2:\n\ts_endpgm\n"));

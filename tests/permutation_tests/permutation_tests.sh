@@ -56,6 +56,7 @@ run listed.render.directional=1
 run listed.render.point=1
 run listed.render.spot=1 fog=linear
 run listed.spot=1 fog=linear
+run of_vulkan.point=1
 run shared.1_of_2
 run shared.2_of_2
 run wrong.directional=1

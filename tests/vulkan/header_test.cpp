@@ -168,6 +168,22 @@ TEST(VulkanHeader, DescribesVertices) {
     EXPECT_EQ(vulkan::detail::format_of<double>(4), VK_FORMAT_R64G64B64A64_SFLOAT);
 }
 
+/// A column of three doubles takes two locations.
+TEST(VulkanHeader, GivesColumnsOfDoublesTwoLocations) {
+    struct Precise {
+        glm::dmat3 turn;
+    };
+    std::vector<std::uint32_t> described;
+    for (const VkVertexInputAttributeDescription& attribute :
+         vulkan::vertex_attributes(descriptor_arrays::attribute::turn, &Precise::turn))
+        described.push_back(attribute.location);
+    EXPECT_EQ(described, (std::vector<std::uint32_t>{1, 3, 5}));
+    std::vector<std::uint32_t> listed;
+    for (const runtime::VertexInput& input : descriptor_arrays::vertex_inputs)
+        if (input.name == "turn") listed.push_back(input.location);
+    EXPECT_EQ(listed, described);
+}
+
 /// The header for OpenGL 4.6 has no sets, and the bindings and units of the texts for 4.5.
 TEST(OpenGlSpirvHeader, HoldsModules) {
     const spirv::Permutation* found = spirv::find(spirv::Key{});

@@ -100,8 +100,9 @@ std::optional<int> format_of(const GlslType& type) {
     }
 }
 
-/// A row for each location: columns of matrices and elements of arrays have one each.
-std::vector<std::string> vertex_input_rows(const Interface& interface, const Declarations& declarations) {
+/// A row for each column of a matrix and element of an array.
+std::vector<std::string> vertex_input_rows(const Interface& interface, const Declarations& declarations,
+                                           Dialect dialect) {
     std::vector<std::string> rows;
     int number = 0;
     for (std::size_t i = 0; i < interface.inputs.size(); ++i) {
@@ -112,9 +113,10 @@ std::vector<std::string> vertex_input_rows(const Interface& interface, const Dec
         if (!format) continue;
         const std::string only = only_text("input", input.name, number, declarations);
         const int columns = type.columns * element_count(input.array);
+        const int step = dialect == Dialect::vulkan ? vulkan_locations_of_column(type) : 1;
         for (int column = 0; column < columns; ++column)
             rows.push_back(fmt::format("{{{}, {}, {}, {}, {}{}}}", cpp_literal(input.name),
-                                       cpp_literal(input.type), input.location + column, *format,
+                                       cpp_literal(input.type), input.location + column * step, *format,
                                        type.column_size(), only));
     }
     return rows;
@@ -147,7 +149,7 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
         push_constants.push_back(
             fmt::format("{{{}, {}, {:#x}}}", cpp_literal(block.name), block.size, stage_bits(block.stages)));
     add_table(own, "push_constant", push_constants);
-    add_table(own, "vertex_input", vertex_input_rows(interface, declarations));
+    add_table(own, "vertex_input", vertex_input_rows(interface, declarations, dialect));
     std::vector<std::string> constants;
     std::string constant_values;
     for (const SpecializationConstant& constant : interface.specialization_constants) {

@@ -5,11 +5,9 @@
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
-#include <spirv-tools/libspirv.hpp>
-
 #include "spirv/transform.hpp"
 #include "validate/glslang_stage.hpp"
+#include "validate/module_rules.hpp"
 
 namespace gobo {
 namespace {
@@ -22,10 +20,11 @@ void append(Diagnostics& all, const Diagnostics& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-/// The module as it is shipped.
+/// The module as it is shipped. What the optimizer makes is asked about, too.
 Result<SpirvModule> shipped(SpirvModule module, const ValidateOptions& options, spv_target_env environment) {
     if (options.optimize) {
         GOBO_TRY(module, spirv::optimized(module, environment));
+        GOBO_TRY_DO(refuse_optimized(module, environment));
     }
     if (options.strip) {
         GOBO_TRY(module, spirv::without_names(module));
@@ -42,24 +41,6 @@ std::uint64_t hash_of(const SpirvModule& module) {
 
 spv_target_env environment_of(Dialect dialect) {
     return dialect == Dialect::vulkan ? SPV_ENV_VULKAN_1_0 : SPV_ENV_OPENGL_4_5;
-}
-
-/// What SPIRV-Tools' validator says of a module, as a second opinion on what glslang made; empty where it is
-/// valid.
-Diagnostics spirv_val(const SpirvModule& module, const Place& place, spv_target_env environment) {
-    Diagnostics found;
-    const auto add = [&](std::string message) {
-        append(found, fail(place, "", std::move(message)).value());
-        found.back().fault = Fault::internal;
-    };
-    spvtools::SpirvTools tools(environment);
-    tools.SetMessageConsumer(
-        [&](spv_message_level_t level, const char*, const spv_position_t& position, const char* message) {
-            if (level <= SPV_MSG_ERROR)
-                add(fmt::format("spirv-val: {} (instruction {})", message, position.index));
-        });
-    if (!tools.Validate(module) && found.empty()) add("spirv-val refuses the module without saying why");
-    return found;
 }
 
 }  // namespace
@@ -181,7 +162,10 @@ BatchResult::OfStage BatchWorker::generate(int stage, Note& note) {
     const spv_target_env environment = environment_of(composition_.dialect);
     const bool is_shipped = is_spirv(composition_.dialect);
     generated->hash = hash_of(generated->spirv);
-    if (is_shipped) {
+    if ((options_.spirv_val || is_shipped) && exit_status(result.diagnostics) == 0)
+        append(result.diagnostics,
+               check_module(generated->spirv, environment, pieces_of(composition_, stage)));
+    if (is_shipped && exit_status(result.diagnostics) == 0) {
         auto ready = shipped(std::move(generated->spirv), options_, environment);
         if (!ready) {
             append(result.diagnostics, ready.error());
@@ -190,9 +174,6 @@ BatchResult::OfStage BatchWorker::generate(int stage, Note& note) {
         }
         generated->spirv = *std::move(ready);
     }
-    if (options_.spirv_val || is_shipped)
-        append(result.diagnostics,
-               spirv_val(generated->spirv, {pieces_of(composition_, stage).back()->path, 0, 0}, environment));
     if (!options_.keep_spirv) generated->spirv = {};
     result.validated = *std::move(generated);
     return result;

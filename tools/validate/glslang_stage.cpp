@@ -20,11 +20,13 @@
 #include "validate/language_rules.hpp"
 #include "validate/missing_built_ins.hpp"
 #include "validate/missing_ends.hpp"
+#include "validate/module_rules.hpp"
 #include "validate/old_versions.hpp"
 #include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
 #include "validate/switch_rules.hpp"
 #include "validate/syntax_tree.hpp"
+#include "validate/vulkan_rules.hpp"
 
 namespace gobo {
 namespace {
@@ -361,6 +363,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
     if (is_spirv(dialect_)) {
+        GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_));
         GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv));
     }
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
@@ -375,6 +378,9 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     std::erase_if(stage.interface.uniforms,
                   [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
     stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices, dialect_);
+    if (is_vulkan)
+        std::ranges::move(check_vulkan(kind_, stage.interface, pieces_),
+                          std::back_inserter(stage.diagnostics));
     const bool asks_for_bindings =
         !is_spirv(dialect_) && (bindings_mapped_ || may_lack_bindings(stage.interface));
     if (asks_for_bindings || may_hold_bools(stage.interface)) {

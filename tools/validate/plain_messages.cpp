@@ -73,7 +73,16 @@ Diagnostic mismatch_message(std::string_view message, const PieceList& pieces, c
     const Declaration at = declaration_of(name, "", pieces);
     const std::string other =
         declaration_of(initialised.empty() ? last_name(there) : name, "", earlier).text();
-    const char* const help = "declare it alike in both stages";
+    const auto has_push_constants = [](const PieceList& list) {
+        return std::ranges::any_of(list, [](const Piece* piece) {
+            return std::ranges::count(tokens_of(piece->text), "push_constant") > 0;
+        });
+    };
+    const bool may_be_pushed = has_push_constants(pieces) && has_push_constants(earlier);
+    const char* const help = may_be_pushed
+                                 ? "declare it alike in both stages; blocks of push constants whose members "
+                                   "differ name differently"
+                                 : "declare it alike in both stages";
     if (!initialised.empty())
         return diagnostic_at(at, Severity::error,
                              fmt::format("'{}' begins with another value here than in {}", name, other),
@@ -145,11 +154,20 @@ Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceL
 }
 
 Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
+    // What Vulkan cannot bind is an error of its own.
+    std::erase_if(found, [](const Diagnostic& diagnostic) {
+        return diagnostic.message.starts_with("'[][]' : Generating SPIR-V array-of-arrays");
+    });
     if (found.empty()) return found;
     const std::map<std::string_view, Place> macros = macros_of(pieces);
     for (Diagnostic& diagnostic : found) {
         if (diagnostic.message.ends_with("only allowed when using GLSL for Vulkan")) {
             diagnostic.help = "it is written for Vulkan: --dialect vulkan takes it";
+            continue;
+        }
+        if (diagnostic.message == "'subgroup op' : requires SPIR-V 1.3") {
+            diagnostic.message = "Vulkan 1.0 and OpenGL have no subgroups";
+            diagnostic.help = "do it without GL_KHR_shader_subgroup_...";
             continue;
         }
         const std::string_view redefined =

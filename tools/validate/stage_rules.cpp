@@ -37,7 +37,7 @@ class StageCheck {
         if (kind_ == StageKind::geometry) check_streams();
         check_sizes();
         check_writeonly();
-        if (!is_spirv(dialect_)) check_offsets();
+        check_offsets();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -218,19 +218,27 @@ class StageCheck {
         }
     }
 
-    /// No member lies before the end of the one that stands before it (GLSL 4.60, 4.4.5).
+    /// No member lies before the end of the one that stands before it (GLSL 4.60, 4.4.5); in Vulkan they may
+    /// stand in any order, but not overlap.
     void check_offsets() {
-        for (const auto* const blocks : {&interface_.blocks, &interface_.storage_blocks})
+        for (const auto* const blocks :
+             {&interface_.blocks, &interface_.storage_blocks, &interface_.push_constants})
             for (const Block& block : *blocks)
                 for (std::size_t i = 1; i < block.members.size(); ++i) {
                     const Member& member = block.members[i];
-                    const Member& before = block.members[i - 1];
-                    if (member.offset >= before.offset + size_of(before)) continue;
-                    const std::string where = member.offset < before.offset ? "before that" : "within that";
-                    return refuse(declaration_of_member(root_of(block.name), member.name, pieces_),
-                                  fmt::format("'{}' has offset {}, {} of '{}', which stands above it",
-                                              member.name, member.offset, where, before.name),
-                                  "order members by their offsets, each behind the end of the one before");
+                    const bool is_vulkan = dialect_ == Dialect::vulkan;
+                    for (std::size_t j = is_vulkan ? 0 : i - 1; j < i; ++j) {
+                        const Member& before = block.members[j];
+                        if (member.offset >= before.offset + size_of(before)) continue;
+                        if (is_vulkan && member.offset + size_of(member) <= before.offset) continue;
+                        const char* const where =
+                            member.offset < before.offset ? "before that" : "within that";
+                        return refuse(
+                            declaration_of_member(root_of(block.name), member.name, pieces_),
+                            fmt::format("'{}' has offset {}, {} of '{}', which stands above it", member.name,
+                                        member.offset, where, before.name),
+                            "order members by their offsets, each behind the end of the one before");
+                    }
                 }
     }
 

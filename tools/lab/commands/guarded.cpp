@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@ using nlohmann::json;
 
 /// What was told last, in memory that both processes see.
 struct Shared {
+    bool has_begun = false;
     std::array<char, 1024> text;
 };
 
@@ -78,10 +80,19 @@ Result<Outcome> run_guarded(const std::string& what,
         ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) return run([](std::string_view) {});
     auto* const shared = new (memory) Shared{};
-    Result<Outcome> result = fail(Fault::internal, "no process can be started for " + what);
+    std::optional<Result<Outcome>> result;
+    const auto lose = [&](const std::string& ending) {
+        const std::string last = shared->text.data();
+        result = Result<Outcome>(fail(
+            Fault::file,
+            fmt::format("{} {}{}", what, ending, last.empty() ? "" : fmt::format("; before that, {}", last)),
+            "try the other --backend, or another version of Mesa; a command with fewer keys tells "
+            "which one it is"));
+    };
     ChildWork work;
     std::mutex telling;  // pictures are drawn by one thread and written by others
     work.work = [&](std::size_t, Note& note) {
+        shared->has_begun = true;
         return bytes_of(run([&](std::string_view text) {
             const std::scoped_lock lock(telling);
             const std::size_t size = std::min(text.size(), shared->text.size() - 1);
@@ -94,25 +105,22 @@ Result<Outcome> run_guarded(const std::string& what,
         const json told = json::from_msgpack(bytes.begin(), bytes.end(), true, false);
         if (!told.is_object()) return false;
         if (told.contains("errors"))
-            result = tl::unexpected(diagnostics_in(told["errors"]));
+            result = Result<Outcome>(tl::unexpected(diagnostics_in(told["errors"])));
         else
             result = Outcome{told["output"], diagnostics_in(told["diagnostics"]), told["summary"]};
         return true;
     };
     work.died = [&](std::size_t, int, Death death) {
-        const std::string last = shared->text.data();
-        result =
-            fail(Fault::file,
-                 fmt::format("{} {}{}", what, ending_of(death, seconds),
-                             last.empty() ? "" : fmt::format("; before that, {}", last)),
-                 "try the other --backend, or another version of Mesa; a command with fewer keys tells which "
-                 "one it is");
+        lose(ending_of(death, seconds));
         return false;
     };
-    static_cast<void>(run_in_children(
-        1, 1, work, {.processor_seconds = 0, .memory = 0, .wall_seconds = seconds, .writes_files = true}));
+    const auto left = run_in_children(
+        1, 1, work, {.processor_seconds = 0, .memory = 0, .wall_seconds = seconds, .writes_files = true});
+    // A driver may end the process without a word and with status 0.
+    if (!result && (left.empty() || shared->has_begun)) lose("ended the process");
     ::munmap(memory, sizeof(Shared));
-    return result;
+    if (!result) return fail(Fault::internal, "no process can be started for " + what);
+    return *std::move(result);
 }
 
 }  // namespace gobo

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/dialect.hpp"
 #include "core/bytes.hpp"
 #include "core/child_processes.hpp"
 #include "family/key.hpp"
@@ -119,6 +120,11 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
     GOBO_TRY(const Backend backend, backend_of(options.backend));
     GOBO_TRY(const Subject subject,
              load_subject(world, options.names, options.stages, options.dialect, &options));
+    if (is_spirv(subject.composition.dialect))
+        return fail(Fault::usage,
+                    fmt::format("gobo link asks OpenGL's compiler of texts, and --dialect {} ships SPIR-V",
+                                name_of(subject.composition.dialect)),
+                    "leave --dialect out, or check it by gobo check");
     std::map<StageNumbers, std::size_t> numbers;
     std::vector<const Permutation*> programs;
     for (const Permutation& permutation : subject.composition.permutations)

@@ -56,6 +56,9 @@ Result<std::vector<Chip>> chips_named(const std::vector<std::string>& names) {
         const auto is_it = [&](const Chip& chip) { return chip.name == name; };
         const auto chip = std::find_if(chips().begin(), chips().end(), is_it);
         if (chip == chips().end()) {
+            if (name == "list")
+                return fail(Fault::usage, "--gpu list stands alone, without chips",
+                            "ask it first: gobo cost --gpu list");
             std::vector<std::string> known;
             if (names.size() == 1) known.emplace_back("list");  // which stands alone
             for (const Chip& each : chips()) known.emplace_back(each.name);

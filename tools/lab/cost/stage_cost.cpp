@@ -78,6 +78,13 @@ void for_each_line(std::string_view text, const Work& work) {
     }
 }
 
+/// Waves of which a SIMD keeps track. RADV's statistic counts twice as many for waves of 32 on RDNA, which
+/// registers alone would allow.
+std::uint64_t wave_slots(std::string_view architecture) {
+    if (architecture == "RDNA1") return 20;
+    return architecture.starts_with("RDNA") ? 16 : 10;
+}
+
 }  // namespace
 
 ByKind count_kinds(std::string_view assembly) {
@@ -123,7 +130,7 @@ StageCost cost_of(CompiledStage compiled, const Chip& chip, bool loop_varies) {
         cost.instructions = statistic("Instructions");
         cost.vector_registers = statistic("VGPRs");
         cost.scalar_registers = statistic("SGPRs");
-        cost.occupancy = statistic("Subgroups per SIMD");
+        cost.occupancy = std::min(statistic("Subgroups per SIMD"), wave_slots(chip.architecture));
         cost.cycles = statistic("Inverse Throughput") * 64 / std::max(compiled.invocations, 1U);
         cost.latency = statistic("Latency");
         cost.code_bytes = statistic("Code size");

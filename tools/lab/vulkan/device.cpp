@@ -174,7 +174,7 @@ Result<void> make_device(Device::State& state, const Chosen& chosen) {
 }  // namespace
 
 tl::unexpected<Diagnostics> fail_call(const char* function, VkResult result) {
-    return fail(Fault::internal,
+    return fail(Fault::file,
                 fmt::format("the Vulkan driver answers {} with {}", function, static_cast<int>(result)));
 }
 
