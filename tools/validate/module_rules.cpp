@@ -88,7 +88,7 @@ Result<void> refuse_capabilities(std::span<const std::uint32_t> module,
                                       "bind the buffer as a block, and index it by numbers"));
         if (capability >= spv::CapabilityGroupNonUniform && capability <= spv::CapabilityGroupNonUniformQuad)
             return fail(diagnostic_at(first_use("gl_Subgroup", pieces), Severity::error,
-                                      "Vulkan 1.0 and OpenGL have no subgroups",
+                                      "the SPIR-V of Vulkan 1.0 and OpenGL has no subgroups",
                                       "do it without GL_KHR_shader_subgroup_..."));
     }
     return {};

@@ -166,7 +166,7 @@ Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
             continue;
         }
         if (diagnostic.message == "'subgroup op' : requires SPIR-V 1.3") {
-            diagnostic.message = "Vulkan 1.0 and OpenGL have no subgroups";
+            diagnostic.message = "the SPIR-V of Vulkan 1.0 and OpenGL has no subgroups";
             diagnostic.help = "do it without GL_KHR_shader_subgroup_...";
             continue;
         }

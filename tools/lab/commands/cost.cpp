@@ -15,9 +15,20 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+/// The stages of the shipped family's plainest key: a driver that fails on them has no figures.
+Result<cost::Pipeline> plainest_pair(const World& world) {
+    GOBO_TRY(const LoadedFamily family, load_family(world, "lit"));
+    GOBO_TRY(const std::vector<Key> keys,
+             select(family.family, Selection{.keys = {{"default"}}}, name_of(family.dialect)));
+    GOBO_TRY(Composition composition, compose_keys(family, keys));
+    GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
+    return pipeline_of(composition, validated, composition.permutations.front());
+}
+
 Result<Outcome> list_chips(const CostCommandOptions& options, const World& world) {
+    GOBO_TRY(const cost::Pipeline plainest, plainest_pair(world));
     const auto answers =
-        cost::compile_on_chips(world.disk, cost::chips(), {}, compile_options(options, world));
+        cost::compile_on_chips(world.disk, cost::chips(), {plainest}, compile_options(options, world));
     const bool has_driver =
         std::any_of(answers.begin(), answers.end(), [](const auto& answer) { return answer; });
     if (!has_driver) return tl::unexpected(answers.front().error());
@@ -26,15 +37,20 @@ Result<Outcome> list_chips(const CostCommandOptions& options, const World& world
     std::string text = fmt::format("{:<10} {:<13} {:<18} {}\n", "GPU", "architecture", "such as", "known to");
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const cost::Chip& chip = cost::chips()[i];
-        const std::string driver = answers[i] ? answers[i]->driver : "";
+        const bool is_known = answers[i].has_value();
+        const bool compiles = is_known && answers[i]->pipelines.front();
+        const std::string driver = compiles ? answers[i]->driver : "";
         table.rows.push_back(
             {std::string(chip.name), std::string(chip.architecture), std::string(chip.sold_as), driver});
         list.push_back({{"gpu", chip.name},
                         {"architecture", chip.architecture},
                         {"sold_as", chip.sold_as},
-                        {"driver", answers[i] ? json(driver) : json()}});
+                        {"driver", compiles ? json(driver) : json()}});
         text += fmt::format("{:<10} {:<13} {:<18} {}\n", chip.name, chip.architecture, chip.sold_as,
-                            driver.empty() ? "-" : driver);
+                            compiles   ? driver
+                            : is_known ? fmt::format("no use: {} {}", answers[i]->driver,
+                                                     answers[i]->pipelines.front().error())
+                                       : "-");
     }
     if (options.csv) return Outcome{csv_text(table)};
     if (options.json) return Outcome{json{{"gpus", std::move(list)}}.dump(2) + "\n"};
