@@ -8,6 +8,7 @@
 
 #include "emit/sections.hpp"
 #include "spirv/glsl_type.hpp"
+#include "spirv/vertex_locations.hpp"
 
 namespace gobo {
 namespace {

@@ -88,9 +88,4 @@ int location_count(std::string_view type, const std::vector<int>& extents) {
     return static_cast<int>(std::min<std::int64_t>(columns * element_count(extents), kMostElements));
 }
 
-int vulkan_locations_of_column(const GlslType& type) {
-    constexpr int kLocation = 16;  // bytes
-    return type.column_size() > kLocation ? 2 : 1;
-}
-
 }  // namespace gobo

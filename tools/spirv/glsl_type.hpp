@@ -60,8 +60,4 @@ struct GlslType {
 /// Locations between stages of a value of that type (GLSL 4.50, 4.4.1): one for each element and column.
 [[nodiscard]] int location_count(std::string_view type, const std::vector<int>& extents);
 
-/// Locations that a column of a vertex input takes in Vulkan: a column of three or four doubles two, where
-/// OpenGL counts one.
-[[nodiscard]] int vulkan_locations_of_column(const GlslType& type);
-
 }  // namespace gobo

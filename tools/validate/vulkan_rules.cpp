@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "spirv/glsl_type.hpp"
+#include "spirv/vertex_locations.hpp"
 #include "validate/declaration.hpp"
 
 namespace gobo {
