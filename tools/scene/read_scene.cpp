@@ -22,10 +22,16 @@ const std::vector<std::string> kKnownExtensions = {
 
 /// What is drawn without them is the same: they hold another copy of what core glTF holds beside them, or
 /// words about the file.
-const std::vector<std::string> kExtensionsToSkip = {
-    "EXT_meshopt_compression", "EXT_texture_avif",   "EXT_texture_webp", "KHR_draco_mesh_compression",
-    "KHR_meshopt_compression", "KHR_texture_basisu", "KHR_xmp",          "KHR_xmp_json_ld",
-    "MSFT_texture_dds"};
+const std::vector<std::string> kExtensionsToSkip = {"EXT_meshopt_compression",
+                                                    "FB_ngon_encoding",
+                                                    "EXT_texture_avif",
+                                                    "EXT_texture_webp",
+                                                    "KHR_draco_mesh_compression",
+                                                    "KHR_meshopt_compression",
+                                                    "KHR_texture_basisu",
+                                                    "KHR_xmp",
+                                                    "KHR_xmp_json_ld",
+                                                    "MSFT_texture_dds"};
 
 /// A scene without any light would be black: for `pbr` an environment stands in for it.
 void add_default_light(Scene& scene) {
