@@ -19,6 +19,12 @@ for command in "render lit --key point=1 -o $folder/pictures" "test lit --key po
 done
 [ -z "$(ls -A "$folder/pictures" 2> /dev/null)" ]
 
+# One that ends the process without a word has not done its work either.
+status=0
+RENDERER_EXITS=1 "$gobo" render lit --key point=1 -o "$folder/pictures" > "$folder/output" 2> "$folder/errors" || status=$?
+[ $status -eq 3 ]
+sed 's/crashed/ended the process/' "$folder/expected" | diff - "$folder/errors"
+
 # What is compared is the driver's verdict, and a crash is one.
 status=0
 "$gobo" link lit --key point=1 > "$folder/output" 2> "$folder/errors" || status=$?

@@ -246,7 +246,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
 /// Draws each key with the demonstration mesh, by Vulkan.
 Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, const World& world,
                                                 LoadedFamily& family, const vulkan::Device& device,
-                                                const PictureOptions& pictures) {
+                                                const PictureOptions& pictures, const Progress& progress) {
     if (!options.scenes.empty())
         return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
     GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
@@ -258,6 +258,7 @@ Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, co
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
     GOBO_TRY(const auto environment, load_environment(world, options.environment, interfaces));
     vulkan::PictureOptions own{pictures.view, pictures.format, pictures.folder, pictures.smooth};
+    own.tell = progress;
     for (const auto& [sampler, levels] : environment) own.textures[sampler] = vulkan::cube_texels(levels);
     if (looks_up_brdf_table(interfaces))
         own.textures[kBrdfTable] = vulkan::table_texels(environment_brdf_image());
@@ -289,14 +290,15 @@ Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pict
             join(summary, "\n")};
 }
 
-Result<Outcome> render(const RenderOptions& options, const World& world) {
+Result<Outcome> render(const RenderOptions& options, const World& world, const Progress& progress) {
     GOBO_TRY(const PictureOptions pictures, picture_options(options));
     GOBO_TRY_DO(refuse_equal_names(options, pictures));
     GOBO_TRY(const std::string dialect, dialect_for(options.backend, options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
     if (options.backend == kVulkanBackend) {
         GOBO_TRY(const vulkan::Device device, vulkan::open_device());
-        GOBO_TRY(const auto rendered, render_keys_by_vulkan(options, world, family, device, pictures));
+        GOBO_TRY(const auto rendered,
+                 render_keys_by_vulkan(options, world, family, device, pictures, progress));
         return outcome_of(rendered, pictures, device.name());
     }
     GOBO_TRY(const Backend backend, backend_of(options.backend));
@@ -318,7 +320,7 @@ Result<Outcome> run(const RenderOptions& options, const World& world) {
     return run_guarded("the renderer of --backend " + options.backend, [&](const Progress& progress) {
         ToldFiles files(world.disk, progress);
         World told{files, world.shipped, world.options, world.measure, world.cache, world.tell};
-        return render(options, told);
+        return render(options, told, progress);
     });
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -99,6 +101,8 @@ struct PictureOptions {
     int smooth = 1;
     Textures textures = {};
     const ShadowPass* shadow_pass = nullptr;
+    /// Told before each key what is drawn next.
+    std::function<void(std::string_view)> tell = [](std::string_view) {};
 };
 
 /// Draws every permutation of the composition; `modules` are by stage, `interfaces` by permutation. As

@@ -13,6 +13,7 @@ RenderedSelection render_selection(const Device& device, const Family& family, c
     // Draws one permutation and writes its picture. The result are warnings.
     const auto render_one = [&](std::size_t i, const std::string& path) -> Result<Diagnostics> {
         const Permutation& permutation = composition.permutations[i];
+        options.tell(fmt::format("it began to draw the key '{}'", key_text(family, permutation.key)));
         std::vector<RenderValue> values = family.render;
         Textures textures = options.textures;
         const std::vector<ShadowLight> shadows = shadow_lights(family, permutation.key);
