@@ -239,8 +239,8 @@ void main() { color = vec4(lights[1].color, texture(table, lights[0].range).r); 
               "gobo: warning: 'Lights.lights[].range' has no value and stays 0\n"
               "  help: give it one under [render] in the family file\n"
               "gobo: warning: the attribute 'wind' has no value and stays 0\n"
-              "  help: give it one under [render] in the family file\n"
-              // planes seen along themselves
+              "  help: give it one under [render] in the family file\n");
+    EXPECT_EQ(text_of(picture->background_alone),  // planes seen along themselves
               "gobo: warning: the picture is the background alone: nothing of the objects is drawn\n"
               "  help: see what gl_Position is, and which fragments are discarded\n");
 }
@@ -276,7 +276,8 @@ TEST_P(Colors, AreDrawnOrWarnedOf) {
     ASSERT_TRUE(picture) << text_of(picture.error());
     const std::string warning = GetParam().warning;
     EXPECT_EQ(picture->color.at(4, 4, 1), warning.empty() ? 1.0F : 0.0F);
-    EXPECT_EQ(text_of(picture->warnings),
+    EXPECT_EQ(text_of(picture->warnings), "");
+    EXPECT_EQ(text_of(picture->background_alone),
               warning.empty() ? "" : "gobo: warning: the picture is the background alone: " + warning);
 }
 

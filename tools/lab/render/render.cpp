@@ -92,7 +92,7 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
                  list.draw();
                  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
              }));
-    std::ranges::move(warnings_of_nothing(picture, is_written), std::back_inserter(picture.warnings));
+    picture.background_alone = warnings_of_nothing(picture, is_written);
     return picture;
 }
 
@@ -135,6 +135,7 @@ RenderedSelection render_selection(const Context& context, const Family& family,
         GOBO_TRY(Picture picture, render_permutation(context, stages_of(composition, permutation),
                                                      interfaces[i], objects, values, options.view, textures));
         GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
+        std::ranges::move(picture.background_alone, std::back_inserter(picture.warnings));
         return std::move(picture.warnings);
     };
     return draw_each(family, composition, options.folder, options.format, render_one);

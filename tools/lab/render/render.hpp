@@ -66,6 +66,7 @@ struct Picture {
     Image color;           ///< linear, four channels, as the fragment stage's first output wrote it
     Image depth;           ///< window space, 1 where nothing was drawn
     Diagnostics warnings;  ///< attributes, uniforms and samplers without a value
+    Diagnostics background_alone = {};  ///< a warning where nothing but the background is seen
 };
 
 /// What `draw` draws to the framebuffer. An error where OpenGL reports one.
