@@ -166,7 +166,8 @@ Result<Outcome> answer(const Application& application, const World& world, const
     if (name == "manual") return Outcome{manual_page(application)};
     GOBO_TRY(const CommandLine line, read_command_line(application, arguments));
     if (line.command == nullptr) return Outcome{line.text};
-    GOBO_TRY_DO(refuse_absent_folders(world.options));
+    // While gobo watches, folders come and go.
+    if (line.command->title.name != "watch") GOBO_TRY_DO(refuse_absent_folders(world.options));
     Diagnostics warnings;
     GOBO_TRY(Outcome outcome, run_with_cache(*line.command, world, application.name, arguments, warnings));
     append(outcome.diagnostics, warnings);
