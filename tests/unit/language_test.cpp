@@ -80,6 +80,12 @@ std::string branch(const std::string& condition, const std::string& color = "gl_
 const Row refused[] = {
     row("int_returned_as_float", "330 core", with_main("float f() { return 1; }\n", "f()"),
         "tiny.frag:2: error: 'return' of another type than the function's: GLSL converts it from 4.20 on"),
+    row("layout_of_a_varying", "120",
+        "#extension GL_ARB_explicit_attrib_location : enable\n#extension GL_ARB_separate_shader_objects : "
+        "enable\nlayout(location = 0) varying vec3 a;\nvoid main() { gl_FragColor = a.xyzx; }\n",
+        "tiny.frag:4: error: layout() stands before 'varying', which takes none"),
+    row("void_beside_other_parameters", "450", with_main("float f(void, int a) { return 1.0; }\n"),
+        "tiny.frag:2: error: 'void' stands beside other parameters of 'f'"),
     row("macro_makes_a_string", "450", with_main("#define S(x) #x\n"),
         "tiny.frag:2: error: the macro 'S' makes a string by '#', which GLSL has not"),
     row("macro_of_a_hash", "300 es", with_main("#define S #\n"), "the macro 'S' makes a string"),
@@ -179,6 +185,9 @@ const Row refused[] = {
 };
 
 const Row taken[] = {
+    row("void_among_the_arguments_of_a_macro", "450",
+        with_main("#define FUNCTION(type, name) type name()\nFUNCTION(void, f) {}\n"), ""),
+    row("void_alone", "450", with_main("float f(void) { return 1.0; }\n", "f()"), ""),
     row("layout_shared", "330 core", with_main("layout(shared) uniform B { mat3 m; } b;\n", "b.m[0].x"), ""),
     row("layout_packed", "300 es", with_main("layout(packed) uniform B { vec4 v; } b;\n", "b.v.x"), ""),
     row("fma_by_extension", "330 core",

@@ -163,8 +163,31 @@ INSTANTIATE_TEST_SUITE_P(
             "tiny.frag:2:1: error: the loop behind this has another form than can be unrolled [default]\n"
             "    #pragma unroll_loop_start\n"
             "    ^\n"
-            "  help: write for (int i = 0; i < COUNT; i++) { ... }, without an #include, between the two "
-            "pragmas\n"},
+            "  help: write for (int i = 0; i < COUNT; i++) { ... }, with < and not <=, without an #include, "
+            "between the two pragmas\n"},
+        Row{"loop_left_by_a_jump", lamps,
+            "for (;;) {\n#pragma unroll_loop_start\nfor (int i = 0; i < LAMPS; i++) {\n"
+            "for (;;) break;\nif (i > 0) continue;\n}\n#pragma unroll_loop_end\n}\n",
+            "default",
+            "tiny.frag:5: error: 'continue' of a loop that is unrolled, which leaves no loop behind "
+            "[default]\n"
+            "    if (i > 0) continue;\n"
+            "  help: write the loop without it, or take the pragmas away\n"},
+        Row{"loop_left_by_a_jump_within_a_switch", lamps,
+            "#pragma unroll_loop_start\nfor (int i = 0; i < LAMPS; i++) {\n"
+            "switch (i) { case 0: break; default: continue; }\n}\n#pragma unroll_loop_end\n",
+            "default",
+            "tiny.frag:3: error: 'continue' of a loop that is unrolled, which leaves no loop behind "
+            "[default]\n"
+            "    switch (i) { case 0: break; default: continue; }\n"
+            "  help: write the loop without it, or take the pragmas away\n"},
+        Row{"jumps_of_loops_within", "unroll_loops = true\n",
+            "#pragma unroll_loop_start\nfor (int i = 0; i < 1; i++) {\n"
+            "for (;;) if (a) { b; } else break;\ndo { continue; } while (c);\n}\n"
+            "#pragma unroll_loop_end\nbreak;\n",
+            "default",
+            "#version 450 core\n#pragma unroll_loop_start\n{ const int i = 0;\n"
+            "for (;;) if (a) { b; } else break;\ndo { continue; } while (c);\n}\nbreak;\n"},
         Row{"loop_without_a_known_end", lamps,
             "#pragma unroll_loop_start\nfor (int i = 0; i < GL_many; i++) {}\n#pragma unroll_loop_end\n",
             "default",

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/clean_text.hpp"
 #include "compose/stage_prologue.hpp"
 #include "compose/varyings.hpp"
 
@@ -248,8 +249,14 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
     const std::optional<LoopHead> head = loop_head(composition_.piece(piece).text);
     if (!head)
         return fail_at(start, "the loop behind this has another form than can be unrolled",
-                       "write for (int i = 0; i < COUNT; i++) { ... }, without an #include, between the "
-                       "two pragmas");
+                       "write for (int i = 0; i < COUNT; i++) { ... }, with < and not <=, without an "
+                       "#include, between the two pragmas");
+    const Piece& whole = composition_.piece(piece);
+    GOBO_TRY(const CleanText clean, clean_text(whole.text, whole.path));
+    if (const auto jump = jump_of_loop(clean.code, *head))
+        return fail(Place{whole.path, jump->line}, line_of(whole, jump->line),
+                    fmt::format("'{}' of a loop that is unrolled, which leaves no loop behind", jump->word),
+                    "write the loop without it, or take the pragmas away");
     const Directive end{"if", head->end, start.place, start.line};
     GOBO_TRY(const Known count, placement.conditions->value_of(end));
     if (!count || *count > kMostRounds)

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -196,6 +197,36 @@ std::optional<LoopHead> loop_head(const std::string& text) {
     if (match[3] != index || match[5].str() + match[6].str() != index) return std::nullopt;
     return LoopHead{static_cast<std::size_t>(match.position()), static_cast<std::size_t>(match.length()),
                     index, std::stoi(match[2]), match[4]};
+}
+
+std::optional<Jump> jump_of_loop(std::string_view code, const LoopHead& head) {
+    constexpr std::array<std::string_view, 4> nesting = {"for", "while", "do", "switch"};
+    struct Nested {
+        bool is_switch;
+        int depth;  ///< of braces before it
+    };
+    std::vector<Nested> nested;
+    int braces = 0;
+    int brackets = 0;
+    const std::vector<std::string_view> tokens = tokens_of(code.substr(head.begin + head.size));
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const std::string_view token = tokens[i];
+        if (std::ranges::find(nesting, token) != nesting.end()) nested.push_back({token == "switch", braces});
+        if (token == "(") ++brackets;
+        if (token == ")") --brackets;
+        if (token == "{") ++braces;
+        if (token == "}" && --braces < 0) break;
+        const bool is_outside = std::ranges::all_of(
+            nested, [&](const Nested& around) { return around.is_switch && token == "continue"; });
+        if (is_outside && (token == "break" || token == "continue")) {
+            const auto before = code.substr(0, static_cast<std::size_t>(token.data() - code.data()));
+            return Jump{std::string(token), 1 + static_cast<int>(std::ranges::count(before, '\n'))};
+        }
+        const bool has_else = i + 1 < tokens.size() && tokens[i + 1] == "else";
+        if (brackets == 0 && (token == "}" || token == ";") && !has_else)
+            while (!nested.empty() && nested.back().depth >= braces) nested.pop_back();
+    }
+    return std::nullopt;
 }
 
 std::string round_of_loop(const std::string& text, const LoopHead& head, int index) {

@@ -46,6 +46,15 @@ struct LoopHead {
 /// That of the first loop of a text; nothing where it has another form.
 [[nodiscard]] std::optional<LoopHead> loop_head(const std::string& text);
 
+/// A `break` or `continue`.
+struct Jump {
+    std::string word;
+    int line;  ///< of the text, from 1
+};
+
+/// The first in code without comments that is the loop's own, not one of a loop or switch within it.
+[[nodiscard]] std::optional<Jump> jump_of_loop(std::string_view code, const LoopHead& head);
+
 /// The text with one round of its loop in the loop's place: the index is a constant, and
 /// UNROLLED_LOOP_INDEX its number.
 [[nodiscard]] std::string round_of_loop(const std::string& text, const LoopHead& head, int index);

@@ -111,10 +111,11 @@ void read_macro(const TomlTable& table, Feature& feature) {
     feature.substituted = table.string("substitute").value_or("");
     if ((table.has(entry) || is_macro) && !is_identifier(feature.macro))
         table.error({}, fmt::format("has '{}' for a macro", feature.macro), "a macro is an identifier");
-    if (feature.macro == "defined" || feature.macro.starts_with("gl_"))
+    constexpr std::array<std::string_view, 4> own = {"defined", "__LINE__", "__FILE__", "__VERSION__"};
+    if (std::ranges::count(own, feature.macro) > 0 || feature.macro.starts_with("gl_"))
         table.error(entry, fmt::format("has '{}' for a macro, which GLSL keeps for itself", feature.macro),
-                    feature.macro == "defined" ? "choose another name"
-                                               : "no #define can replace it: use [substitute]");
+                    feature.macro.starts_with("gl_") ? "no #define can replace it: use [substitute]"
+                                                     : "choose another name");
     if (table.has("substitute") && !is_substituted(feature.substituted))
         table.error("substitute", fmt::format("cannot replace '{}'", feature.substituted),
                     "write a name, best with a sign that GLSL has no use for: \"@name@\" or \"$name\"");

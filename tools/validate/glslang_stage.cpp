@@ -12,6 +12,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "compose/dialect.hpp"
+#include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/transform.hpp"
@@ -162,6 +163,16 @@ bool drop_what_links(Diagnostics& log, bool is_es) {
     return log.size() < known;
 }
 
+/// Whether a vertex stage states #pragma STDGL invariant(all) in a version that knows it, and in which
+/// glslang passes it over.
+bool makes_outputs_invariant(const ActiveText& text, const GlslVersion& version) {
+    constexpr std::array<std::string_view, 5> words = {"STDGL", "invariant", "(", "all", ")"};
+    return version.number != 110 && version.number < 150 &&
+           std::ranges::any_of(text.directives, [&](const ActiveDirective& directive) {
+               return directive.word == "pragma" && std::ranges::equal(tokens_of(directive.rest), words);
+           });
+}
+
 tl::unexpected<Diagnostics> glslang_fault(std::string_view log) {
     return fail(Fault::internal, fmt::format("glslang refuses a stage that it parsed: {}", log));
 }
@@ -298,6 +309,7 @@ Diagnostics GlslangStage::parse() {
     if (dialect_ != Dialect::vulkan) {
         const ActiveText text = active_text(pieces_, dialect_);
         stated_ = stated_in(text, default_precisions(kind_, pieces_.front()->text));
+        makes_invariant_ = kind_ == StageKind::vertex && makes_outputs_invariant(text, version_of(prologue));
         more = check_language(kind_, pieces_, text, dialect_);
         std::ranges::move(more, std::back_inserter(found));
     }
@@ -375,6 +387,8 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     stage.interface = *std::move(interface);
     set_precisions(stage.interface, precisions_);
     set_stated(stage.interface, stated_);
+    if (makes_invariant_)
+        for (Variable& output : stage.interface.outputs) output.interpolation.invariant = true;
     std::erase_if(stage.interface.uniforms,
                   [](const Uniform& uniform) { return is_missing_built_in(uniform.name); });
     stage.diagnostics = check_stage(module, usage, stage.interface, pieces_, places_vertices, dialect_);

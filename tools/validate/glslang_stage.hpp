@@ -63,6 +63,7 @@ class GlslangStage {
     bool without_formats_ = false;  ///< glslang sees no formats of images
     Precisions precisions_;         ///< of the stage as OpenGL ES, where it is that
     Stated stated_;
+    bool makes_invariant_ = false;  ///< each of its outputs, by a pragma that glslang does not read
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };
 

@@ -250,6 +250,8 @@ class LanguageCheck {
             if (depth == 0 && token == "(" && is_name(i - 1)) check_header(begin, i);
             if (depth == 0 && token == ";") has_layout_ = has_layout_ || states_layout(begin, i);
             if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
+            if (depth == 0 && token == ";") check_local_size(begin, i);
+            if (depth == 0 && token == ";") check_old_qualifier(begin, i);
             if (depth == 0 && token == ";") check_counter(begin, i);
             if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
             if (depth == 0 && token == "[") check_distances(i);
@@ -291,6 +293,12 @@ class LanguageCheck {
     /// The `(` of a function's head; its declaration begins at `begin`, behind the `}` of a struct that it is
     /// to return.
     void check_header(std::size_t begin, std::size_t bracket) {
+        for (std::size_t i = bracket; i + 1 < tokens_.size() && !is_any(at(i), {")", ";"}); ++i)
+            if (at(i) == "void" && !is_macro(bracket - 1) &&
+                (is_any(at(i + 1), {","}) || (at(i + 1) == ")" && i > bracket + 1)))
+                refuse(tokens_[i],
+                       fmt::format("'void' stands beside other parameters of '{}'", at(bracket - 1)),
+                       "take it out");
         bool has_struct = begin > 0 && at(begin - 1) == "}" && bracket == begin + 1 &&
                           at(begin) != "layout" && !is_macro(begin);
         for (std::size_t i = bracket; i < tokens_.size() && !is_any(at(i), {")", ";"}); ++i)
@@ -299,6 +307,43 @@ class LanguageCheck {
             refuse(tokens_[bracket],
                    fmt::format("a struct is declared in the head of the function '{}'", at(bracket - 1)),
                    "declare it before");
+    }
+
+    /// `layout(local_size_x = 8) in;`, of which all that there are agree (GLSL 4.60, 4.4.1.4).
+    void check_local_size(std::size_t begin, std::size_t end) {
+        if (kind_ != StageKind::compute || at(begin) != "layout" || at(end - 1) != "in") return;
+        std::array<std::string_view, 3> size = {"1", "1", "1"};
+        bool states_size = false;
+        for (std::size_t i = begin; i + 2 < end; ++i)
+            for (std::size_t axis = 0; axis < size.size(); ++axis)
+                if (at(i) == fmt::format("local_size_{}", "xyz"[axis]) && at(i + 1) == "=") {
+                    // The value of a macro or of a sum is glslang's to compare.
+                    const bool is_number =
+                        at(i + 2).find_first_not_of("0123456789") == std::string_view::npos;
+                    if (!is_number || !is_any(at(i + 3), {",", ")"})) return;
+                    size[axis] = at(i + 2);
+                    states_size = true;
+                }
+        if (!states_size) return;
+        if (!local_size_.front().empty() && local_size_ != size)
+            refuse(tokens_[begin],
+                   fmt::format("the local size is {} x {} x {} here, but {} x {} x {} above", size[0],
+                               size[1], size[2], local_size_[0], local_size_[1], local_size_[2]),
+                   "state all of it once");
+        local_size_ = size;
+    }
+
+    /// `layout(location = 0) attribute vec3 position;`
+    void check_old_qualifier(std::size_t begin, std::size_t end) {
+        if (at(begin) != "layout") return;
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_any(at(i), {"attribute", "varying"}) && !is_macro(i) &&
+                version_.profile != "compatibility")
+                refuse(
+                    tokens_[begin], fmt::format("layout() stands before '{}', which takes none", at(i)),
+                    fmt::format("write {} for it", kind_ == StageKind::vertex && at(i) == "attribute" ? "in"
+                                                   : kind_ == StageKind::vertex                       ? "out"
+                                                                                : "in"));
     }
 
     /// Whether these tokens hold std140 or std430, as a block's own or as `layout(std140) uniform;`.
@@ -451,7 +496,8 @@ class LanguageCheck {
     GlslVersion version_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
-    bool has_layout_ = false;  ///< `layout(std140) uniform;` stands above
+    bool has_layout_ = false;                     ///< `layout(std140) uniform;` stands above
+    std::array<std::string_view, 3> local_size_;  ///< that stands above
     std::set<std::string> told_;
     Diagnostics found_;
 };
