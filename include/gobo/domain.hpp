@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <gobo/std140.hpp>
@@ -49,8 +50,10 @@ struct Components {
     bool are_single = true;  ///< of single precision, so that bounds are rounded to that before comparing
 
     void add(float value) { values[count++] = static_cast<double>(value); }
-    void add(std::int32_t value) { add_wide(static_cast<double>(value)); }
-    void add(std::uint32_t value) { add_wide(static_cast<double>(value)); }
+    template <class Number, std::enable_if_t<std::is_integral_v<Number>, int> = 0>
+    void add(Number value) {
+        add_wide(static_cast<double>(value));
+    }
     void add(double value) { add_wide(value); }
     void add(const std140::Bool32& value) { add_wide(value ? 1.0 : 0.0); }
     template <int Length>

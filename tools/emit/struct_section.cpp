@@ -31,15 +31,20 @@ int alignment_of(const std::vector<Member>& members) {
     return most;
 }
 
-/// In the order of Scalar, as far as C++ has types for them.
-constexpr std::string_view kNumbers[] = {"float", "std::int32_t", "std::uint32_t", "std140::Bool32",
-                                         "double"};
+/// In the order of Scalar. C++17 has no float of 16 bits: its bits, as glm::packHalf1x16() makes them.
+constexpr std::string_view kNumbers[] = {"float",        "std::int32_t",  "std::uint32_t", "std140::Bool32",
+                                         "double",       "std::uint16_t", "std::int8_t",   "std::uint8_t",
+                                         "std::int16_t", "std::uint16_t", "std::int64_t",  "std::uint64_t"};
 
 /// That of a scalar, vector or matrix that is no array.
 std::optional<CppMemberType> element_type(const GlslType& glsl, const Member& member) {
     const std::string_view number = kNumbers[static_cast<std::size_t>(glsl.scalar)];
-    CppMemberType result{
-        glsl.rows == 1 ? std::string(number) : "std140::" + glsl.name(), {}, glsl.column_size()};
+    const bool has_name = glsl.scalar <= Scalar::float64;  // in std140, such as std140::uvec2
+    CppMemberType result{glsl.rows == 1 ? std::string(number)
+                         : has_name     ? "std140::" + glsl.name()
+                                        : fmt::format("std140::Vector<{}, {}>", glsl.rows, number),
+                         {},
+                         glsl.column_size()};
     if (!glsl.is_matrix()) return result;
     const int lines = member.row_major ? glsl.rows : glsl.columns;
     const int line_size = (member.row_major ? glsl.columns : glsl.rows) * glsl.scalar_size();
@@ -371,7 +376,9 @@ std::string member_checks(const NamedMember& named, const Spot& parent, const st
         spot.expression += "[" + index + "]";
         spot.indices.push_back(index);
     }
-    std::string body = named.members.empty() ? number_check(spot, domains) : "";
+    const std::optional<GlslType> type = glsl_type(named.member.type);
+    const bool is_number = type && type->scalar != Scalar::float16;  // of which there are only the bits
+    std::string body = is_number ? number_check(spot, domains) : "";
     for (const NamedMember& part : named.members) body += member_checks(part, spot, domains, "");
     return body.empty() ? body : head + body + tail;
 }
@@ -403,8 +410,7 @@ Result<std::string> block_check(const NamedBlock& block, const StructText& struc
 
 std::optional<CppMemberType> cpp_type_of(const Member& member) {
     const std::optional<GlslType> glsl = glsl_type(member.type);
-    // The numbers of 8, 16 and 64 bits that extensions of GLSL know are none of them.
-    if (!glsl || glsl->scalar > Scalar::float64) return std::nullopt;
+    if (!glsl) return std::nullopt;
     const auto element = element_type(*glsl, member);
     return element ? cpp_array_of(element->type, element->size, member) : std::nullopt;
 }

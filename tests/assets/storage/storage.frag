@@ -1,4 +1,5 @@
 #version 430 core
+#extension GL_ARB_gpu_shader_int64 : require
 struct Particle {
     vec3 position;
     float mass;
@@ -21,6 +22,11 @@ layout(std430, binding = 5) readonly buffer Samples {
     bool on[3];
     float samples[];
 } samples;
+layout(std430, binding = 6) readonly buffer Wide {
+    int64_t least;
+    u64vec3 most;
+    uint64_t masks[];
+};
 #ifdef HEAVY
 #define SHADOWS 3
 #else
@@ -41,5 +47,6 @@ void main() {
     sum *= particles[count].mass * shadows[2].view[0].x * shadows[2].bias.x;
 #endif
     if (samples.on[1]) sum += (samples.turns[1] * particles[0].position).xy * samples.samples[2];
+    if (masks[1] > most.y && least < 0L) sum += vec2(1.0);
     color = vec4(sum, 0.0, 1.0) * (shadows[0].view + shadows[1].view);
 }

@@ -50,6 +50,7 @@ struct Row {
 using storage::Particles;
 using storage::Samples;
 using storage::Table;
+using storage::Wide;
 
 const Row rows[] = {
     {"Particles", kStorageBlock, kBinding, std::size_t{Particles::binding}},
@@ -67,6 +68,9 @@ const Row rows[] = {
     {"Samples.samples[0]", kBufferVariable, kOffset, Samples::bytes(0)},
     {"Samples.samples[0]", kBufferVariable, kArrayStride, Samples::bytes(1) - Samples::bytes(0)},
     {"cells[0]", kBufferVariable, kArrayStride, sizeof(Table::cells[0])},
+    {"most", kBufferVariable, kOffset, offsetof(Wide, most)},
+    {"masks[0]", kBufferVariable, kOffset, Wide::bytes(0)},
+    {"masks[0]", kBufferVariable, kArrayStride, Wide::bytes(1) - Wide::bytes(0)},
     {"turn", kBufferVariable, kOffset, offsetof(Table, turn)},
     {"last.tint", kBufferVariable, kOffset, offsetof(Table, last) + offsetof(storage::Particle, tint)},
 };
@@ -106,6 +110,17 @@ TEST(StorageBlocks, AreLaidOutAsTheDriverSays) {
         EXPECT_EQ(functions.GetError(), static_cast<GLenum>(GL_NO_ERROR));
         functions.DeleteProgram(program.id);
     }
+}
+
+TEST(StorageBlocks, OfWideNumbersAreChecked) {
+    Wide wide{};
+    wide.least = std::int64_t{-1} << 40;
+    wide.most = {1, 2, 30};
+    std::string found;
+    for (const OutOfRange& one : storage::check(wide)) found += to_text(one) + "\n";
+    EXPECT_EQ(found,
+              "Wide.least is -1.09951163e+12, allowed is [-5, 0]\n"
+              "Wide.most.z is 30, allowed is [0, 9]\n");
 }
 
 }  // namespace
