@@ -16,7 +16,7 @@ namespace gobo {
 /// - "[]" of an array without a size
 /// - "offset" of a member whose place its block states by offset or align
 /// - "highp", "mediump" or "lowp" of a struct's member, "Lamp.color" of the struct's own name, and of what a
-///   stage hands on in it, "lamps.color" or "Surface.lamp.color"; of a member of an array of blocks
+///   stage writes in it, "lamps.color" or "Surface.lamp.color"; of a member of an array of blocks
 /// - "rgba8" or another format of an image, as "map.format"
 /// - "located" of a block's member that states its own location, and its block none
 /// - "std140", "std430", "shared" or "packed" of a uniform or storage block: its layout, by default too

@@ -221,7 +221,7 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     if (scene::turns_all_faces_away(scene, draws, view))
         notes.push_back(
             one_line(fmt::format("{}: every face is turned away from the viewer: mark its materials "
-                                 "doubleSided, or mend the winding",
+                                 "doubleSided, or turn the winding round",
                                  scene.path)));
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
                                                           buckets, family.dialect, world.jobs()));
