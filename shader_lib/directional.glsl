@@ -12,7 +12,7 @@
 /// Adds every directional light to the surface's response.
 void addDirectionalLights() {
     for (int i = 0; i < DIRECTIONAL_LIGHTS; ++i) {
-        vec3 color = directionalLights.lights[i].color;
+        LIGHT_PRECISION vec3 color = directionalLights.lights[i].color;
 #if DIRECTIONAL_SHADOWS > 0
         if (i < DIRECTIONAL_SHADOWS) color *= directionalVisibility(i);
 #endif
@@ -25,7 +25,7 @@ void addDirectionalLights() {
 /// `direction` is the unit vector from the surface to the light, in eye space.
 struct DirectionalLight {
     vec3 direction;
-    vec3 color;
+    LIGHT_PRECISION vec3 color;
 };
 
 BLOCK(4, DirectionalLights) {

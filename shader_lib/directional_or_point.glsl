@@ -48,7 +48,7 @@ LightRay eitherRay(vec4 position, vec3 coefficients) {
 /// `attenuation` holds k_c, k_l, k_q, which a direction does not need.
 struct DirectionalOrPointLight {
     vec4 position;
-    vec3 color;
+    LIGHT_PRECISION vec3 color;
     vec3 attenuation;
 };
 

@@ -6,7 +6,7 @@
 // In the order of the lights: the relative error of k terms is at most (k - 1) 2^-24.
 /// A sum under way.
 struct LightSum {
-    vec3 total;
+    LIGHT_PRECISION vec3 total;
 };
 
 /// The sum of no terms.

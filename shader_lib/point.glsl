@@ -13,7 +13,7 @@
 void addPointLights() {
     for (int i = 0; i < POINT_LIGHTS; ++i) {
         LightRay ray = pointRay(i);
-        float weight = ray.weight;
+        LIGHT_PRECISION float weight = ray.weight;
 #if POINT_SHADOWS > 0
         if (i < POINT_SHADOWS) weight *= pointVisibility(i);
 #endif
@@ -26,7 +26,7 @@ void addPointLights() {
 /// `position` is in eye space, its w is 1; `attenuation` holds k_c, k_l, k_q.
 struct PointLight {
     vec4 position;
-    vec3 color;
+    LIGHT_PRECISION vec3 color;
     vec3 attenuation;
 };
 

@@ -42,7 +42,7 @@ vec3 surfaceRadiance() { return faceRadiance(); }
 struct LightRay {
     vec3 toLight;
     float attenuation;
-    float weight;
+    LIGHT_PRECISION float weight;
 };
 
 #piece light_number

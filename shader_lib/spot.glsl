@@ -14,7 +14,7 @@
 void addSpotLights() {
     for (int i = 0; i < SPOT_LIGHTS; ++i) {
         LightRay ray = spotRay(i);
-        float weight = ray.weight;
+        LIGHT_PRECISION float weight = ray.weight;
 #if SPOT_SHADOWS > 0
         if (i < SPOT_SHADOWS) weight *= spotVisibility(i);
 #endif
@@ -29,7 +29,7 @@ void addSpotLights() {
 /// one of 90 degrees; `attenuation` holds k_c, k_l, k_q.
 struct SpotLight {
     vec4 position;
-    vec3 color;
+    LIGHT_PRECISION vec3 color;
     float exponent;
     vec3 attenuation;
     float innerOneMinusCosine;
@@ -56,7 +56,7 @@ BLOCK(6, SpotLights) {
 float coneEdge(float oneMinusCosine, float innerOneMinusCosine, float outerOneMinusCosine) {
     if (oneMinusCosine >= outerOneMinusCosine) return 0.0;
     if (oneMinusCosine <= innerOneMinusCosine) return 1.0;  // guard: hard edge
-    float fade = (outerOneMinusCosine - oneMinusCosine) / (outerOneMinusCosine - innerOneMinusCosine);
+    LIGHT_PRECISION float fade = (outerOneMinusCosine - oneMinusCosine) / (outerOneMinusCosine - innerOneMinusCosine);
     return fade * fade;
 }
 

@@ -12,6 +12,9 @@ import tomllib
 # The shipped study holds all scenes together; this one is on the front of one scene of its own.
 WANTED_BY_ONE_SCENE = {("power", "squaring")}
 
+# The study evaluates GLSL 4.50, which has no mediump: gobo study --worst searches it.
+OF_OTHER_DIALECTS = {("precision", "mediump_light")}
+
 
 def main(gobo, root):
     with tempfile.NamedTemporaryFile(suffix=".html") as page:
@@ -33,7 +36,7 @@ def main(gobo, root):
             problems.append(f"{feature}={value} is excluded, and on {max(fronts)} fronts of {matters}")
     for feature, entries in features.items():
         for value in entries.get("excluded", []):
-            if (feature, value) not in judged:
+            if (feature, value) not in judged and (feature, value) not in OF_OTHER_DIALECTS:
                 problems.append(f"{feature}={value} is excluded, and the study has not measured it")
     print(f"{len(judged)} values judged", *problems, sep="\n")
     return 1 if problems or not judged else 0

@@ -224,6 +224,60 @@ TEST(WorstCase, OfAVariableInMediumpIsFoundWhereItOverflows) {
               0x1p-10);  // within [0, 1], and then squared
 }
 
+Domain stated(const std::string& name, double low, double high) {
+    Domain domain;
+    domain.name = name;
+    domain.low = low;
+    domain.high = high;
+    return domain;
+}
+
+struct PrecisionCase {
+    const char* name;
+    const char* effects;
+    std::vector<Domain> narrower;
+    double least;
+    double most;
+};
+
+class WorstCaseOfPrecision : public testing::TestWithParam<PrecisionCase> {};
+
+/// A sum of lights rounded to 11 bits, or infinite above 65,504; and no budget has it to choose.
+TEST_P(WorstCaseOfPrecision, IsWhatHalfFloatsMakeOfLight) {
+    Family family = lit_under_study().family;
+    ASSERT_TRUE(narrow_domains(family, GetParam().narrower));
+    const Key effects = lit_key(GetParam().effects);
+    const std::vector<Key> keys = choices_of_es300(family, effects);
+    ASSERT_EQ(keys.size(), 1U);
+    const Subject subject = lit_subject();
+    const auto found =
+        find_worst_cases({subject.shipped, family, subject.search, subject.jobs}, keys, {8192}).value();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GE(found[0].error, GetParam().least);
+    EXPECT_LE(found[0].error, GetParam().most);
+    const int precision = family.index_of("precision").value();
+    for (const Key& key : all_qualities(family, effects, 100000)) EXPECT_EQ(key[precision], 0);
+}
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, WorstCaseOfPrecision,
+    testing::Values(PrecisionCase{"whole_domain", "directional=1", {}, kInfinite, kInfinite},
+                    PrecisionCase{"light_of_a_game",
+                                  "directional=1",
+                                  {stated("DirectionalLights.lights[].color", 0, 10)},
+                                  0x1p-13,
+                                  0x1p-10},
+                    PrecisionCase{"lights_of_a_game",
+                                  "directional=1 spot=1",
+                                  {stated("DirectionalLights.lights[].color", 0, 10),
+                                   stated("SpotLights.lights[].color", 0, 10),
+                                   stated("SpotLights.lights[].attenuation", 0.1, 1)},
+                                  0x1p-12,
+                                  0x1p-9}),
+    [](const auto& row) { return row.param.name; });
+
 TEST(WorstCase, OfMediumpNeedsSuchAName) {
     const auto found = with_mediump("directional=1", "fade");
     ASSERT_FALSE(found);

@@ -40,8 +40,22 @@ Combination combination_of(const KeySpace& space, std::vector<std::size_t> featu
     return combination;
 }
 
-/// Every set of `strength` features, in lexicographic order, with the tuples that occur in the space open.
-std::vector<Combination> find_combinations(const KeySpace& space, std::size_t strength) {
+/// Per feature the only value that keys of the space have; -1 where they have several.
+PartialKey only_values(const KeySpace& space) {
+    const OpenPaths paths(space);
+    PartialKey only(space.feature_count(), -1);
+    for (std::size_t feature = 0; feature < only.size(); ++feature) {
+        const std::vector<char> allowed = paths.allowed(feature);
+        if (std::ranges::count(allowed, 0) + 1 == std::ssize(allowed))
+            only[feature] = static_cast<int>(std::ranges::find(allowed, 1) - allowed.begin());
+    }
+    return only;
+}
+
+/// Every set of `strength` features that have several values, in lexicographic order, with the tuples that
+/// occur in the space open.
+std::vector<Combination> find_combinations(const KeySpace& space, std::size_t strength,
+                                           const PartialKey& only) {
     std::map<std::vector<std::size_t>, Combination> found;
     PartialKey key(space.feature_count(), -1);
     // Chooses one more feature than those that are decided in `key`, and its value, in every way.
@@ -51,6 +65,7 @@ std::vector<Combination> find_combinations(const KeySpace& space, std::size_t st
         features.push_back(first);
         for (; features.back() + strength < space.feature_count() + features.size(); ++features.back()) {
             const std::size_t feature = features.back();
+            if (only[feature] >= 0) continue;
             Combination* whole = nullptr;
             if (features.size() == strength)
                 whole = &found.try_emplace(features, combination_of(space, features)).first->second;
@@ -76,9 +91,10 @@ std::vector<Combination> find_combinations(const KeySpace& space, std::size_t st
 
 class Coverer {
   public:
-    Coverer(const KeySpace& space, std::size_t strength)
+    Coverer(const KeySpace& space, std::size_t strength, PartialKey only)
         : space_(space),
-          combinations_(find_combinations(space, strength)),
+          only_(std::move(only)),
+          combinations_(find_combinations(space, strength, only_)),
           touching_(space.feature_count()),
           nothing_decided_(space) {
         for (const Combination& combination : combinations_)
@@ -130,7 +146,7 @@ class Coverer {
             const Combination& combination = combinations_[cursor_];
             if (combination.left == 0) continue;
             std::size_t index = std::ranges::find(combination.open, 1) - combination.open.begin();
-            start.assign(space_.feature_count(), -1);
+            start = only_;
             for (std::size_t i = 0; i < combination.features.size(); ++i) {
                 start[combination.features[i]] = static_cast<int>(index / combination.strides[i]);
                 index %= combination.strides[i];
@@ -204,6 +220,7 @@ class Coverer {
     };
 
     const KeySpace& space_;
+    PartialKey only_;  ///< what is decided before any key
     std::vector<Combination> combinations_;
     std::vector<std::vector<Touch>> touching_;  ///< per feature
     OpenPaths nothing_decided_;
@@ -216,8 +233,9 @@ class Coverer {
 
 std::optional<std::vector<Key>> cover(const KeySpace& space, int strength) {
     if (space.count() == 0 || strength < 1) return std::vector<Key>{};
-    if (static_cast<std::size_t>(strength) >= space.feature_count()) return space.keys();
-    return Coverer(space, static_cast<std::size_t>(strength)).run();
+    PartialKey only = only_values(space);
+    if (strength >= std::ranges::count(only, -1)) return space.keys();
+    return Coverer(space, static_cast<std::size_t>(strength), std::move(only)).run();
 }
 
 }  // namespace gobo

@@ -202,6 +202,7 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
     const auto says_nothing = [&](std::string_view line) {
         const auto holds = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
         return holds(given_up) || holds(" compilation errors.") || holds("No code generated.") ||
+               holds("all default precisions are highp") ||  // as GLSL has it
                (!all && holds("'subroutine' : feature not yet implemented")) ||
                (!all && gave_up && holds("'#extension' : extra tokens"));
     };

@@ -292,6 +292,7 @@ Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, cons
     for (const Key& of : effects) {
         keys.push_back(study::most_accurate(family, of));
         for (const study::Choice& choice : study::single_choices(family, of)) keys.push_back(choice.key);
+        for (const Key& key : study::choices_of_es300(family, of)) keys.push_back(key);
     }
     return keys;
 }

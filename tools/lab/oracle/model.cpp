@@ -36,6 +36,11 @@ bool set_depth(Model& model, const std::string& value) {
     return value == "early" || moved(model, value);  // which leaves it as it comes, too
 }
 
+/// Of either the light is the same, but for roundings.
+bool is_precision(Model&, const std::string& value) {
+    return value == "high" || value == "mediump_light";
+}
+
 const std::map<std::string, Setter>& setters() {
     static const std::map<std::string, Setter> table = {
         {"directional", count(&Model::directional)},
@@ -58,6 +63,7 @@ const std::map<std::string, Setter>& setters() {
         {"power", choice(&Model::power, {"exact", "near_exact", "squaring", "gaussian_fitted", "gaussian",
                                          "lyon", "schlick"})},
         {"light_sum", choice(&Model::light_sum, {"plain", "compensated", "pairwise"})},
+        {"precision", is_precision},
         {"guards", choice(&Model::guards, {"full", "ordinary"})},
         {"spot_edge", choice(&Model::spot_edge, {"one_minus_cosine", "angle", "cosine"})},
         {"base_color_map", choice(&Model::base_color_map, {"none", "texture"})},

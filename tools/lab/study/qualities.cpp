@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compose/dialect.hpp"
 #include "family/key.hpp"
 
 namespace gobo::study {
@@ -55,6 +56,19 @@ std::vector<Choice> single_choices(const Family& family, const Key& effects) {
         }
     }
     return choices;
+}
+
+std::vector<Key> choices_of_es300(const Family& family, const Key& effects) {
+    std::vector<Key> keys;
+    for (const int feature : quality_features(family)) {
+        for (int value = 1; value < std::ssize(family.features[feature].values); ++value) {
+            const Key key = with(family, effects, feature, value);
+            if (key[feature] == value && !is_valid(family, key) &&
+                forbidding_rule(family, key, name_of(Dialect::es300)) == nullptr)
+                keys.push_back(key);
+        }
+    }
+    return keys;
 }
 
 std::vector<Key> all_qualities(const Family& family, const Key& effects, std::size_t most) {

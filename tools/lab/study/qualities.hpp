@@ -31,6 +31,10 @@ struct Choice {
 };
 [[nodiscard]] std::vector<Choice> single_choices(const Family& family, const Key& effects);
 
+/// The keys that differ from the effects in one quality value that the studied dialect refuses and GLSL
+/// ES 3.00 has.
+[[nodiscard]] std::vector<Key> choices_of_es300(const Family& family, const Key& effects);
+
 /// Every valid canonical key of the effects, sorted, excluded values left out. More than `most` are not
 /// enumerated: then nothing.
 [[nodiscard]] std::vector<Key> all_qualities(const Family& family, const Key& effects, std::size_t most);

@@ -28,11 +28,12 @@ constexpr std::size_t kKept = 24;  ///< worst inputs that are varied, with one l
 class Search {
   public:
     Search(const Family& family, const Variant& variant, const oracle::Model& model,
-           const oracle::Model& own_model, const WorstCaseOptions& options)
+           const oracle::Model& own_model, const WorstCaseOptions& options, bool is_half)
         : variant_(variant),
           model_(model),
           own_model_(own_model),
           options_(options),
+          is_half_(is_half),
           random_(options.seed),
           fields_(searched_fields(variant.program.fragment, family.domains)) {}
 
@@ -110,8 +111,7 @@ class Search {
     Result<void> judge(const std::vector<Sample>& samples, std::vector<Kept>& kept) {
         const evaluate::Program& program = variant_.program.fragment;
         GOBO_TRY(const auto invocations, verify::bind_inputs(program, samples));
-        GOBO_TRY(const auto outputs,
-                 evaluate::run<float>(program, invocations, {.is_half = !options_.mediump.empty()}));
+        GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, {.is_half = is_half_}));
         for (std::size_t i = 0; i < samples.size(); ++i) {
             ++worst_.points;
             oracle::Decisions decisions;
@@ -158,6 +158,7 @@ class Search {
     const oracle::Model& model_;
     const oracle::Model& own_model_;
     const WorstCaseOptions& options_;
+    bool is_half_;  ///< what is mediump is a 16-bit float
     SearchRandom random_;
     std::uint64_t draws_ = 0;
     std::vector<SearchedField> fields_;
@@ -214,9 +215,13 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
     GOBO_TRY(const Variants variants, load_variants(subject, std::move(needed)));
-    std::optional<Variants> declared;
-    if (!options.mediump.empty()) {
-        GOBO_TRY(declared, mediump_variants(subject, keys, options.mediump));
+    Variants in_half;
+    if (options.mediump.empty()) {
+        std::vector<Key> of_es300 = keys;
+        std::erase_if(of_es300, [&](const Key& key) { return is_valid(family, key); });
+        GOBO_TRY(in_half, load_variants(subject, std::move(of_es300), Dialect::es300));
+    } else {
+        GOBO_TRY(in_half, mediump_variants(subject, keys, options.mediump));
     }
     std::vector<Key> searched;
     std::vector<std::pair<oracle::Model, oracle::Model>> models;  // the most accurate one, the key's own
@@ -229,8 +234,9 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
         models.emplace_back(*model, *own);
     }
     return parallel_results(subject.jobs, searched.size(), [&](std::size_t i) -> Result<WorstCase> {
-        const Variant& variant = (declared ? *declared : variants).at(searched[i]);
-        Search search(family, variant, models[i].first, models[i].second, options);
+        const bool is_half = in_half.index.contains(searched[i]);
+        const Variant& variant = (is_half ? in_half : variants).at(searched[i]);
+        Search search(family, variant, models[i].first, models[i].second, options, is_half);
         GOBO_TRY(WorstCase worst, search.run());
         worst.effects = effects_of(family, searched[i]);
         worst.key = searched[i];

@@ -39,9 +39,10 @@ struct WorstCaseOptions {
 /// For each key, searched where its fragment stage may err most within the family's domains: inputs are those
 /// of verify::make_samples(), with shininess from 1e-3 to 1e6 and cones from 1e-3 radians on, points beside
 /// the cones' edges and anywhere in the view, and numbers at the ends of their domains; half of them have one
-/// light alone, however many the key has. Points at a discontinuity are left out. No
-/// case for keys whose vertices hand over what the most accurate key computes for each fragment (their errors
-/// hang on the mesh), nor for those whose model the oracle does not know.
+/// light alone, however many the key has. Points at a discontinuity are left out. Keys that the studied
+/// dialect refuses are searched in GLSL ES 3.00 with 16-bit floats. No case for keys whose vertices hand over
+/// what the most accurate key computes for each fragment (their errors hang on the mesh), nor for those whose
+/// model the oracle does not know.
 [[nodiscard]] Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject,
                                                               const std::vector<Key>& keys,
                                                               const WorstCaseOptions& options);
