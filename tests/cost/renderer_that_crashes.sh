@@ -7,7 +7,7 @@ trap 'rm -rf "$folder"' EXIT
 export LD_LIBRARY_PATH=$2
 cat > "$folder/expected" <<'END'
 gobo: error: the renderer of --backend osmesa crashed
-  help: try the other --backend, or another version of Mesa; a command with fewer keys tells which one it is
+  help: try the other --backend, or another version of Mesa
 END
 for command in "render lit --key point=1 -o $folder/pictures" "test lit --key point=1 --render"; do
   status=0
@@ -24,10 +24,3 @@ status=0
 RENDERER_EXITS=1 "$gobo" render lit --key point=1 -o "$folder/pictures" > "$folder/output" 2> "$folder/errors" || status=$?
 [ $status -eq 3 ]
 sed 's/crashed/ended the process/' "$folder/expected" | diff - "$folder/errors"
-
-# What is compared is the driver's verdict, and a crash is one.
-status=0
-"$gobo" link lit --key point=1 > "$folder/output" 2> "$folder/errors" || status=$?
-[ $status -eq 1 ]
-grep -q "gobo takes what the driver does not link: the driver crashed" "$folder/errors"
-grep -q "^1 compared: 0 taken and linked" "$folder/output"

@@ -85,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, ChildDeath,
                                          DeathRow{"abort", [] { std::abort(); }, Death::crash},
                                          DeathRow{"kill", [] { std::raise(SIGKILL); }, Death::killed},
                                          DeathRow{"exit", [] { _exit(3); }, Death::crash},
+                                         DeathRow{"exit_as_if_done", [] { _exit(0); }, Death::exit},
                                          DeathRow{"stack", exhaust_stack, Death::crash},
                                          DeathRow{"memory", take_memory, Death::memory},
                                          DeathRow{"time", spin, Death::time}),
@@ -109,13 +110,18 @@ TEST(ChildProcesses, LeaveOutWhatIsGivenUp) {
     EXPECT_LE(deaths, 1);
 }
 
-/// One that only waits takes no processor time; what tells of progress is left alone.
+/// One that only waits takes no processor time; what tells of progress, or that its clock stands, is left
+/// alone.
 TEST(ChildProcesses, EndWhereTheyAreLate) {
     std::vector<Death> deaths;
     const ChildWork work{[](std::size_t task, Note& note) {
                              for (int i = 0; task == 0 && i < 4; ++i) {
                                  usleep(500'000);
                                  note = i + 1;
+                             }
+                             if (task == 0) {
+                                 note = kClockStands;
+                                 usleep(2'000'000);
                              }
                              while (task == 1) pause();
                              return std::string();

@@ -48,9 +48,9 @@ Result<PictureReport> compare(const std::string& key, const Overlay& overlay) {
     ValidateOptions options;
     options.keep_spirv = true;
     const Validated validated = validate(family, *evaluated, options);
-    const Result<Context> context = open_context(Backend::osmesa);
-    if (!context) return tl::unexpected(context.error());
-    return verify::cross_check(*context, *drawn, validated, scene_of(family), 1).pictures.front();
+    auto report = verify::cross_check("OSMesa", Backend::osmesa, *drawn, validated, scene_of(family), 1);
+    if (!report) return tl::unexpected(report.error());
+    return std::move(report->pictures.front());
 }
 
 struct Disagreement {

@@ -139,7 +139,7 @@ class Pool {
     /// Kills a child that has been at one thing for too long; its pipe closes then.
     void end_if_late(Child& child) const {
         const Shared::Child& own = shared_->children[child.place];
-        if (child.task != own.task || child.note != own.note) {
+        if (child.task != own.task || child.note != own.note || own.note == kClockStands) {
             child.task = own.task;
             child.note = own.note;
             child.since = Clock::now();
@@ -235,16 +235,17 @@ class Pool {
         const std::size_t place = children_[index].place;
         const bool is_late = children_[index].is_late;
         const int status = reap(index);
-        if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+        const bool is_exit = WIFEXITED(status) && WEXITSTATUS(status) == 0;
         const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         const bool is_full = WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory;
         const Death death = is_late || signal == SIGXCPU ? Death::time
                             : signal == SIGKILL          ? Death::killed
                             : is_full                    ? Death::memory
+                            : is_exit                    ? Death::exit
                                                          : Death::crash;
         Shared::Child& last = shared_->children[place];
         std::size_t task = last.task.exchange(kNoTask);
-        if (task >= count_) return;  // it died of itself: so would the next
+        if (task >= count_) return;  // all is done, or it died of itself: so would the next
         if (!is_done_[task] && !work_.died(task, last.note, death)) is_done_[task] = true;
         if (is_done_[task]) task = kNoTask;
         start(place, task);

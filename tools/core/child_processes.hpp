@@ -24,10 +24,14 @@ enum class Death {
     time,
     memory,
     killed,  ///< from outside, as a system does that runs out of memory
+    exit,    ///< the work itself ended the process, as if all were done
 };
 
 /// What a child is about, for the parent to read where it dies. 0 at first.
 using Note = std::atomic<int>;
+
+/// While a note is this, ChildLimits::wall_seconds do not count.
+inline constexpr int kClockStands = -1;
 
 struct ChildWork {
     /// In a child: the result of a task, as bytes.

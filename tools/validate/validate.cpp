@@ -50,7 +50,7 @@ void build_tables(const Composition& composition) {
 }
 
 std::string reason_text(Death death, const ChildLimits& limits) {
-    if (death == Death::crash) return "glslang crashes on";
+    if (death == Death::crash || death == Death::exit) return "glslang crashes on";
     if (death == Death::killed) return "glslang was killed, perhaps for want of memory, on";
     if (death == Death::time)
         return fmt::format("glslang takes more than {} s of processor time, or {} s by the clock, for",

@@ -325,6 +325,33 @@ Diagnostics keep_file(const World& world, const std::string& path, std::string_v
     return written ? Diagnostics{} : as_warnings(written.error());
 }
 
+Diagnostics with_kept_stages(const World& world, const std::string& folder, const Family& family,
+                             const Composition& composition, const Validated& validated,
+                             const Permutation& permutation, Diagnostics errors) {
+    const bool has_words = is_spirv(composition.dialect);
+    const std::string key = key_text(family, permutation.key);
+    Diagnostics problems;
+    std::vector<std::string> paths;
+    for (const StageNames& stage : kStages) {
+        const int number = permutation.stages[stage.kind];
+        if (number < 0) continue;
+        paths.push_back(
+            fmt::format("{}/{}.{}{}", folder, picture_name(key), stage.infix, has_words ? ".spv" : ""));
+        const SpirvModule& words = validated.stage(number).spirv;
+        const std::string text = has_words ? std::string(reinterpret_cast<const char*>(words.data()),
+                                                         words.size() * sizeof(words[0]))
+                                           : source_of(composition, composition.stages[number]);
+        if (!folder.empty()) append(problems, keep_file(world, paths.back(), text));
+    }
+    for (Diagnostic& error : errors) {
+        error.subject = key;
+        error.help = folder.empty() ? fmt::format("keep its {} with -o DIR", has_words ? "SPIR-V" : "stages")
+                                    : fmt::format("what it was given is in {}", join(paths, " and "));
+    }
+    append(errors, problems);
+    return errors;
+}
+
 std::string quoted_line(const Composition& composition, const Place& place) {
     const auto piece = std::find_if(composition.pieces.begin(), composition.pieces.end(),
                                     [&](const Piece& other) { return other.path == place.file; });

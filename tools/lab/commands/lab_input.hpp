@@ -97,6 +97,12 @@ inline constexpr std::size_t kPromisePoints = 65536;
 [[nodiscard]] Diagnostic note_in(const std::string& file, std::string message);
 /// Keeps what shows a failure. Where it cannot be written that is a warning: the failure decides the status.
 [[nodiscard]] Diagnostics keep_file(const World& world, const std::string& path, std::string_view content);
+/// The errors about a permutation that a driver died of, with its stages kept as FOLDER/KEY.vert and so on:
+/// their SPIR-V where that is shipped, else their texts. Nothing is kept where the folder is empty.
+[[nodiscard]] Diagnostics with_kept_stages(const World& world, const std::string& folder,
+                                           const Family& family, const Composition& composition,
+                                           const Validated& validated, const Permutation& permutation,
+                                           Diagnostics errors);
 /// The text as a word of a shell's command: in quotes where it holds more than letters, digits and what file
 /// names usually hold.
 [[nodiscard]] std::string shell_word(std::string_view text);

@@ -1,15 +1,13 @@
 // gobo link: whether OpenGL's own compiler takes what gobo takes, key by key.
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
-#include "core/bytes.hpp"
-#include "core/child_processes.hpp"
 #include "family/key.hpp"
 #include "lab/commands/lab_input.hpp"
+#include "lab/render/driver_tasks.hpp"
 #include "lab/render/program.hpp"
 
 namespace gobo {
@@ -44,31 +42,12 @@ std::string first_error(const Diagnostics& diagnostics) {
 /// What a child process found out about one program.
 struct Answer {
     std::string renderer;
-    std::string refused;     ///< why the driver does not link it; empty where it does
-    Diagnostics no_context;  ///< why there is no driver to ask
+    std::string refused;  ///< why the driver does not link it; empty where it does
 };
 
 void fields(auto& archive, OneOf<Answer> auto& value) {
-    auto& [renderer, refused, no_context] = value;
-    archive(renderer, refused, no_context);
-}
-
-/// For one program; a driver that needs more is stuck.
-constexpr ChildLimits kDriverLimits{.processor_seconds = 20, .wall_seconds = 60};
-
-std::string ending_of(Death death) {
-    switch (death) {
-        case Death::time:
-            return fmt::format("the driver did not come to an end within {} s",
-                               kDriverLimits.processor_seconds);
-        case Death::memory:
-            return "the driver ran out of memory";
-        case Death::killed:
-            return "the driver was killed";
-        case Death::crash:
-            break;
-    }
-    return "the driver crashed";
+    auto& [renderer, refused] = value;
+    archive(renderer, refused);
 }
 
 /// The composition of one key.
@@ -78,41 +57,22 @@ Composition only(const Composition& all, const Permutation& permutation) {
     return one;
 }
 
-/// Asks the driver of each program, in child processes: one that crashes it or never ends is a verdict, too.
-Result<std::string> ask_driver(Backend backend, const Composition& composition,
-                               const std::vector<const Permutation*>& programs, int jobs,
-                               std::vector<Verdict>& verdicts) {
+/// Asks the driver of each program: one that crashes it or never ends is a verdict, too.
+Result<std::string> ask(Backend backend, const Composition& composition,
+                        const std::vector<const Permutation*>& programs, int jobs,
+                        std::vector<Verdict>& verdicts) {
     std::string renderer;
-    Diagnostics no_context;
-    std::optional<Result<Context>> context;  // a child's own, opened at its first task
-    ChildWork work;
-    work.work = [&](std::size_t task, Note&) {
-        Answer answer;
-        if (!context) context.emplace(open_context(backend));
-        if (!*context) {
-            answer.no_context = context->error();
-            return to_bytes(answer);
-        }
-        answer.renderer = (*context)->renderer();
-        if (const auto program = link_program(**context, stages_of(composition, *programs[task])); !program)
-            answer.refused = first_error(program.error());
-        return to_bytes(answer);
+    DriverTasks<Context, Answer> tasks{"the driver", programs.size(), jobs};
+    tasks.open = [&] { return open_context(backend); };
+    tasks.work = [&](const Context& context, std::size_t task, DriverClock&) -> Result<Answer> {
+        const auto program = link_program(context, stages_of(composition, *programs[task]));
+        return Answer{context.renderer(), program ? "" : first_error(program.error())};
     };
-    work.done = [&](std::size_t task, std::string_view bytes) {
-        const std::optional<Answer> answer = from_bytes<Answer>(bytes);
-        if (!answer) return false;
-        renderer = answer->renderer;
-        verdicts[task].refused_by_driver = answer->refused;
-        append(no_context, answer->no_context);
-        return true;
+    tasks.done = [&](std::size_t task, Result<Answer> answer, std::optional<int>) {
+        verdicts[task].refused_by_driver = answer ? answer->refused : first_error(answer.error());
+        if (answer) renderer = answer->renderer;
     };
-    work.died = [&](std::size_t task, int, Death death) {
-        verdicts[task].refused_by_driver = ending_of(death);
-        return false;
-    };
-    if (!run_in_children(jobs, programs.size(), work, kDriverLimits).empty())
-        return fail(Fault::internal, "no process can be started for the driver");
-    if (!no_context.empty()) return tl::unexpected(Diagnostics{no_context.front()});
+    GOBO_TRY_DO(ask_driver(tasks));
     return renderer;
 }
 
@@ -131,7 +91,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
         if (numbers.try_emplace(permutation.stages, programs.size()).second) programs.push_back(&permutation);
     std::vector<Verdict> verdicts(programs.size());
     GOBO_TRY(const std::string renderer,
-             ask_driver(backend, subject.composition, programs, std::max(world.options.jobs, 1), verdicts));
+             ask(backend, subject.composition, programs, std::max(world.options.jobs, 1), verdicts));
     ValidateOptions validate_options;
     validate_options.child_processes = !world.options.in_process;
     for (std::size_t i = 0; i < programs.size(); ++i) {

@@ -1,6 +1,4 @@
 // gobo render: a picture of every permutation of a selection, or of scenes, without a screen.
-#include "lab/render/render.hpp"
-
 #include <algorithm>
 #include <map>
 
@@ -9,10 +7,11 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/gallery/gallery.hpp"
 #include "lab/gallery/live_page.hpp"
+#include "lab/render/driver_tasks.hpp"
+#include "lab/render/render_selection.hpp"
 #include "lab/render/texture.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "lab/vulkan/picture.hpp"
@@ -53,6 +52,11 @@ bool makes_page(const RenderOptions& options) {
            (options.more.all || options.more.cover != 0 || is_default_set);
 }
 
+/// How all pictures are taken, and as what they are written.
+struct PictureOptions : PictureFiles {
+    View view;
+};
+
 Result<PictureOptions> picture_options(const RenderOptions& options) {
     PictureOptions pictures;
     if (options.live && !makes_page(options))
@@ -75,6 +79,11 @@ Result<PictureOptions> picture_options(const RenderOptions& options) {
     return pictures;
 }
 
+/// In messages.
+std::string renderer_of(const RenderOptions& options) {
+    return "the renderer of --backend " + options.backend;
+}
+
 constexpr const char* kBrdfTable = "environmentBrdfTable";
 
 bool looks_up_brdf_table(const std::vector<Interface>& interfaces) {
@@ -83,20 +92,34 @@ bool looks_up_brdf_table(const std::vector<Interface>& interfaces) {
     });
 }
 
-/// Gives `maps` those of the environment and the table that goes with them, where an interface looks any up.
-Result<void> add_environment(const World& world, const std::string& path,
-                             const std::vector<Interface>& interfaces, EnvironmentMaps& maps) {
-    GOBO_TRY(const auto environment, load_environment(world, path, interfaces));
-    for (const auto& [sampler, levels] : environment) GOBO_TRY_DO(maps.add(sampler, levels));
-    if (looks_up_brdf_table(interfaces)) maps.add_table(kBrdfTable, environment_brdf_image());
-    return {};
+/// What pictures are lit by: maps, and the table that goes with them where an interface looks it up.
+struct Environment {
+    CubeImages cubes;
+    bool has_table = false;
+
+    Result<void> add_to(EnvironmentMaps& maps) const {
+        for (const auto& [sampler, levels] : cubes) GOBO_TRY_DO(maps.add(sampler, levels));
+        if (has_table) maps.add_table(kBrdfTable, environment_brdf_image());
+        return {};
+    }
+    [[nodiscard]] vulkan::Textures for_vulkan() const {
+        vulkan::Textures textures;
+        for (const auto& [sampler, levels] : cubes) textures[sampler] = vulkan::cube_texels(levels);
+        if (has_table) textures[kBrdfTable] = vulkan::table_texels(environment_brdf_image());
+        return textures;
+    }
+};
+
+Result<Environment> environment_of(const World& world, const std::string& path,
+                                   const std::vector<Interface>& interfaces) {
+    GOBO_TRY(auto cubes, load_environment(world, path, interfaces));
+    return Environment{std::move(cubes), looks_up_brdf_table(interfaces)};
 }
 
 /// The pictures of all permutations with errors and costs, on one page.
 Result<RenderedSelection> render_page(const RenderOptions& options, const World& world,
                                       const LoadedFamily& family, const Composition& composition,
-                                      const Validated& validated, const Context& context,
-                                      const PictureOptions& pictures, Mesh mesh) {
+                                      const Validated& validated, const PictureOptions& pictures, Mesh mesh) {
     gallery::Scene scene;
     scene.objects = demo_objects(std::move(mesh));
     scene.view = pictures.view;
@@ -109,7 +132,8 @@ Result<RenderedSelection> render_page(const RenderOptions& options, const World&
     }
     gallery::GalleryOptions page;
     page.folder = options.folder;
-    page.backend = context.backend();
+    page.driver = renderer_of(options);
+    GOBO_TRY(page.backend, backend_of(options.backend));
     page.jobs = world.jobs();
     GOBO_TRY(page.weights, load_weights(world));
     if (!options.live)
@@ -128,9 +152,18 @@ Result<RenderedSelection> render_page(const RenderOptions& options, const World&
                                  world.shipped);
 }
 
+/// An error about each key that the driver died of, with what it was given.
+void keep_deaths(const World& world, const PictureOptions& pictures, const Family& family,
+                 const Composition& composition, const Validated& validated, RenderedSelection& rendered) {
+    for (DriverDeath& death : rendered.deaths)
+        append(rendered.diagnostics,
+               with_kept_stages(world, pictures.folder, family, composition, validated,
+                                composition.permutations[death.permutation], std::move(death.errors)));
+}
+
 /// Draws each key with the demonstration mesh.
 Result<RenderedSelection> render_keys(const RenderOptions& options, const World& world, LoadedFamily& family,
-                                      const Context& context, PictureOptions pictures) {
+                                      const PictureOptions& pictures) {
     GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
     SelectionOptions keys = options;
     keys.scenes.clear();
@@ -151,20 +184,37 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     const bool are_usual = std::ranges::all_of(composition.permutations, [](const Permutation& permutation) {
         return permutation.stages.is_usual_pair();
     });
+    const bool by_vulkan = options.backend == kVulkanBackend;
     const std::vector<Interface> interfaces = interfaces_of(composition, validated);
-    if (makes_page(options) && are_usual) {
-        GOBO_TRY(auto page, render_page(options, world, family, composition, validated, context, pictures,
-                                        std::move(mesh)));
-        append(page.diagnostics, warnings_of_environment(options.environment, interfaces));
-        return page;
+    RenderedSelection rendered;
+    if (makes_page(options) && are_usual && !by_vulkan) {
+        GOBO_TRY(rendered,
+                 render_page(options, world, family, composition, validated, pictures, std::move(mesh)));
+    } else {
+        GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
+        GOBO_TRY(const Environment environment, environment_of(world, options.environment, interfaces));
+        const std::vector<Object> objects = demo_objects(std::move(mesh));
+        const DrawnSelection selection{family.family, composition, interfaces, objects, pictures.view};
+        const vulkan::ShadowPass vulkan_pass = shadow_pass ? shadow_pass->for_vulkan() : vulkan::ShadowPass();
+        std::optional<EnvironmentMaps> maps;  // of a child process
+        const auto open = [&]() -> Result<std::unique_ptr<KeyRenderer>> {
+            if (by_vulkan) {
+                GOBO_TRY(const vulkan::Device device, vulkan::open_device());
+                std::vector<std::span<const std::uint32_t>> modules;
+                for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
+                return vulkan::vulkan_renderer(device, selection, modules, environment.for_vulkan(),
+                                               shadow_pass ? &vulkan_pass : nullptr);
+            }
+            GOBO_TRY(const Backend backend, backend_of(options.backend));
+            GOBO_TRY(const Context context, open_context(backend));
+            GOBO_TRY_DO(environment.add_to(maps.emplace(context)));
+            return opengl_renderer(context, selection, maps->textures(),
+                                   shadow_pass ? &shadow_pass->pass : nullptr);
+        };
+        GOBO_TRY(rendered, render_selection(renderer_of(options), world.jobs(), family.family, composition,
+                                            pictures, world.disk, open));
     }
-    GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
-    if (shadow_pass) pictures.depth_pass = &shadow_pass->pass;
-    EnvironmentMaps maps(context);
-    GOBO_TRY_DO(add_environment(world, options.environment, interfaces, maps));
-    pictures.textures = maps.textures();
-    RenderedSelection rendered = render_selection(context, family.family, composition, interfaces,
-                                                  demo_objects(std::move(mesh)), pictures, world.disk);
+    keep_deaths(world, pictures, family.family, composition, validated, rendered);
     append(rendered.diagnostics, warnings_of_environment(options.environment, interfaces));
     return rendered;
 }
@@ -208,7 +258,7 @@ Result<void> refuse_equal_names(const RenderOptions& options, const PictureOptio
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
 /// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
-                          const LoadedFamily& family, const Context& context, const PictureOptions& pictures,
+                          const LoadedFamily& family, const PictureOptions& pictures,
                           RenderedSelection& rendered, std::vector<std::string>& notes) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
     GOBO_TRY(const scene::Scene scene,
@@ -225,103 +275,76 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
                                  scene.path)));
     GOBO_TRY(const auto shaders, scene::shaders_for_draws(family.family, family.search, std::move(draws),
                                                           buckets, family.dialect, world.jobs()));
-    scene::SceneTextures textures;
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, shaders.composition));
-    if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
-    EnvironmentMaps maps(context);
-    GOBO_TRY_DO(add_environment(world, options.environment, shaders.interfaces, maps));
+    GOBO_TRY(const Environment environment, environment_of(world, options.environment, shaders.interfaces));
     append(rendered.diagnostics, warnings_of_environment(options.environment, shaders.interfaces));
-    textures.given = maps.textures();
-    GOBO_TRY(const Picture picture,
-             scene::draw_scene(context, scene, shaders, family.family.render, view, textures));
-    // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
-    Image opaque = picture.color;
-    for (std::size_t i = 3; i < opaque.values.size(); i += 4) opaque.values[i] = 1;
-    rendered.files.push_back(picture_path(options, pictures, path));
-    append(rendered.diagnostics, picture.warnings);
-    GOBO_TRY_DO(write_image(world.disk, rendered.files.back(), shrunk(opaque, options.smooth)));
-    return {};
-}
-
-/// Draws each key with the demonstration mesh, by Vulkan.
-Result<RenderedSelection> render_keys_by_vulkan(const RenderOptions& options, const World& world,
-                                                LoadedFamily& family, const vulkan::Device& device,
-                                                const PictureOptions& pictures, const Progress& progress) {
-    if (!options.scenes.empty())
-        return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
-    GOBO_TRY(Mesh mesh, load_mesh(world, options.mesh));
-    GOBO_TRY(Composition composition, compose_selection(world, family, options));
-    if (composition.permutations.empty())
-        return RenderedSelection{{}, warn_of_no_keys(composition, "nothing was drawn")};
-    GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
-    const std::vector<Interface> interfaces = interfaces_of(composition, validated);
-    GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
-    GOBO_TRY(const auto environment, load_environment(world, options.environment, interfaces));
-    vulkan::PictureOptions own{pictures.view, pictures.format, pictures.folder, pictures.smooth};
-    own.tell = progress;
-    for (const auto& [sampler, levels] : environment) own.textures[sampler] = vulkan::cube_texels(levels);
-    if (looks_up_brdf_table(interfaces))
-        own.textures[kBrdfTable] = vulkan::table_texels(environment_brdf_image());
-    vulkan::ShadowPass pass;
-    if (shadow_pass) {
-        pass.stages = {{StageKind::vertex, shadow_pass->vertex, {}},
-                       {StageKind::fragment, shadow_pass->fragment, {}}};
-        pass.interface = shadow_pass->pass.interface;
-        pass.values = shadow_pass->pass.values;
-        own.shadow_pass = &pass;
-    }
-    std::vector<std::span<const std::uint32_t>> modules;
-    for (const ValidatedStage& stage : validated.stages) modules.emplace_back(stage.spirv);
-    RenderedSelection rendered =
-        vulkan::render_selection(device, family.family, composition, modules, interfaces,
-                                 demo_objects(std::move(mesh)), own, world.disk);
-    append(rendered.diagnostics, warnings_of_environment(options.environment, interfaces));
-    return rendered;
+    GOBO_TRY(const Backend backend, backend_of(options.backend));
+    DriverTasks<Context, PictureFile> tasks{renderer_of(options), 1};
+    tasks.open = [&] { return open_context(backend); };
+    tasks.work = [&](const Context& context, std::size_t, DriverClock& clock) -> Result<PictureFile> {
+        scene::SceneTextures textures;
+        if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
+        EnvironmentMaps maps(context);
+        GOBO_TRY_DO(environment.add_to(maps));
+        textures.given = maps.textures();
+        GOBO_TRY(Picture picture,
+                 scene::draw_scene(context, scene, shaders, family.family.render, view, textures, &clock));
+        clock.stop();
+        // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
+        for (std::size_t i = 3; i < picture.color.values.size(); i += 4) picture.color.values[i] = 1;
+        return picture_file(std::move(picture), pictures, context.renderer());
+    };
+    tasks.done = [&](std::size_t, Result<PictureFile> picture, std::optional<int> death) {
+        if (death) {
+            const auto number = static_cast<std::size_t>(*death);
+            append(rendered.diagnostics,
+                   with_kept_stages(world, pictures.folder, family.family, shaders.composition,
+                                    shaders.validated, shaders.composition.permutations[number],
+                                    std::move(picture).error()));
+        } else if (!picture) {
+            append(rendered.diagnostics, picture.error());
+        } else {
+            const std::string file = picture_path(options, pictures, path);
+            rendered.renderer = picture->renderer;
+            append(rendered.diagnostics, picture->warnings);
+            if (const auto written = world.disk.write(file, picture->bytes))
+                rendered.files.push_back(file);
+            else
+                append(rendered.diagnostics, written.error());
+        }
+    };
+    return ask_driver(tasks);
 }
 
 Outcome outcome_of(const RenderedSelection& rendered, const PictureOptions& pictures,
-                   const std::string& renderer, std::vector<std::string> summary = {}) {
+                   std::vector<std::string> summary) {
     const auto drawn = std::count_if(rendered.files.begin(), rendered.files.end(),
                                      [](const std::string& file) { return !file.ends_with(".html"); });
-    summary.push_back(fmt::format("{} picture{} of {} x {} by {}", drawn, drawn == 1 ? "" : "s",
-                                  pictures.view.width / pictures.smooth,
-                                  pictures.view.height / pictures.smooth, renderer));
+    summary.push_back(fmt::format(
+        "{} picture{} of {} x {}{}", drawn, drawn == 1 ? "" : "s", pictures.view.width / pictures.smooth,
+        pictures.view.height / pictures.smooth, rendered.renderer.empty() ? "" : " by " + rendered.renderer));
     return {rendered.files.empty() ? "" : join(rendered.files, "\n") + "\n", rendered.diagnostics,
             join(summary, "\n")};
 }
 
-Result<Outcome> render(const RenderOptions& options, const World& world, const Progress& progress) {
+Result<Outcome> run(const RenderOptions& options, const World& world) {
     GOBO_TRY(const PictureOptions pictures, picture_options(options));
     GOBO_TRY_DO(refuse_equal_names(options, pictures));
     GOBO_TRY(const std::string dialect, dialect_for(options.backend, options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
-    if (options.backend == kVulkanBackend) {
-        GOBO_TRY(const vulkan::Device device, vulkan::open_device());
-        GOBO_TRY(const auto rendered,
-                 render_keys_by_vulkan(options, world, family, device, pictures, progress));
-        return outcome_of(rendered, pictures, device.name());
-    }
-    GOBO_TRY(const Backend backend, backend_of(options.backend));
-    GOBO_TRY(const Context context, open_context(backend));
+    if (!options.scenes.empty() && options.backend == kVulkanBackend)
+        return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
     RenderedSelection rendered;
     std::vector<std::string> notes;
     for (const std::string& path : options.scenes)
-        GOBO_TRY_DO(render_scene(options, path, world, family, context, pictures, rendered, notes));
+        GOBO_TRY_DO(render_scene(options, path, world, family, pictures, rendered, notes));
     if (options.scenes.empty() || selects_keys(options)) {
-        GOBO_TRY(const auto keys, render_keys(options, world, family, context, pictures));
+        GOBO_TRY(const auto keys, render_keys(options, world, family, pictures));
         rendered.files.insert(rendered.files.end(), keys.files.begin(), keys.files.end());
         append(rendered.diagnostics, keys.diagnostics);
+        if (!keys.renderer.empty()) rendered.renderer = keys.renderer;
     }
-    return outcome_of(rendered, pictures, context.renderer(), std::move(notes));
-}
-
-/// In a process that a driver may end.
-Result<Outcome> run(const RenderOptions& options, const World& world) {
-    return run_guarded("the renderer of --backend " + options.backend, [&](const Progress& progress) {
-        ToldFiles files(world.disk, progress);
-        World told{files, world.shipped, world.options, world.measure, world.cache, world.tell};
-        return render(options, told, progress);
-    });
+    return outcome_of(rendered, pictures, std::move(notes));
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
-#include "lab/commands/guarded.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
 #include "lab/verify/cross_check.hpp"
@@ -221,24 +220,6 @@ Diagnostics report_picture(const World& world, const std::string& folder, const 
     return diagnostics;
 }
 
-/// Of a permutation that the driver dies of, the SPIR-V of its stages.
-void keep_modules(const World& world, const std::string& folder, const std::string& key,
-                  const Validated& validated, const Permutation& permutation, Diagnostics& problems) {
-    std::vector<std::string> files;
-    for (const StageNames& stage : kStages) {
-        const int number = permutation.stages[stage.kind];
-        if (number < 0) continue;
-        files.push_back(fmt::format("{}/{}.{}.spv", folder, picture_name(key), stage.infix));
-        if (folder.empty()) continue;
-        const SpirvModule& words = validated.stage(number).spirv;
-        const std::string_view bytes(reinterpret_cast<const char*>(words.data()),
-                                     words.size() * sizeof(words[0]));
-        append(problems, keep_file(world, files.back(), bytes));
-    }
-    problems.front().help =
-        folder.empty() ? "keep its SPIR-V with -o DIR" : "its SPIR-V is in " + join(files, " and ");
-}
-
 /// `totals` are of all pictures together.
 std::string totals_text(const raster::PictureReport& totals, std::size_t drawn, std::size_t permutations,
                         const std::string& renderer) {
@@ -307,14 +288,13 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         shadow_pass->pass.side = kMapSide;
         scene.shadow_pass = &*shadow_pass;
     }
-    verify::CrossCheckReport report;
-    if (options.backend == kVulkanBackend) {
-        GOBO_TRY(report, verify::cross_check_by_vulkan(composition, validated, scene, world.jobs()));
-    } else {
-        GOBO_TRY(const Backend backend, backend_of(options.backend));
-        GOBO_TRY(const Context context, open_context(backend));
-        report = verify::cross_check(context, composition, validated, scene, world.jobs());
+    std::optional<Backend> opengl;
+    if (options.backend != kVulkanBackend) {
+        GOBO_TRY(opengl, backend_of(options.backend));
     }
+    GOBO_TRY(const verify::CrossCheckReport report,
+             verify::cross_check("the renderer of --backend " + options.backend, opengl, composition,
+                                 validated, scene, world.jobs()));
     Outcome outcome;
     outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     raster::PictureReport totals;
@@ -325,7 +305,8 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
         const std::string key = key_text(family, picture.key);
         Diagnostics problems = picture.diagnostics;
         if (std::ranges::count(report.crashed, i) > 0)
-            keep_modules(world, options.folder, key, validated, composition.permutations[i], problems);
+            problems = with_kept_stages(world, options.folder, family, composition, validated,
+                                        composition.permutations[i], std::move(problems));
         for (Diagnostic& problem : problems) problem.subject = key;
         if (picture.fails()) problems = report_picture(world, options.folder, key, picture);
         append(outcome.diagnostics, problems);
@@ -362,16 +343,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(Composition composition, compose_keys(family, keys));
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
-    if (options.render && options.backend == kVulkanBackend)  // draws in children of its own
-        return compare_pictures(world, options, family.family, composition, validated);
-    if (options.render)
-        // A key takes less than a second; nothing is told between them.
-        return run_guarded(
-            "the renderer of --backend " + options.backend,
-            [&](const Progress&) {
-                return compare_pictures(world, options, family.family, composition, validated);
-            },
-            kDriverSeconds + 20 * static_cast<int>(composition.permutations.size()));
+    if (options.render) return compare_pictures(world, options, family.family, composition, validated);
     verify_options.jobs = world.jobs();
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
     verify_options.meshes = verify::test_meshes(std::move(teapot));

@@ -1,30 +1,63 @@
 #include "lab/gallery/gallery.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/parallel.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
 #include "lab/gallery/live_page.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/raster/shade.hpp"
 #include "lab/raster/shared_textures.hpp"
+#include "lab/render/driver_tasks.hpp"
 #include "lab/study/html.hpp"
+
+namespace gobo {
+
+void fields(auto& archive, OneOf<RenderValue> auto& value) {
+    auto& [name, source, numbers, place] = value;
+    archive(name, source, numbers, place);
+}
+
+}  // namespace gobo
 
 namespace gobo::gallery {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A picture's name beside the page, and its bytes.
+struct NamedFile {
+    std::string name;
+    std::string bytes;
+};
+void fields(auto& archive, OneOf<NamedFile> auto& value) {
+    auto& [name, bytes] = value;
+    archive(name, bytes);
+}
+
+/// What a child process made of one permutation.
+struct Made {
+    Entry entry;
+    std::vector<NamedFile> pictures;
+    std::string renderer;
+    Diagnostics warnings;
+    bool is_evaluated = false;
+    Image expected;  ///< this and what follows for a live page
+    std::vector<RenderValue> values;
+    std::vector<Image> shadow_maps;
+};
+void fields(auto& archive, OneOf<Made> auto& value) {
+    auto& [entry, pictures, renderer, warnings, is_evaluated, expected, values, shadow_maps] = value;
+    archive(entry, pictures, renderer, warnings, is_evaluated, expected, values, shadow_maps);
+}
 
 /// White in the pictures of errors: the limit that `gobo test --render` holds most pixels to is a fifth of
 /// it.
@@ -110,72 +143,93 @@ Result<std::string> page(const FileSystem& shipped, const Family& family, const 
                                     {"data", study::html_script(data.dump())}});
 }
 
-RenderedSelection make_gallery(const Scene& scene, const Family& family, const Composition& composition,
-                               const Validated& validated, const GalleryOptions& options, FileSystem& files,
-                               const FileSystem& shipped) {
+Result<RenderedSelection> make_gallery(const Scene& scene, const Family& family,
+                                       const Composition& composition, const Validated& validated,
+                                       const GalleryOptions& options, FileSystem& files,
+                                       const FileSystem& shipped) {
     const std::vector<Permutation>& permutations = composition.permutations;
-    std::vector<Result<Entry>> entries(permutations.size());
-    std::vector<Diagnostics> warnings(permutations.size());
+    std::vector<std::optional<Entry>> entries(permutations.size());
+    std::vector<Diagnostics> said(permutations.size());
     Gallery gallery;
-    std::mutex renderer;
-    std::atomic<std::size_t> next = 0;
-    // Draws a permutation, writes its picture, and evaluates it: an entry without the names of files of what
-    // cannot be evaluated. Warnings are to be told all the same.
-    const auto make_entry = [&](const Context& context, std::size_t i) -> Result<Entry> {
+    RenderedSelection made;
+    // Draws a permutation and evaluates it: an entry without the names of files of what cannot be evaluated.
+    // Warnings are to be told all the same.
+    DriverTasks<Context, Made> tasks{options.driver, permutations.size(), options.jobs};
+    tasks.open = [&] { return open_context(options.backend); };
+    tasks.work = [&](const Context& context, std::size_t i, DriverClock& clock) -> Result<Made> {
         const Permutation& permutation = permutations[i];
-        GOBO_TRY(const Drawing drawing, draw(context, scene, family, composition, validated, permutation));
-        Entry entry;
-        const auto write = [&](std::string& name, const char* end, const Image& picture) {
+        GOBO_TRY(Drawing drawing, draw(context, scene, family, composition, validated, permutation));
+        clock.stop();
+        Made one;
+        one.renderer = context.renderer();
+        Entry& entry = one.entry;
+        const auto add = [&](std::string& name, const char* end, const Image& picture) -> Result<void> {
             name = picture_name(key_text(family, permutation.key)) + end;
-            return write_image(files, options.folder + "/" + name, picture);
+            GOBO_TRY(std::string bytes, encode_image(picture, ImageFormat::png));
+            one.pictures.push_back({name, std::move(bytes)});
+            return {};
         };
         entry.key = permutation.key;
         const float exposure = exposure_of(drawing.color);
         entry.exposure = exposure;
-        GOBO_TRY_DO(write(entry.actual, ".png", exposed(drawing.color, exposure)));
-        warnings[i] = drawing.warnings;
-        const auto evaluation = evaluate_drawing(drawing, scene, validated, permutation, options.weights);
+        GOBO_TRY_DO(add(entry.actual, ".png", exposed(drawing.color, exposure)));
+        one.warnings = drawing.warnings;
+        auto evaluation = evaluate_drawing(drawing, scene, validated, permutation, options.weights);
         if (!evaluation) {
             for (Diagnostic error : evaluation.error()) {
                 error.severity = Severity::warning;
-                warnings[i].push_back(std::move(error));
+                one.warnings.push_back(std::move(error));
             }
-            return entry;
+            return one;
         }
-        const raster::PictureReport& report = evaluation->report;
+        raster::PictureReport& report = evaluation->report;
         entry.largest_error = report.largest_error;
         entry.root_mean_square = report.root_mean_square;
         entry.edges = report.edges;
         entry.pixels = report.pixels;
         entry.fragment_cost = evaluation->fragment_cost;
         entry.vertex_cost = evaluation->vertex_cost;
-        GOBO_TRY_DO(write(entry.expected, ".expected.png", exposed(report.expected, exposure)));
-        GOBO_TRY_DO(write(entry.difference, ".error.png",
-                          difference_picture(report.actual, report.expected, kWhiteError)));
-        if (options.live != nullptr) GOBO_TRY_DO(options.live->add(i, drawing, report.expected, exposure));
-        return entry;
+        GOBO_TRY_DO(add(entry.expected, ".expected.png", exposed(report.expected, exposure)));
+        GOBO_TRY_DO(add(entry.difference, ".error.png",
+                        difference_picture(report.actual, report.expected, kWhiteError)));
+        if (options.live == nullptr) return one;
+        one.is_evaluated = true;
+        one.expected = std::move(report.expected);
+        one.values = std::move(drawing.values);
+        one.shadow_maps = std::move(drawing.shadow_maps);
+        return one;
     };
-    // Each thread has a context of its own.
-    const int jobs =
-        std::clamp(options.jobs, 1, static_cast<int>(std::max<std::size_t>(permutations.size(), 1)));
-    parallel_for(jobs, static_cast<std::size_t>(jobs), [&](std::size_t) {
-        const Result<Context> context = open_context(options.backend);
-        for (std::size_t i = next++; i < permutations.size(); i = next++)
-            entries[i] = context ? make_entry(*context, i) : tl::unexpected(context.error());
-        const std::lock_guard<std::mutex> lock(renderer);
-        if (context) gallery.renderer = context->renderer();
-    });
+    const auto keep = [&](std::size_t i, Made one) -> Result<void> {
+        gallery.renderer = made.renderer = one.renderer;
+        said[i] = std::move(one.warnings);
+        for (const NamedFile& file : one.pictures)
+            GOBO_TRY_DO(files.write(options.folder + "/" + file.name, file.bytes));
+        if (one.is_evaluated) {
+            Drawing drawing;
+            drawing.values = std::move(one.values);
+            drawing.shadow_maps = std::move(one.shadow_maps);
+            GOBO_TRY_DO(options.live->add(i, drawing, one.expected, static_cast<float>(one.entry.exposure)));
+        }
+        entries[i] = std::move(one.entry);
+        return {};
+    };
+    tasks.done = [&](std::size_t i, Result<Made> one, std::optional<int> death) {
+        if (death) return made.deaths.push_back({i, std::move(one).error()});
+        if (!one) return said[i].swap(one.error());
+        if (auto kept = keep(i, *std::move(one)); !kept)
+            said[i].insert(said[i].end(), kept.error().begin(), kept.error().end());
+    };
+    GOBO_TRY_DO(ask_driver(tasks));
+    std::ranges::sort(made.deaths, {}, &DriverDeath::permutation);
     gallery.width = scene.view.width;
     gallery.height = scene.view.height;
     gallery.white_error = kWhiteError;
     gallery.cost_renderer = options.weights.renderer;
     DiagnosticGroups groups(family);
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        for (const Diagnostic& diagnostic : entries[i] ? warnings[i] : entries[i].error())
-            groups.add(diagnostic, permutations[i].key);
+        for (const Diagnostic& diagnostic : said[i]) groups.add(diagnostic, permutations[i].key);
         if (entries[i]) gallery.entries.push_back(std::move(*entries[i]));
     }
-    RenderedSelection made;
     made.diagnostics = groups.result();
     const std::string path = options.folder + "/index.html";
     const auto written = page(shipped, family, gallery).and_then([&](const std::string& text) {

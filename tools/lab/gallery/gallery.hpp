@@ -9,7 +9,7 @@
 #include "core/file_system.hpp"
 #include "lab/raster/compare_picture.hpp"
 #include "lab/raster/shared_textures.hpp"
-#include "lab/render/render.hpp"
+#include "lab/render/render_selection.hpp"
 #include "lab/study/measure.hpp"
 #include "validate/validate.hpp"
 
@@ -74,6 +74,12 @@ struct Entry {
     double fragment_cost = 0;  ///< of a fragment, on average over those of the picture; in additions
     double vertex_cost = 0;    ///< of a vertex
 };
+void fields(auto& archive, OneOf<Entry> auto& value) {
+    auto& [key, actual, expected, difference, largest_error, root_mean_square, edges, pixels, exposure,
+           fragment_cost, vertex_cost] = value;
+    archive(key, actual, expected, difference, largest_error, root_mean_square, edges, pixels, exposure,
+            fragment_cost, vertex_cost);
+}
 
 /// What all entries share.
 struct Gallery {
@@ -94,17 +100,19 @@ class LivePage;
 struct GalleryOptions {
     std::string folder;
     study::Weights weights;
+    std::string driver = "the renderer";  ///< in messages
     Backend backend = Backend::osmesa;
-    int jobs = 1;  ///< threads, each with a context of its own: drivers compile long shaders for seconds
+    int jobs = 1;              ///< child processes: drivers compile long shaders for seconds
     LivePage* live = nullptr;  ///< gets each permutation that could be evaluated, and is written as live.html
 };
 
 /// Writes index.html, and beside it three PNG files for each key, named after it: drawn, expected, and how
 /// they differ. `validated` must hold the SPIR-V of every stage; `shipped` holds the page's template. The
-/// files named are the page, then the picture of each key that could be drawn.
-[[nodiscard]] RenderedSelection make_gallery(const Scene& scene, const Family& family,
-                                             const Composition& composition, const Validated& validated,
-                                             const GalleryOptions& options, FileSystem& files,
-                                             const FileSystem& shipped);
+/// files named are the page, then the picture of each key that could be drawn. Errors of ask_driver().
+[[nodiscard]] Result<RenderedSelection> make_gallery(const Scene& scene, const Family& family,
+                                                     const Composition& composition,
+                                                     const Validated& validated,
+                                                     const GalleryOptions& options, FileSystem& files,
+                                                     const FileSystem& shipped);
 
 }  // namespace gobo::gallery

@@ -112,7 +112,6 @@ Result<void> LivePage::add(std::size_t number, const Drawing& drawing, const Ima
                            float exposure) {
     const Interface& interface = interfaces_[number];
     const Permutation& permutation = composition_.permutations[number];
-    const std::lock_guard lock(mutex_);
     Json objects = Json::array();
     Json controls = Json::array();
     for (const Object& object : scene_.objects) {

@@ -1,7 +1,6 @@
 // A page that draws permutations in the browser that shows it, by WebGL 2, beside what the interpreter says.
 #pragma once
 
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -23,7 +22,8 @@ class LivePage {
           interfaces_(interfaces),
           permutations_(interfaces.size()) {}
 
-    /// Adds a permutation, by its number; threads may. Errors as of resolve_uniforms(), and for a sampler
+    /// Adds a permutation, by its number; of the drawing the values and the shadow maps count.
+    /// Errors as of resolve_uniforms(), and for a sampler
     /// that the page has no texture for.
     Result<void> add(std::size_t number, const Drawing& drawing, const Image& expected, float exposure);
 
@@ -40,7 +40,6 @@ class LivePage {
     const std::vector<Interface>& interfaces_;
     std::vector<std::string> permutations_;  ///< JSON; empty where there is none
     std::vector<std::string> shared_;        ///< data URLs, each once
-    std::mutex mutex_;
 };
 
 }  // namespace gobo::gallery

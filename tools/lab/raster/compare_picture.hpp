@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "family/family.hpp"
 #include "lab/raster/raster_object.hpp"
 #include "lab/render/image.hpp"
@@ -47,6 +48,12 @@ struct WrongPixel {
     double ratio = 0;  ///< of the largest channel's error to its limit
 };
 
+void fields(auto& archive, OneOf<WrongPixel> auto& value) {
+    auto& [x, y, actual, expected, ratio] = value;
+    archive(x, y, ratio);
+    for (std::size_t i = 0; i < actual.size(); ++i) archive(actual[i], expected[i]);
+}
+
 /// One permutation's picture.
 struct PictureReport {
     Key key;
@@ -66,6 +73,12 @@ struct PictureReport {
     /// Wrong pixels, too many at edges, or an RMS error above its limit.
     [[nodiscard]] bool fails() const;
 };
+void fields(auto& archive, OneOf<PictureReport> auto& value) {
+    auto& [key, largest_error, root_mean_square, largest_ratio, pixels, drawn, edges, wrong, worst, actual,
+           expected, diagnostics, warnings] = value;
+    archive(key, largest_error, root_mean_square, largest_ratio, pixels, drawn, edges, wrong, worst, actual,
+            expected, diagnostics, warnings);
+}
 
 inline constexpr std::size_t kWorstPixels = 3;
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/bytes.hpp"
 #include "core/file_system.hpp"
 
 namespace gobo {
@@ -37,6 +38,10 @@ struct Image {
                static_cast<std::size_t>(channel);
     }
 };
+
+void fields(auto& archive, OneOf<Image> auto& value) {
+    archive(value.width, value.height, value.channels, value.values);
+}
 
 /// How far two values are apart. A NaN facing anything but a NaN is an infinite difference; equal infinities
 /// and two NaNs are none.

@@ -96,51 +96,6 @@ Result<Picture> render_permutation(const Context& context, const std::vector<Sta
     return picture;
 }
 
-RenderedSelection draw_each(
-    const Family& family, const Composition& composition, const std::string& folder, ImageFormat format,
-    const std::function<Result<Diagnostics>(std::size_t number, const std::string& path)>& draw) {
-    RenderedSelection rendered;
-    DiagnosticGroups groups(family);
-    for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
-        const Key& key = composition.permutations[i].key;
-        const std::string path =
-            fmt::format("{}/{}.{}", folder, picture_name(key_text(family, key)), name_of(format));
-        const auto warnings = draw(i, path);
-        if (warnings) rendered.files.push_back(path);
-        for (const Diagnostic& diagnostic : warnings ? *warnings : warnings.error())
-            groups.add(diagnostic, key);
-    }
-    rendered.diagnostics = groups.result();
-    return rendered;
-}
-
-RenderedSelection render_selection(const Context& context, const Family& family,
-                                   const Composition& composition, const std::vector<Interface>& interfaces,
-                                   const std::vector<Object>& objects, const PictureOptions& options,
-                                   FileSystem& files) {
-    // Draws one permutation and writes its picture. The result are warnings.
-    const auto render_one = [&](std::size_t i, const std::string& path) -> Result<Diagnostics> {
-        const Permutation& permutation = composition.permutations[i];
-        std::vector<RenderValue> values = family.render;
-        GivenTextures textures = options.textures;
-        std::optional<ShadowMaps> maps;
-        const std::vector<ShadowLight> shadows = shadow_lights(family, permutation.key);
-        if (!shadows.empty() && options.depth_pass != nullptr) {
-            GOBO_TRY(ShadowMaps drawn, draw_shadow_maps(context, *options.depth_pass, shadows, objects,
-                                                        options.view.camera.view()));
-            maps.emplace(std::move(drawn));
-            textures["shadowMaps"] = maps->texture();
-            values.insert(values.end(), maps->values().begin(), maps->values().end());
-        }
-        GOBO_TRY(Picture picture, render_permutation(context, stages_of(composition, permutation),
-                                                     interfaces[i], objects, values, options.view, textures));
-        GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
-        std::ranges::move(picture.background_alone, std::back_inserter(picture.warnings));
-        return std::move(picture.warnings);
-    };
-    return draw_each(family, composition, options.folder, options.format, render_one);
-}
-
 std::string picture_name(std::string_view key_text) {
     constexpr std::size_t kLongest = 200;
     std::string name;

@@ -1,4 +1,4 @@
-// What is drawn to, a permutation as a picture, and pictures of every permutation of a selection.
+// What is drawn to, and a permutation as a picture.
 #pragma once
 
 #include <array>
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "core/file_system.hpp"
 #include "lab/render/camera.hpp"
 #include "lab/render/context.hpp"
 #include "lab/render/draw_list.hpp"
@@ -82,37 +81,6 @@ struct Picture {
                                                  const std::vector<Object>& objects,
                                                  const std::vector<RenderValue>& values, const View& view,
                                                  const GivenTextures& textures = {});
-
-/// Where and how pictures are written.
-struct PictureOptions {
-    View view;
-    ImageFormat format = ImageFormat::png;
-    std::string folder;
-    int smooth = 1;          ///< pixels are averages of so many, squared: the view is that much larger
-    GivenTextures textures;  ///< of samplers that get more than the family says
-    const DepthPass* depth_pass =
-        nullptr;  ///< draws the maps of keys with shadows; without it there are none
-};
-
-/// The files written, in the order of the permutations, and what there was to say, once for all keys that
-/// share it. A permutation that fails writes no file and stops no other.
-struct RenderedSelection {
-    std::vector<std::string> files;
-    Diagnostics diagnostics;
-};
-
-/// Lets `draw` draw each permutation, by its number, to a file of the folder named after its key; what it
-/// returns are warnings.
-[[nodiscard]] RenderedSelection draw_each(
-    const Family& family, const Composition& composition, const std::string& folder, ImageFormat format,
-    const std::function<Result<Diagnostics>(std::size_t number, const std::string& path)>& draw);
-
-/// Draws every permutation of the composition; `interfaces` are theirs, in the same order.
-[[nodiscard]] RenderedSelection render_selection(const Context& context, const Family& family,
-                                                 const Composition& composition,
-                                                 const std::vector<Interface>& interfaces,
-                                                 const std::vector<Object>& objects,
-                                                 const PictureOptions& options, FileSystem& files);
 
 /// A file name for a key's text, without an end: "fog=linear point=3" gives "fog-linear+point-3". Different
 /// keys have different names: beyond 200 bytes a hash of the whole text stands for the rest.

@@ -181,14 +181,19 @@ Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) 
     return texture;
 }
 
-void SceneDrawing::draw() const {
-    for (const DrawList& list : lists_) list.draw();
-    if (blended_.empty()) return;
+void SceneDrawing::draw(DriverClock* clock) const {
     const GladGLContext& gl = alpha_maps_.context().gl();
+    const auto draw_one = [&](const List& list) {
+        if (clock != nullptr) clock->begin(static_cast<int>(list.permutation));
+        list.draws.draw();
+        if (clock != nullptr) gl.Finish();
+    };
+    std::ranges::for_each(lists_, draw_one);
+    if (blended_.empty()) return;
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl.DepthMask(GL_FALSE);
-    for (const DrawList& list : blended_) list.draw();
+    std::ranges::for_each(blended_, draw_one);
     gl.DepthMask(GL_TRUE);
     gl.Disable(GL_BLEND);
 }
@@ -196,10 +201,12 @@ void SceneDrawing::draw() const {
 Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShaders& shaders,
                                         const std::vector<Object>& objects,
                                         const std::vector<RenderValue>& values, const SceneView& view,
-                                        const SceneImages& images, const SceneTextures& textures) {
+                                        const SceneImages& images, const SceneTextures& textures,
+                                        DriverClock* clock) {
     SceneDrawing drawing(context);
     const Composition& composition = shaders.composition;
     for (std::size_t i = 0; i < composition.permutations.size(); ++i) {
+        if (clock != nullptr) clock->begin(static_cast<int>(i));
         GOBO_TRY(auto program, link_program(context, stages_of(composition, composition.permutations[i])));
         set_bindings(context, program, shaders.interfaces[i]);
         drawing.programs_.push_back(std::make_unique<Program>(std::move(program)));
@@ -241,7 +248,7 @@ Result<SceneDrawing> SceneDrawing::make(const Context& context, const SceneShade
         for (const Diagnostic& warning : list.warnings())
             if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
         const bool is_blended = i < images.are_blended.size() && images.are_blended[i];
-        (is_blended ? drawing.blended_ : drawing.lists_).push_back(std::move(list));
+        (is_blended ? drawing.blended_ : drawing.lists_).push_back({*permutation, std::move(list)});
     }
     return drawing;
 }
@@ -271,12 +278,12 @@ bool turns_all_faces_away(const Scene& scene, const std::vector<Draw>& draws, co
 
 Result<Picture> draw_scene(const Context& context, const Scene& scene, const SceneShaders& shaders,
                            const std::vector<RenderValue>& family_values, const SceneView& view,
-                           const SceneTextures& textures) {
+                           const SceneTextures& textures, DriverClock* clock) {
     GOBO_TRY(const auto framebuffer, make_framebuffer(context, view.width, view.height));
     GOBO_TRY(const auto drawing, SceneDrawing::make(context, shaders, objects_of(scene, shaders),
                                                     values_beside_scene(family_values), view,
-                                                    images_of(scene, shaders.draws), textures));
-    return take_picture(framebuffer, view.background, drawing.warnings(), [&] { drawing.draw(); });
+                                                    images_of(scene, shaders.draws), textures, clock));
+    return take_picture(framebuffer, view.background, drawing.warnings(), [&] { drawing.draw(clock); });
 }
 
 std::optional<SceneView> view_of_camera(const Scene& scene, std::size_t camera, int width, int height) {

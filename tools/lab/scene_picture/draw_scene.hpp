@@ -10,6 +10,7 @@
 
 #include "compose/search_path.hpp"
 #include "lab/render/draw_list.hpp"
+#include "lab/render/driver_tasks.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
 #include "lab/scene_picture/scene_objects.hpp"
@@ -90,15 +91,18 @@ class SceneDrawing {
   public:
     /// Links one program for each permutation, draws the shadow maps and uploads the objects, one per draw.
     /// `values` are those of the family; an object's own come after them. `images` is of the same draws, or
-    /// empty: then nothing has holes or stands in shadow. Errors of render_permutation().
+    /// empty: then nothing has holes or stands in shadow. A clock is told which permutation begins. Errors of
+    /// render_permutation().
     [[nodiscard]] static Result<SceneDrawing> make(const Context& context, const SceneShaders& shaders,
                                                    const std::vector<Object>& objects,
                                                    const std::vector<RenderValue>& values,
                                                    const SceneView& view, const SceneImages& images = {},
-                                                   const SceneTextures& textures = {});
+                                                   const SceneTextures& textures = {},
+                                                   DriverClock* clock = nullptr);
 
-    /// Draws everything to the framebuffer that is bound.
-    void draw() const;
+    /// Draws everything to the framebuffer that is bound. Where there is a clock, it is told which
+    /// permutation begins, and each draw is waited for.
+    void draw(DriverClock* clock = nullptr) const;
     /// Attributes, uniforms and samplers without a value, each once.
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
 
@@ -112,8 +116,12 @@ class SceneDrawing {
     GlResources alpha_maps_;
     std::map<std::tuple<const TextureImage*, bool, int, int, bool, int>, Texture> pictures_;
     std::unique_ptr<ShadowMaps> shadow_maps_;
-    std::vector<DrawList> lists_;
-    std::vector<DrawList> blended_;  ///< behind the others, the farthest from the viewer first
+    struct List {
+        std::size_t permutation;
+        DrawList draws;
+    };
+    std::vector<List> lists_;
+    std::vector<List> blended_;  ///< behind the others, the farthest from the viewer first
     Diagnostics warnings_;
 };
 
@@ -122,10 +130,10 @@ class SceneDrawing {
                                         const SceneView& view);
 
 /// Draws the scene once and reads the picture. `family_values` are the family's [render] table; blocks that a
-/// scene fills take nothing from it.
+/// scene fills take nothing from it. The parts of which a clock is told are permutations.
 [[nodiscard]] Result<Picture> draw_scene(const Context& context, const Scene& scene,
                                          const SceneShaders& shaders,
                                          const std::vector<RenderValue>& family_values, const SceneView& view,
-                                         const SceneTextures& textures = {});
+                                         const SceneTextures& textures = {}, DriverClock* clock = nullptr);
 
 }  // namespace gobo::scene

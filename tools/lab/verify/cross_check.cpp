@@ -1,11 +1,9 @@
 #include "lab/verify/cross_check.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
+#include <memory>
 
-#include "core/bytes.hpp"
-#include "core/child_processes.hpp"
+#include "lab/render/driver_tasks.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
 #include "lab/render/texture.hpp"
@@ -24,13 +22,14 @@ struct Drawn {
     Picture picture;
 };
 
-/// What draws; used by one thread.
+/// What draws, in a child process.
 class Renderer {
   public:
     Renderer() = default;
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
     virtual ~Renderer() = default;
+    [[nodiscard]] virtual std::string name() const = 0;
     virtual Result<Drawn> draw(const Permutation& permutation) = 0;
     virtual Result<std::vector<Image>> draw_maps(const std::vector<ShadowLight>& lights) = 0;
 };
@@ -42,13 +41,15 @@ std::vector<ShadowLight> shadow_lights_of(const CrossCheckScene& scene, const Ke
 
 class OpenGlRenderer final : public Renderer {
   public:
-    OpenGlRenderer(const Context& context, const Composition& composition, const Validated& validated,
+    OpenGlRenderer(Context context, const Composition& composition, const Validated& validated,
                    const CrossCheckScene& scene)
-        : context_(context),
+        : context_(std::move(context)),
           composition_(composition),
           validated_(validated),
           scene_(scene),
-          textures_(context) {}
+          textures_(context_) {}
+
+    [[nodiscard]] std::string name() const override { return context_.renderer(); }
 
     Result<Drawn> draw(const Permutation& permutation) override {
         Drawn drawn;
@@ -74,11 +75,7 @@ class OpenGlRenderer final : public Renderer {
 
     Result<std::vector<Image>> draw_maps(const std::vector<ShadowLight>& lights) override {
         GOBO_TRY(const ShadowMaps maps, maps_of(lights));
-        int count = 0;
-        for (const ShadowLight& light : lights) count += light.kind == ShadowLight::Kind::point ? 6 : 1;
-        std::vector<Image> layers;
-        for (int i = 0; i < count; ++i) layers.push_back(maps.layer(i));
-        return layers;
+        return raster::layers_of(maps, lights);
     }
 
   private:
@@ -87,169 +84,50 @@ class OpenGlRenderer final : public Renderer {
                                 scene_.view.camera.view());
     }
 
-    const Context& context_;
+    Context context_;
     const Composition& composition_;
     const Validated& validated_;
     const CrossCheckScene& scene_;
     raster::SharedTextures textures_;
 };
 
-/// What a child process sends of one task: a picture or layers of depths, or why there are none.
-struct Drawing {
-    std::vector<float> color;
-    std::vector<float> depth;
-    std::vector<float> depths;  ///< of all layers
-    std::string renderer;
-    Diagnostics warnings;
-    Diagnostics errors;
-};
-
-void fields(auto& archive, OneOf<Drawing> auto& value) {
-    auto& [color, depth, depths, renderer, warnings, errors] = value;
-    archive(color, depth, depths, renderer, warnings, errors);
-}
-
-/// Draws everything in child processes before there are threads, and answers from what they sent.
 class VulkanRenderer final : public Renderer {
   public:
-    VulkanRenderer(const Composition& composition, const Validated& validated, const CrossCheckScene& scene)
-        : composition_(composition), validated_(validated), scene_(scene) {
+    VulkanRenderer(vulkan::Device device, const Validated& validated, const CrossCheckScene& scene)
+        : device_(std::move(device)), validated_(validated), scene_(scene) {
         for (const ValidatedStage& stage : validated.stages) modules_.emplace_back(stage.spirv);
-        if (scene.shadow_pass == nullptr) return;
-        const ShadowPass& pass = *scene.shadow_pass;
-        shadow_pass_ = {{{StageKind::vertex, pass.vertex, {}}, {StageKind::fragment, pass.fragment, {}}},
-                        pass.pass.interface,
-                        pass.pass.values,
-                        pass.pass.side,
-                        pass.pass.slope,
-                        pass.pass.units};
+        if (scene.shadow_pass != nullptr) shadow_pass_ = scene.shadow_pass->for_vulkan();
     }
 
-    /// Behind the permutations stands one task more: the maps of `lights`. Fault::file where there is no
-    /// device.
-    Result<void> draw_all(const std::vector<ShadowLight>& lights, int jobs) {
-        drawings_.resize(composition_.permutations.size() + 1);
-        std::optional<vulkan::Device> device;  // each child's own
-        ChildWork work;
-        work.work = [&](std::size_t task, Note&) {
-            Result<Drawing> drawing = drawn_by_child(device, task, lights);
-            if (drawing) return to_bytes(*drawing);
-            Drawing failed;
-            failed.errors = std::move(drawing).error();
-            return to_bytes(failed);
-        };
-        work.done = [&](std::size_t task, std::string_view bytes) {
-            drawings_[task] = from_bytes<Drawing>(bytes);
-            return drawings_[task].has_value();
-        };
-        work.died = [&](std::size_t task, int, Death) {
-            Drawing& dead = drawings_[task].emplace();
-            dead.errors = fail(Fault::input, "the Vulkan driver dies when it draws this").value();
-            crashed_.push_back(task);
-            return false;
-        };
-        const std::vector<std::size_t> left = run_in_children(
-            jobs, drawings_.size(), work, {.processor_seconds = kSeconds, .memory = 0, .writes_files = true});
-        if (!left.empty())
-            return fail(Fault::file, "no child process can be started, in which Vulkan would draw");
-        std::ranges::sort(crashed_);
-        for (const std::optional<Drawing>& drawing : drawings_)
-            if (exit_status(drawing->errors) == 3) return tl::unexpected(drawing->errors);
-        return {};
-    }
-
-    [[nodiscard]] std::string name() const {
-        for (const std::optional<Drawing>& drawing : drawings_)
-            if (!drawing->renderer.empty()) return drawing->renderer;
-        return "no driver";
-    }
-    [[nodiscard]] const std::vector<std::size_t>& crashed() const { return crashed_; }
+    [[nodiscard]] std::string name() const override { return device_.name(); }
 
     Result<Drawn> draw(const Permutation& permutation) override {
-        const Drawing& drawing = *drawings_[number_of(permutation)];
-        if (!drawing.errors.empty()) return tl::unexpected(drawing.errors);
-        GOBO_TRY(Drawn drawn, described(permutation, images_of(drawing.depths), nullptr));
-        drawn.picture = {Image(scene_.view.width, scene_.view.height, 4),
-                         Image(scene_.view.width, scene_.view.height, 1), drawing.warnings};
-        drawn.picture.color.values = drawing.color;
-        drawn.picture.depth.values = drawing.depth;
-        return drawn;
-    }
-
-    Result<std::vector<Image>> draw_maps(const std::vector<ShadowLight>&) override {
-        const Drawing& drawing = *drawings_.back();
-        if (!drawing.errors.empty()) return tl::unexpected(drawing.errors);
-        return images_of(drawing.depths);
-    }
-
-  private:
-    static constexpr int kSeconds = 120;
-
-    [[nodiscard]] std::size_t number_of(const Permutation& permutation) const {
-        return static_cast<std::size_t>(&permutation - composition_.permutations.data());
-    }
-
-    Result<Drawing> drawn_by_child(std::optional<vulkan::Device>& device, std::size_t task,
-                                   const std::vector<ShadowLight>& lights) const {
-        if (!device) {
-            GOBO_TRY(device, vulkan::open_device());
-        }
-        Drawing drawing;
-        drawing.renderer = device->name();
-        const bool are_maps = task == composition_.permutations.size();
-        const std::vector<ShadowLight> own =
-            are_maps ? lights : shadow_lights_of(scene_, composition_.permutations[task].key);
-        std::vector<Image> maps;
-        if (!own.empty()) {
-            GOBO_TRY(maps, vulkan::draw_shadow_maps(*device, shadow_pass_, plan_of(own), scene_.objects));
-        }
-        for (const Image& map : maps)
-            drawing.depths.insert(drawing.depths.end(), map.values.begin(), map.values.end());
-        if (are_maps) return drawing;
-        const Permutation& permutation = composition_.permutations[task];
-        vulkan::Textures given;
-        GOBO_TRY(const Drawn drawn, described(permutation, maps, &given));
-        GOBO_TRY(auto picture, vulkan::render_permutation(*device, vulkan::modules_of(modules_, permutation),
-                                                          drawn.interface, scene_.objects, drawn.values,
-                                                          scene_.view, given));
-        drawing.color = std::move(picture.color.values);
-        drawing.depth = std::move(picture.depth.values);
-        drawing.warnings = std::move(picture.warnings);
-        return drawing;
-    }
-
-    /// All but the picture; `given` becomes the textures where somebody draws.
-    Result<Drawn> described(const Permutation& permutation, const std::vector<Image>& maps,
-                            vulkan::Textures* given) const {
         Drawn drawn;
         drawn.interface = interface_of(validated_, permutation);
         drawn.values = scene_.values;
-        vulkan::Textures textures;
-        add_textures(drawn, textures);
-        if (!maps.empty()) {
-            const ShadowPlan plan = plan_of(shadow_lights_of(scene_, permutation.key));
-            textures["shadowMaps"] = vulkan::depth_texels(maps);
+        vulkan::Textures given;
+        add_textures(drawn, given);
+        if (const auto lights = shadow_lights_of(scene_, permutation.key); !lights.empty()) {
+            GOBO_TRY(const auto maps, draw_maps(lights));
+            const ShadowPlan plan = plan_of(lights);
+            given["shadowMaps"] = vulkan::depth_texels(maps);
             drawn.values.insert(drawn.values.end(), plan.values.begin(), plan.values.end());
             drawn.images["shadowMaps"] = raster::depths_of(maps);
         }
         drawn.values = raster::with_plain_textures(drawn.interface, std::move(drawn.values));
-        if (given != nullptr) *given = std::move(textures);
+        GOBO_TRY(drawn.picture, vulkan::render_permutation(device_, vulkan::modules_of(modules_, permutation),
+                                                           drawn.interface, scene_.objects, drawn.values,
+                                                           scene_.view, given));
         return drawn;
     }
 
-    [[nodiscard]] ShadowPlan plan_of(const std::vector<ShadowLight>& lights) const {
-        return shadow_plan(lights, scene_.objects, scene_.view.camera.view(), shadow_pass_.side);
+    Result<std::vector<Image>> draw_maps(const std::vector<ShadowLight>& lights) override {
+        return vulkan::draw_shadow_maps(device_, shadow_pass_, plan_of(lights), scene_.objects);
     }
 
-    [[nodiscard]] std::vector<Image> images_of(const std::vector<float>& depths) const {
-        const int side = shadow_pass_.side;
-        const auto size = static_cast<std::ptrdiff_t>(side) * side;
-        std::vector<Image> layers;
-        for (auto at = depths.begin(); at != depths.end(); at += size) {
-            Image& layer = layers.emplace_back(side, side, 1);
-            std::copy(at, at + size, layer.values.begin());
-        }
-        return layers;
+  private:
+    [[nodiscard]] ShadowPlan plan_of(const std::vector<ShadowLight>& lights) const {
+        return shadow_plan(lights, scene_.objects, scene_.view.camera.view(), shadow_pass_.side);
     }
 
     /// As SharedTextures has them for OpenGL.
@@ -272,13 +150,11 @@ class VulkanRenderer final : public Renderer {
         }
     }
 
-    const Composition& composition_;
+    vulkan::Device device_;
     const Validated& validated_;
     const CrossCheckScene& scene_;
     std::vector<std::span<const std::uint32_t>> modules_;
     vulkan::ShadowPass shadow_pass_;
-    std::vector<std::optional<Drawing>> drawings_;  ///< by permutation, then that of all maps
-    std::vector<std::size_t> crashed_;
 };
 
 /// A stage's SPIR-V as a pipeline makes it for the permutation.
@@ -303,9 +179,7 @@ Result<raster::PictureReport> compare(const Drawn& drawn, const SpirvModule& ver
 
 /// The picture is right where all of it agrees with one of the ways in which a driver may take derivatives.
 Result<raster::PictureReport> compare(const Validated& validated, const Permutation& permutation,
-                                      const Result<Drawn>& maybe_drawn, const CrossCheckScene& scene,
-                                      bool rows_run_down) {
-    GOBO_TRY(const Drawn& drawn, maybe_drawn);
+                                      const Drawn& drawn, const CrossCheckScene& scene, bool rows_run_down) {
     GOBO_TRY(const SpirvModule vertex, module_of(validated, permutation, StageKind::vertex));
     GOBO_TRY(const SpirvModule fragment, module_of(validated, permutation, StageKind::fragment));
     const SpirvModule fine = raster::with_derivatives(fragment, raster::Derivatives::fine);
@@ -333,11 +207,10 @@ std::vector<ShadowLight> all_lights(const Composition& composition, const CrossC
 }
 
 /// The maps of all of them.
-std::optional<ShadowMapReport> compare_maps(Renderer& renderer, const Composition& composition,
-                                            const CrossCheckScene& scene) {
-    const std::vector<ShadowLight> lights = all_lights(composition, scene);
-    if (lights.empty()) return std::nullopt;
+ShadowMapReport compare_maps(Renderer& renderer, const std::vector<ShadowLight>& lights,
+                             const CrossCheckScene& scene, DriverClock& clock) {
     const auto maps = renderer.draw_maps(lights);
+    clock.stop();
     if (!maps) {
         ShadowMapReport report;
         report.diagnostics = maps.error();
@@ -348,57 +221,72 @@ std::optional<ShadowMapReport> compare_maps(Renderer& renderer, const Compositio
     return compare_shadow_maps(*maps, *scene.shadow_pass, plan.cameras, scene.objects);
 }
 
-CrossCheckReport cross_check_by(Renderer& renderer, const Composition& composition,
-                                const Validated& validated, const CrossCheckScene& scene, int jobs) {
-    const std::vector<Permutation>& permutations = composition.permutations;
-    CrossCheckReport report;
-    report.pictures.resize(permutations.size());
-    report.shadow_maps = compare_maps(renderer, composition, scene);
-    std::vector<Result<Drawn>> drawn(permutations.size());
-    std::atomic<std::size_t> ready = 0;
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < permutations.size(); i = next++) {
-            for (std::size_t now = ready; now <= i; now = ready) ready.wait(now);
-            raster::PictureReport& picture = report.pictures[i];
-            if (Result<raster::PictureReport> found = compare(validated, permutations[i], drawn[i], scene,
-                                                              composition.dialect == Dialect::vulkan))
-                picture = *std::move(found);
-            else
-                picture.diagnostics = std::move(found).error();
-            picture.key = permutations[i].key;
-            if (drawn[i]) picture.warnings = std::move(drawn[i]->picture.warnings);
-            drawn[i] = Drawn{};
-        }
-    };
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < jobs; ++i) threads.emplace_back(work);
-    for (std::size_t i = 0; i < permutations.size(); ++i) {
-        drawn[i] = renderer.draw(permutations[i]);
-        ready = i + 1;
-        ready.notify_all();
-    }
-    threads.clear();  // joins
-    return report;
+/// What a child process found out: of a picture, or of the maps.
+struct Compared {
+    raster::PictureReport picture;
+    ShadowMapReport maps;
+    std::string renderer;
+};
+void fields(auto& archive, OneOf<Compared> auto& value) {
+    auto& [picture, maps, renderer] = value;
+    archive(picture, maps, renderer);
 }
 
 }  // namespace
 
-CrossCheckReport cross_check(const Context& context, const Composition& composition,
-                             const Validated& validated, const CrossCheckScene& scene, int jobs) {
-    OpenGlRenderer renderer(context, composition, validated, scene);
-    CrossCheckReport report = cross_check_by(renderer, composition, validated, scene, jobs);
-    report.renderer = context.renderer();
-    return report;
-}
-
-Result<CrossCheckReport> cross_check_by_vulkan(const Composition& composition, const Validated& validated,
-                                               const CrossCheckScene& scene, int jobs) {
-    VulkanRenderer renderer(composition, validated, scene);
-    GOBO_TRY_DO(renderer.draw_all(all_lights(composition, scene), jobs));
-    CrossCheckReport report = cross_check_by(renderer, composition, validated, scene, jobs);
-    report.renderer = renderer.name();
-    report.crashed = renderer.crashed();
+Result<CrossCheckReport> cross_check(const std::string& driver, std::optional<Backend> opengl,
+                                     const Composition& composition, const Validated& validated,
+                                     const CrossCheckScene& scene, int jobs) {
+    const std::vector<Permutation>& permutations = composition.permutations;
+    const std::vector<ShadowLight> lights = all_lights(composition, scene);
+    CrossCheckReport report;
+    report.pictures.resize(permutations.size());
+    DriverTasks<std::unique_ptr<Renderer>, Compared> tasks{driver, permutations.size(), jobs};
+    if (!lights.empty()) {  // behind the permutations stands one task more: all the maps
+        report.shadow_maps.emplace();
+        ++tasks.count;
+    }
+    tasks.open = [&]() -> Result<std::unique_ptr<Renderer>> {
+        if (!opengl) {
+            GOBO_TRY(vulkan::Device device, vulkan::open_device());
+            return std::make_unique<VulkanRenderer>(std::move(device), validated, scene);
+        }
+        GOBO_TRY(Context context, open_context(*opengl));
+        return std::make_unique<OpenGlRenderer>(std::move(context), composition, validated, scene);
+    };
+    tasks.work = [&](const std::unique_ptr<Renderer>& renderer, std::size_t i,
+                     DriverClock& clock) -> Result<Compared> {
+        Compared compared;
+        compared.renderer = renderer->name();
+        if (i == permutations.size()) {
+            compared.maps = compare_maps(*renderer, lights, scene, clock);
+            return compared;
+        }
+        GOBO_TRY(Drawn drawn, renderer->draw(permutations[i]));
+        clock.stop();
+        GOBO_TRY(compared.picture,
+                 compare(validated, permutations[i], drawn, scene, composition.dialect == Dialect::vulkan));
+        compared.picture.warnings = std::move(drawn.picture.warnings);
+        return compared;
+    };
+    tasks.done = [&](std::size_t i, Result<Compared> compared, std::optional<int> death) {
+        if (compared) report.renderer = compared->renderer;
+        if (i == permutations.size()) {
+            if (compared)
+                report.shadow_maps = std::move(compared->maps);
+            else
+                report.shadow_maps->diagnostics = std::move(compared).error();
+            return;
+        }
+        if (compared)
+            report.pictures[i] = std::move(compared->picture);
+        else
+            report.pictures[i].diagnostics = std::move(compared).error();
+        report.pictures[i].key = permutations[i].key;
+        if (death) report.crashed.push_back(i);
+    };
+    GOBO_TRY_DO(ask_driver(tasks));
+    std::ranges::sort(report.crashed);
     return report;
 }
 

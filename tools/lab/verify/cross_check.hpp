@@ -31,19 +31,16 @@ struct CrossCheckReport {
     std::vector<std::size_t> crashed;             ///< the permutations of which the driver died
 };
 
-/// Draws every permutation of the composition in the context, and compares by `jobs` threads. `validated`
-/// must hold the SPIR-V of every stage. Evaluation asks the same textures, and the shadow maps that the
-/// renderer drew: those are compared by themselves.
-[[nodiscard]] CrossCheckReport cross_check(const Context& context, const Composition& composition,
-                                           const Validated& validated, const CrossCheckScene& scene,
-                                           int jobs);
-
-/// The same by Vulkan, in `jobs` child processes: a driver that crashes costs only the permutation that it
-/// was about. The calling process must have no other threads. An error where there is no device. Composition
-/// and shadow pass are of the dialect vulkan; the SPIR-V that is drawn is the one that is evaluated, counts
-/// that are specialisation constants at the permutation's value.
-[[nodiscard]] Result<CrossCheckReport> cross_check_by_vulkan(const Composition& composition,
-                                                             const Validated& validated,
-                                                             const CrossCheckScene& scene, int jobs);
+/// Draws every permutation of the composition by OpenGL's backend, or by Vulkan where that is nothing, and
+/// compares, in `jobs` child processes: a driver that crashes costs only the permutation that it was about.
+/// `driver` is its name in messages. `validated` must hold the SPIR-V of every stage. Evaluation asks the
+/// same textures, and the shadow maps that the renderer drew: those are compared by themselves. Errors of
+/// ask_driver().
+///
+/// For Vulkan composition and shadow pass are of the dialect vulkan; the SPIR-V that is drawn is the one that
+/// is evaluated, counts that are specialisation constants at the permutation's value.
+[[nodiscard]] Result<CrossCheckReport> cross_check(const std::string& driver, std::optional<Backend> opengl,
+                                                   const Composition& composition, const Validated& validated,
+                                                   const CrossCheckScene& scene, int jobs);
 
 }  // namespace gobo::verify

@@ -115,6 +115,15 @@ Result<void> compare(const std::vector<Image>& drawn, const ShadowPass& pass,
 
 }  // namespace
 
+vulkan::ShadowPass ShadowPass::for_vulkan() const {
+    return {{{StageKind::vertex, vertex, {}}, {StageKind::fragment, fragment, {}}},
+            pass.interface,
+            pass.values,
+            pass.side,
+            pass.slope,
+            pass.units};
+}
+
 bool ShadowMapReport::fails() const {
     return wrong > 0 ||
            static_cast<double>(edges) > raster::kLargestEdgePixelShare * static_cast<double>(texels);

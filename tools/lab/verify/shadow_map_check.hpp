@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lab/render/shadow_maps.hpp"
+#include "lab/vulkan/picture.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo::verify {
@@ -14,6 +15,9 @@ struct ShadowPass {
     DepthPass pass;
     SpirvModule vertex;
     SpirvModule fragment;
+
+    /// As Vulkan's renderer takes it; points at the modules.
+    [[nodiscard]] vulkan::ShadowPass for_vulkan() const;
 };
 
 /// A texel may be off by this: llvmpipe interpolates depth in floats, a rounding of which is 6e-8 near 1.
@@ -34,6 +38,10 @@ struct ShadowMapReport {
     /// Wrong texels, or more than 1 % at edges.
     [[nodiscard]] bool fails() const;
 };
+void fields(auto& archive, OneOf<ShadowMapReport> auto& value) {
+    auto& [maps, texels, edges, wrong, largest_ratio, diagnostics] = value;
+    archive(maps, texels, edges, wrong, largest_ratio, diagnostics);
+}
 
 /// The maps of `cameras`, in their order, drawn by `pass`; row 0 of each is that at t = 0.
 [[nodiscard]] ShadowMapReport compare_shadow_maps(const std::vector<Image>& drawn, const ShadowPass& pass,

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "compose/composition.hpp"
-#include "lab/render/render.hpp"
+#include "lab/render/render_selection.hpp"
 #include "lab/vulkan/device.hpp"
 #include "reflect/interface.hpp"
 
@@ -93,25 +92,10 @@ struct ShadowPass {
                                                           const ShadowPlan& plan,
                                                           const std::vector<Object>& objects);
 
-/// Where and how pictures are written, as for OpenGL.
-struct PictureOptions {
-    View view;
-    ImageFormat format = ImageFormat::png;
-    std::string folder;
-    int smooth = 1;
-    Textures textures = {};
-    const ShadowPass* shadow_pass = nullptr;
-    /// Told before each key what is drawn next.
-    std::function<void(std::string_view)> tell = [](std::string_view) {};
-};
-
-/// Draws every permutation of the composition; `modules` are by stage, `interfaces` by permutation. As
-/// render_selection() of OpenGL's renderer.
-[[nodiscard]] RenderedSelection render_selection(const Device& device, const Family& family,
-                                                 const Composition& composition,
-                                                 const std::vector<std::span<const std::uint32_t>>& modules,
-                                                 const std::vector<Interface>& interfaces,
-                                                 const std::vector<Object>& objects,
-                                                 const PictureOptions& options, FileSystem& files);
+/// Draws a selection by Vulkan, as opengl_renderer() does by OpenGL; `modules` are by stage.
+[[nodiscard]] std::unique_ptr<KeyRenderer> vulkan_renderer(
+    const Device& device, const DrawnSelection& selection,
+    const std::vector<std::span<const std::uint32_t>>& modules, const Textures& textures = {},
+    const ShadowPass* pass = nullptr);
 
 }  // namespace gobo::vulkan

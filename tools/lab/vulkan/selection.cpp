@@ -1,35 +1,47 @@
-#include <fmt/format.h>
-
-#include "family/key.hpp"
 #include "lab/vulkan/picture.hpp"
 
 namespace gobo::vulkan {
+namespace {
 
-RenderedSelection render_selection(const Device& device, const Family& family, const Composition& composition,
-                                   const std::vector<std::span<const std::uint32_t>>& modules,
-                                   const std::vector<Interface>& interfaces,
-                                   const std::vector<Object>& objects, const PictureOptions& options,
-                                   FileSystem& files) {
-    // Draws one permutation and writes its picture. The result are warnings.
-    const auto render_one = [&](std::size_t i, const std::string& path) -> Result<Diagnostics> {
-        const Permutation& permutation = composition.permutations[i];
-        options.tell(fmt::format("it began to draw the key '{}'", key_text(family, permutation.key)));
-        std::vector<RenderValue> values = family.render;
-        Textures textures = options.textures;
-        const std::vector<ShadowLight> shadows = shadow_lights(family, permutation.key);
-        if (!shadows.empty() && options.shadow_pass != nullptr) {
+class VulkanRenderer final : public KeyRenderer {
+  public:
+    VulkanRenderer(const Device& device, const DrawnSelection& selection,
+                   const std::vector<std::span<const std::uint32_t>>& modules, const Textures& textures,
+                   const ShadowPass* pass)
+        : device_(device), selection_(selection), modules_(modules), textures_(textures), pass_(pass) {}
+
+    [[nodiscard]] std::string name() const override { return device_.name(); }
+
+    [[nodiscard]] Result<Picture> draw(std::size_t permutation) override {
+        const Permutation& drawn = selection_.composition.permutations[permutation];
+        std::vector<RenderValue> values = selection_.family.render;
+        Textures textures = textures_;
+        const std::vector<ShadowLight> shadows = shadow_lights(selection_.family, drawn.key);
+        if (!shadows.empty() && pass_ != nullptr) {
             const ShadowPlan plan =
-                shadow_plan(shadows, objects, options.view.camera.view(), options.shadow_pass->side);
-            GOBO_TRY(const auto maps, draw_shadow_maps(device, *options.shadow_pass, plan, objects));
+                shadow_plan(shadows, selection_.objects, selection_.view.camera.view(), pass_->side);
+            GOBO_TRY(const auto maps, draw_shadow_maps(device_, *pass_, plan, selection_.objects));
             textures["shadowMaps"] = depth_texels(maps);
             values.insert(values.end(), plan.values.begin(), plan.values.end());
         }
-        GOBO_TRY(Picture picture, render_permutation(device, modules_of(modules, permutation), interfaces[i],
-                                                     objects, values, options.view, textures));
-        GOBO_TRY_DO(write_image(files, path, shrunk(picture.color, options.smooth)));
-        return std::move(picture.warnings);
-    };
-    return draw_each(family, composition, options.folder, options.format, render_one);
+        return render_permutation(device_, modules_of(modules_, drawn), selection_.interfaces[permutation],
+                                  selection_.objects, values, selection_.view, textures);
+    }
+
+  private:
+    Device device_;
+    DrawnSelection selection_;
+    std::vector<std::span<const std::uint32_t>> modules_;
+    Textures textures_;
+    const ShadowPass* pass_;
+};
+
+}  // namespace
+
+std::unique_ptr<KeyRenderer> vulkan_renderer(const Device& device, const DrawnSelection& selection,
+                                             const std::vector<std::span<const std::uint32_t>>& modules,
+                                             const Textures& textures, const ShadowPass* pass) {
+    return std::make_unique<VulkanRenderer>(device, selection, modules, textures, pass);
 }
 
 }  // namespace gobo::vulkan

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# driver_that_dies.sh GOBO OSMESA_FOLDER VULKAN_LIBRARY FAMILY: drivers of OpenGL and Vulkan that abort on one key of three. It alone is lost,
+# and what the driver was given is kept.
+set -euo pipefail
+gobo=$1
+family=$4
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+echo "{\"file_format_version\": \"1.0.0\", \"ICD\": {\"library_path\": \"$3\", \"api_version\": \"1.1.230\"}}" > icd.json
+osmesa=(env "LD_LIBRARY_PATH=$2" "RENDERER_DRAWS=$(ldconfig -p | sed -n 's/.*libOSMesa.so.8.*=> //p' | head -n 1)")
+vulkan=(env "VK_ICD_FILENAMES=$folder/icd.json" "RENDERER_DRAWS=$(ldconfig -p | sed -n 's/.*libvulkan_lvp.so.*=> //p' | head -n 1)")
+keys=(--key crash=on --key default --key red=on)
+
+# expect NAME STATUS FILES COMMAND...: the errors are those of NAME.
+expect() {
+  local name=$1 status=$2 files=$3 found=0
+  shift 3
+  "$@" > output 2> errors || found=$?
+  [ $found -eq "$status" ] || { echo "$name: status $found"; cat errors; exit 1; }
+  diff "$name.expected" <(grep -v '^[0-9]* pictures\? of' errors) || { echo "$name"; exit 1; }
+  [ "$(ls out | tr '\n' ' ')" = "$files" ] || { echo "$name left: $(ls out)"; exit 1; }
+}
+
+for backend in osmesa vulkan; do
+  kept='crash-on.vert crash-on.frag'
+  run=("${osmesa[@]}")
+  if [ $backend = vulkan ]; then
+    kept='crash-on.vert.spv crash-on.frag.spv'
+    run=("${vulkan[@]}")
+  fi
+  sorted=$(tr ' ' '\n' <<< "$kept" | sort | tr '\n' ' ')
+  cat > $backend.expected <<END
+gobo: error: the renderer of --backend $backend crashed [crash=on]
+  help: what it was given is in out/${kept/ / and out/}
+END
+  expect $backend 1 "$(tr ' ' '\n' <<< "$sorted default.png red-on.png" | sed '/^$/d' | sort | tr '\n' ' ')" \
+    "${run[@]}" "$gobo" render "$family" "${keys[@]}" --backend $backend -o out
+  printf 'out/default.png\nout/red-on.png\n' | diff - output
+  rm -r out
+  expect $backend 1 "$sorted" "${run[@]}" "$gobo" test "$family" "${keys[@]}" --render --backend $backend -o out
+  grep -q '^2 of 3 permutations drawn by' output
+  rm -r out
+done
+
+# What is compared is the driver's verdict, and a crash is one.
+status=0
+"${osmesa[@]}" "$gobo" link "$family" "${keys[@]}" > output 2> errors || status=$?
+[ $status -eq 1 ]
+grep -q 'gobo takes what the driver does not link: .*the driver crashed \[crash=on\]' errors
+grep -q '^3 compared: 2 taken and linked' output

@@ -1,0 +1,27 @@
+#include "lab/render/driver_tasks.hpp"
+
+#include <fmt/format.h>
+
+namespace gobo {
+
+std::string ending_of(Death death, int seconds) {
+    switch (death) {
+        case Death::time:
+            return fmt::format("gave no answer within {} s", seconds);
+        case Death::memory:
+            return "ran out of memory";
+        case Death::killed:
+            return "was killed";
+        case Death::exit:
+            return "ended the process";
+        case Death::crash:
+            break;
+    }
+    return "crashed";
+}
+
+tl::unexpected<Diagnostics> fail_to_open(const std::string& driver, const std::string& ending) {
+    return fail(Fault::file, driver + " " + ending, "try the other --backend, or another version of Mesa");
+}
+
+}  // namespace gobo

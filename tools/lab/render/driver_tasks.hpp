@@ -1,0 +1,131 @@
+// What a graphics driver is to do, in child processes: where it crashes or hangs, only what it was about is
+// lost.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/bytes.hpp"
+#include "core/child_processes.hpp"
+
+namespace gobo {
+
+/// So long may a driver take for a program, a pair of stages or a picture, or for one draw of a scene.
+inline constexpr int kDriverSeconds = 60;
+
+/// Measures the driver's own work within a task.
+class DriverClock {
+  public:
+    explicit DriverClock(Note& note) : note_(note) {}
+    /// From now on the driver works on this part of the task, from 0, and has kDriverSeconds for it.
+    void begin(int part) { note_ = part; }
+    /// What comes now is not the driver's work, and may take as long as it wants.
+    void stop() { note_ = kClockStands; }
+
+  private:
+    Note& note_;
+};
+
+/// "crashed", "gave no answer within 60 s"
+[[nodiscard]] std::string ending_of(Death death, int seconds = kDriverSeconds);
+/// What to do about a driver that ends without having been asked anything.
+[[nodiscard]] tl::unexpected<Diagnostics> fail_to_open(const std::string& driver, const std::string& ending);
+
+namespace detail {
+
+/// A value or errors, as one process sends them to another.
+template <class Value>
+struct Sent {
+    bool is_open = false;  ///< whether there was a driver to ask
+    Diagnostics errors;
+    Value value{};
+};
+template <class Value>
+void fields(auto& archive, Sent<Value>& sent) {
+    archive(sent.is_open, sent.errors, sent.value);
+}
+template <class Value>
+void fields(auto& archive, const Sent<Value>& sent) {
+    archive(sent.is_open, sent.errors, sent.value);
+}
+
+}  // namespace detail
+
+/// Tasks for a driver, whose results are sent as bytes (core/bytes.hpp).
+template <class Driver, class Value>
+struct DriverTasks {
+    std::string driver;  ///< in messages: "the renderer of --backend egl"
+    std::size_t count = 0;
+    int jobs = 1;                               ///< child processes at a time
+    std::function<Result<Driver>()> open = {};  ///< once in each child process
+    std::function<Result<Value>(Driver& driver, std::size_t task, DriverClock& clock)> work = {};
+    /// In the calling process, in any order. Where the driver ended, `value` is an error (Fault::input) that
+    /// says how, and `death` the part of the task that it was about.
+    std::function<void(std::size_t task, Result<Value> value, std::optional<int> death)> done = {};
+    int seconds = kDriverSeconds;
+};
+
+/// Does the tasks. Errors: those of opening; a driver that dies while it is opened (Fault::file). The calling
+/// process must have no other threads.
+template <class Driver, class Value>
+[[nodiscard]] Result<void> ask_driver(const DriverTasks<Driver, Value>& tasks) {
+    using Sent = detail::Sent<Value>;
+    constexpr int kOpening = -2;
+    std::optional<Diagnostics> not_opened;
+    const auto opened = std::make_shared<std::optional<Driver>>();  // each child has its own
+    ChildWork child;
+    child.work = [&](std::size_t task, Note& note) {
+        Sent sent;
+        const auto fail_with = [&](Diagnostics errors) {
+            sent.errors = std::move(errors);
+            return to_bytes(sent);
+        };
+        if (not_opened) return fail_with(*not_opened);
+        note = kOpening;
+        if (!*opened) {
+            Result<Driver> driver = tasks.open();
+            if (!driver) return fail_with(std::move(driver).error());
+            opened->emplace(*std::move(driver));
+        }
+        sent.is_open = true;
+        DriverClock clock(note);
+        clock.begin(0);
+        Result<Value> value = tasks.work(**opened, task, clock);
+        if (!value) return fail_with(std::move(value).error());
+        sent.value = *std::move(value);
+        return to_bytes(sent);
+    };
+    child.done = [&](std::size_t task, std::string_view bytes) {
+        std::optional<Sent> sent = from_bytes<Sent>(bytes);
+        if (!sent) return false;
+        if (!sent->is_open)
+            not_opened = std::move(sent->errors);
+        else if (sent->errors.empty())
+            tasks.done(task, std::move(sent->value), std::nullopt);
+        else
+            tasks.done(task, tl::unexpected(std::move(sent->errors)), std::nullopt);
+        return true;
+    };
+    child.died = [&](std::size_t task, int note, Death death) {
+        const std::string ending = ending_of(death, tasks.seconds);
+        if (note == kOpening)
+            not_opened = fail_to_open(tasks.driver, ending).value();
+        else
+            tasks.done(task, fail(Fault::input, tasks.driver + " " + ending), std::max(note, 0));
+        return false;
+    };
+    const std::vector<std::size_t> left = run_in_children(
+        tasks.jobs, tasks.count, child,
+        {.processor_seconds = 0, .memory = 0, .wall_seconds = tasks.seconds, .writes_files = true});
+    if (not_opened) return tl::unexpected(*std::move(not_opened));
+    if (!left.empty()) return fail(Fault::internal, "no process can be started for " + tasks.driver);
+    return {};
+}
+
+}  // namespace gobo
