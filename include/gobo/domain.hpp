@@ -157,5 +157,28 @@ void check_component(std::vector<OutOfRange>& found, std::string_view path,
     check_numbers(found, path, indices, one, range);
 }
 
+/// Adds what of `less` is not below `more` ("<"), not above it ("<=") or equal to it ("!="); a single number
+/// is compared with each of a vector. A NaN is never in order.
+template <class Less, class More>
+void check_order(std::vector<OutOfRange>& found, std::string_view path, std::initializer_list<int> indices,
+                 const Less& less, const More& more, std::string_view sign, std::string_view other) {
+    Components lefts;
+    Components rights;
+    lefts.add(less);
+    rights.add(more);
+    for (int i = 0; i < lefts.count && (i < rights.count || rights.count == 1); ++i) {
+        const double left = lefts.values[i];
+        const double right = rights.values[rights.count == 1 ? 0 : i];
+        if (sign == "<" ? left < right : sign == "<=" ? left <= right : left < right || left > right)
+            continue;
+        std::string member = with_indices(path, indices);
+        if (lefts.count > 1 && lefts.count <= 4) {
+            member += '.';
+            member += "xyzw"[i];
+        }
+        found.push_back({member, left, std::string(sign) + ' ' + with_indices(other, indices)});
+    }
+}
+
 }  // namespace runtime
 }  // namespace gobo

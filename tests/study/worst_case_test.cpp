@@ -217,6 +217,18 @@ TEST(WorstCase, KeepsWhatIsStatedOfAComponent) {
     }
 }
 
+/// Fog thins over next to nothing where the two are nearly one: an order alone leaves that in.
+TEST(WorstCase, KeepsAnOrderOfTwoMembers) {
+    Domain order;
+    order.name = "Fog.start < Fog.end";
+    for (const WorstCase& one : searched({"point=1 fog=linear"}, {order}, 2048)) {
+        const auto start = one.input.uniforms.find("Fog.start");
+        if (start == one.input.uniforms.end()) continue;
+        EXPECT_LT(start->second.at(0), one.input.uniforms.at("Fog.end").at(0))
+            << quality_text(lit_under_study().family, one.key);
+    }
+}
+
 TEST(WorstCase, OfAVariableInMediumpIsFoundWhereItOverflows) {
     EXPECT_TRUE(
         std::isinf(with_mediump("directional=1", "total").value().at(0).error));  // light above 65,504

@@ -8,6 +8,7 @@
 #include "emit/emit.hpp"
 #include "emit/reserved_names.hpp"
 #include "emit/sections.hpp"
+#include "family/constraint.hpp"
 #include "family/key.hpp"
 
 namespace gobo {
@@ -78,8 +79,10 @@ std::string promises_text(const EmitInput& input) {
             text;
     if (!input.narrowed.empty()) text += "//\n// The domain is narrower than the family's:\n";
     for (const Domain& domain : input.narrowed)
-        text += fmt::format("//     {}: {}\n", cpp_comment(domain.name),
-                            cpp_comment(domain_text(input.family.domains, domain.name)));
+        text += is_constraint(domain.name)
+                    ? fmt::format("//     {}\n", cpp_comment(domain.name))
+                    : fmt::format("//     {}: {}\n", cpp_comment(domain.name),
+                                  cpp_comment(domain_text(input.family.domains, domain.name)));
     return text;
 }
 

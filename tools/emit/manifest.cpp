@@ -9,6 +9,7 @@
 #include "emit/emit.hpp"
 #include "emit/sections.hpp"
 #include "emit/stage_columns.hpp"
+#include "family/constraint.hpp"
 #include "family/key.hpp"
 #include "reflect/interface_format.hpp"
 
@@ -144,6 +145,10 @@ std::vector<std::string> permutation_rows(const EmitInput& input, const std::vec
 std::vector<std::string> domain_rows(const std::vector<Domain>& domains) {
     std::vector<std::string> rows;
     for (const Domain& domain : domains) {
+        if (is_constraint(domain.name)) {
+            rows.push_back(text_of(Json{{"constraint", domain.name}}));
+            continue;
+        }
         Json row{{"name", domain.name}, {domain.of_length ? "length" : "range", {domain.low, domain.high}}};
         if (!domain.also.empty()) row["also"] = domain.also;
         if (!domain.last.empty()) row["last"] = domain.last;

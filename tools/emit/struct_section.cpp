@@ -358,9 +358,37 @@ std::string number_check(const Spot& spot, const std::vector<Domain>& domains) {
     return checks;
 }
 
+/// A call for each order that a domain states of the member and another of its struct.
+std::string order_checks(const Spot& spot, const Spot& parent, const std::vector<NamedMember>& siblings,
+                         const std::vector<Domain>& domains) {
+    std::string checks;
+    for (const Constraint& constraint : constraints_of(domains)) {
+        if (!constraint.is_comparison() || constraint.has_number() ||
+            without_indices(constraint.names[0]) != without_indices(spot.path))
+            continue;
+        for (const NamedMember& other : siblings) {
+            const std::string path = parent.path + "." + other.member.name;
+            if (without_indices(constraint.names[1]) != without_indices(path) ||
+                !other.member.array.empty() || !glsl_type(other.member.type))
+                continue;
+            checks += fmt::format(
+                "{0}gobo::runtime::check_order(found, {1}, {{{2}}}, {3},\n"
+                "{0}                           {4}.{5}, \"{6}\", {7});\n",
+                spot.indent(), cpp_literal(spot.path), fmt::join(spot.indices, ", "), spot.expression,
+                parent.expression, other.identifier,
+                constraint.kind == Constraint::Kind::less         ? "<"
+                : constraint.kind == Constraint::Kind::less_equal ? "<="
+                                                                  : "!=",
+                cpp_literal(path));
+        }
+    }
+    return checks;
+}
+
 /// The checks of a member, within a loop for each extent of its array; `count` is the outermost loop's bound
 /// where it is given.
-std::string member_checks(const NamedMember& named, const Spot& parent, const std::vector<Domain>& domains,
+std::string member_checks(const NamedMember& named, const Spot& parent,
+                          const std::vector<NamedMember>& siblings, const std::vector<Domain>& domains,
                           const std::string& count) {
     Spot spot{parent.path + "." + named.member.name, parent.expression + "." + named.identifier,
               parent.indices};
@@ -379,7 +407,9 @@ std::string member_checks(const NamedMember& named, const Spot& parent, const st
     const std::optional<GlslType> type = glsl_type(named.member.type);
     const bool is_number = type && type->scalar != Scalar::float16;  // of which there are only the bits
     std::string body = is_number ? number_check(spot, domains) : "";
-    for (const NamedMember& part : named.members) body += member_checks(part, spot, domains, "");
+    if (is_number && named.member.array.empty()) body += order_checks(spot, parent, siblings, domains);
+    for (const NamedMember& part : named.members)
+        body += member_checks(part, spot, named.members, domains, "");
     return body.empty() ? body : head + body + tail;
 }
 
@@ -390,7 +420,8 @@ Result<std::string> block_check(const NamedBlock& block, const StructText& struc
     std::string body;
     for (const NamedMember& named : structure.named) {
         const bool is_counted = last != nullptr && &named == &structure.named.back();
-        body += member_checks(named, {block.name, "block", {}}, domains, is_counted ? "count" : "");
+        body += member_checks(named, {block.name, "block", {}}, structure.named, domains,
+                              is_counted ? "count" : "");
     }
     std::string extent;
     std::string count;

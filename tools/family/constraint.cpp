@@ -79,6 +79,11 @@ const Domain* domain_of_component(const std::vector<Domain>& domains, std::strin
     return found == domains.end() ? nullptr : &*found;
 }
 
+std::string_view struct_of(std::string_view name) {
+    const auto dot = name.rfind('.');
+    return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
+}
+
 bool is_constraint(std::string_view text) {
     return text.find_first_of("<>=!(") != std::string_view::npos;
 }

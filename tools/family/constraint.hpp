@@ -51,6 +51,9 @@ struct ComponentName {
 [[nodiscard]] const Domain* domain_of_component(const std::vector<Domain>& domains, std::string_view name,
                                                 std::size_t component);
 
+/// What the name is a member of: "Fog" of "Fog.start"; empty where it is none.
+[[nodiscard]] std::string_view struct_of(std::string_view name);
+
 /// Whether the text is meant as one: no name of an input holds such signs.
 [[nodiscard]] bool is_constraint(std::string_view text);
 /// Nothing where it is none that is known.

@@ -137,6 +137,11 @@ void check_components(TomlReader& reader, const std::vector<Domain>& domains) {
     for (const Domain& domain : domains) {
         const auto part = component_name(domain.name);
         const auto whole = part ? std::ranges::find(domains, part->of, &Domain::name) : domains.end();
+        const Domain* const first = part ? domain_of_component(domains, part->of, part->component) : nullptr;
+        if (first != nullptr && first != &domain)
+            reader.error(domain.place,
+                         fmt::format("'{}' is the same component as '{}'", domain.name, first->name),
+                         "state one range of it");
         if (whole == domains.end()) continue;
         if (whole->of_length)
             reader.error(domain.place, fmt::format("the range of '{}' is one of its length", part->of),
@@ -429,60 +434,6 @@ Result<std::vector<Domain>> read_domain_file(std::string_view text, const std::s
     std::vector<Domain> domains = read_domains(root);
     if (reader.failed()) return tl::unexpected(reader.errors());
     return domains;
-}
-
-bool is_within(const Domain& narrower, const Domain& domain) {
-    const auto holds = [&](double number) {
-        return (domain.low <= number && number <= domain.high) ||
-               std::ranges::find(domain.also, number) != domain.also.end();
-    };
-    const bool is_range_within = (domain.low <= narrower.low && narrower.high <= domain.high) ||
-                                 (narrower.low == narrower.high && holds(narrower.low));
-    return narrower.of_length == domain.of_length && is_range_within &&
-           std::ranges::all_of(narrower.also, holds) &&
-           (narrower.last.empty() || (!domain.last.empty() && domain.last[0] <= narrower.last[0] &&
-                                      narrower.last[1] <= domain.last[1]));
-}
-
-Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower) {
-    Diagnostics errors;
-    std::vector<std::string> names;
-    for (const Domain& known : family.domains) names.push_back(known.name);
-    for (const Domain& domain : narrower) {
-        auto own = std::ranges::find(family.domains, domain.name, &Domain::name);
-        const auto component = component_name(domain.name);
-        const bool is_part = component && own == family.domains.end();  // of the whole's range
-        if (is_part) own = std::ranges::find(family.domains, component->of, &Domain::name);
-        if (own == family.domains.end() && is_constraint(domain.name)) {
-            errors.push_back(
-                {.place = domain.place,
-                 .message = fmt::format("the family '{}' does not state that {}", family.name, domain.name),
-                 .help = "narrow ranges here; what holds between inputs belongs into the "
-                         "family's [domain]"});
-        } else if (own == family.domains.end()) {
-            errors.push_back({.place = domain.place,
-                              .message = fmt::format("the family '{}' declares no domain for '{}'",
-                                                     family.name, domain.name),
-                              .help = suggestion(domain.name, names)});
-        } else if (is_part && own->of_length) {
-            errors.push_back({.place = domain.place,
-                              .message = fmt::format("the range of '{}' is one of its length", own->name),
-                              .help = "narrow the length's range"});
-        } else if (!is_within(domain, *own)) {
-            errors.push_back(
-                {.place = domain.place,
-                 .message = fmt::format("'{}' may hold more here than the family allows", domain.name),
-                 .help = "what the shaders are made for stands in the family's [domain]: narrow it"});
-        } else if (is_part) {
-            family.domains.push_back(domain);
-        } else {
-            const std::vector<double> last = domain.last.empty() ? own->last : domain.last;
-            *own = domain;
-            own->last = last;
-        }
-    }
-    if (!errors.empty()) return tl::unexpected(std::move(errors));
-    return {};
 }
 
 }  // namespace gobo

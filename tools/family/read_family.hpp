@@ -32,8 +32,10 @@ using FindFamily = std::function<Result<FamilyText>(const std::string& name)>;
 /// Whether a domain holds nothing that another one of the same name does not.
 [[nodiscard]] bool is_within(const Domain& narrower, const Domain& domain);
 
-/// Puts those in the place of the family's own. Errors, at their places: one of a name that the family
-/// declares no domain for, one that holds what the family's does not.
-[[nodiscard]] Result<void> narrow_domains(Family& family, const std::vector<Domain>& narrower);
+/// Puts those in the place of the family's own, and the order of two members of a struct beside them. As
+/// ranges where they were stated as comparisons with numbers, unit() or not_zero(). Errors, at their places:
+/// one of a name that the family declares no domain for, one that holds what the family's does not, and what
+/// check(block) cannot check.
+[[nodiscard]] Result<std::vector<Domain>> narrow_domains(Family& family, const std::vector<Domain>& narrower);
 
 }  // namespace gobo

@@ -149,7 +149,8 @@ Result<void> narrow_domains(const World& world, LoadedFamily& family, const std:
         GOBO_TRY(family.narrowed, read_domain_file(text, file));
         if (file != "-") family.files.push_back(file);
     }
-    return narrow_domains(family.family, family.narrowed);
+    GOBO_TRY(family.narrowed, narrow_domains(family.family, family.narrowed));
+    return {};
 }
 
 Result<void> refuse_scenes_outside(const World& world, LoadedFamily& family,

@@ -35,7 +35,8 @@ constexpr NameRules kOfRelation{.elements = true};
 constexpr NameRules kOfTurn{};
 constexpr NameRules kOfOrder{.is_array = true};
 
-std::vector<Named> names_of(const Family& family) {
+/// Of the family's own file, and of that of narrower domains.
+std::vector<Named> names_of(const Family& family, const std::vector<Domain>& narrowed) {
     std::vector<Named> names;
     for (const Domain& domain : family.domains) {
         std::vector<std::string> parts = {domain.name};
@@ -57,7 +58,10 @@ std::vector<Named> names_of(const Family& family) {
         for (const RenderValue& value : relation.at)
             names.push_back({value.name, value.name, "[[relations]]", kOfRelation, value.place});
     }
-    std::erase_if(names, [&](const Named& named) { return named.place.file != family.path; });
+    const std::string& narrower = narrowed.empty() ? family.path : narrowed.front().place.file;
+    std::erase_if(names, [&](const Named& named) {
+        return named.place.file != family.path && named.place.file != narrower;
+    });
     return names;
 }
 
@@ -95,7 +99,7 @@ std::optional<Key> with_highest_counts(const LoadedFamily& family, Key key) {
 
 Diagnostics unknown_names(const LoadedFamily& family, const Composition& composition,
                           const Validated& validated, const InterfacesOfCover& more) {
-    std::vector<Named> names = names_of(family.family);
+    std::vector<Named> names = names_of(family.family, family.narrowed);
     Diagnostics errors = unknown_set_names(family.family, family.search, composition);
     if (names.empty()) return errors;
     int counted = 0;  // where a cover does not show how large arrays become

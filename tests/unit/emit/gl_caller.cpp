@@ -129,9 +129,10 @@ void UniformBlockBinding(unsigned, unsigned block, unsigned binding) {
     DO(GetProgramiv)                                                                                         \
     DO(GetProgramInfoLog)                                                                                    \
     DO(DeleteProgram)                                                                                        \
-    DO(UseProgram) DO(GetIntegerv) DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex)            \
-        DO(UniformBlockBinding) DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) \
-            DO(VertexAttribPointer) DO(VertexAttribIPointer)
+    DO(UseProgram)                                                                                           \
+    DO(GetIntegerv) DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding)   \
+        DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer) \
+            DO(VertexAttribIPointer)
 #define LOADER_POINTER(name) static decltype(&pretended::name) loader_gl##name = &pretended::name;
 LOADER_FUNCTIONS(LOADER_POINTER)
 #define glCreateShader loader_glCreateShader

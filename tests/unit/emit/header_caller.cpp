@@ -229,13 +229,17 @@ void test_uniform_names() {
 void test_check() {
     lit::Fog_block fog{};
     expect(lit::check(fog).empty(), "a block within its ranges");
-    fog.near_ = 1e6F;
+    fog.near_ = fog.far_ = 1e6F;
     expect(lit::check(fog).empty(), "the ends of a range are within it");
     fog.near_ = -1.0F;
     expect(lit::check(fog).size() == 1, "a number below its range");
     expect_text(gobo::to_text(lit::check(fog).front()), "Fog.near is -1, allowed is [0, 1000000]");
     fog.near_ = std::numeric_limits<float>::quiet_NaN();
-    expect(lit::check(fog).size() == 1, "a NaN is within no range");
+    expect(lit::check(fog).size() == 2, "a NaN is within no range and in no order");
+    fog.near_ = 2.0F;
+    fog.far_ = 1.0F;
+    expect(lit::check(fog).size() == 1, "two members out of their order");
+    expect_text(gobo::to_text(lit::check(fog).front()), "Fog.near is 2, allowed is <= Fog.far");
 
     lit::PointLights lights{};
     expect(lit::check(lights).empty(), "a number beside the range that is allowed");

@@ -98,6 +98,7 @@ Built lit() {
                "more than the 60 varying components that OpenGL guarantees"),
     };
     family.domains = {{"Fog.near", 0, 1e6, false, {}, {}, {}},
+                      {"Fog.near <= Fog.far", 0, 0, false, {}, {}, {}},
                       {"PointLights.lights[].attenuation", 0.001, 10, false, {}, {0}, {}},
                       {"PointLights.lights[].attenuation.x", 0.001, 2, false, {}, {0}, {}},
                       {"normal", 0.5, 2, true, {}, {}, {}}};

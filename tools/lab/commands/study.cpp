@@ -208,7 +208,7 @@ Result<PromisesToTry> promises_of_manifest(const Family& family, const std::stri
                     "build it with --max-error X");
     for (const auto& row : manifest.value("domain", nlohmann::json::array())) {
         Domain& domain = all.domains.emplace_back();
-        domain.name = row.value("name", "");
+        domain.name = row.value("name", row.value("constraint", ""));
         domain.of_length = row.contains("length");
         const auto range = row.value(domain.of_length ? "length" : "range", std::vector<double>(2));
         domain.low = range.front();

@@ -15,6 +15,7 @@
 #include "lab/study/worst_inputs.hpp"
 #include "lab/verify/expectation.hpp"
 #include "lab/verify/inputs.hpp"
+#include "lab/verify/random_points.hpp"
 
 namespace gobo::study {
 namespace {
@@ -35,7 +36,8 @@ class Search {
           options_(options),
           is_half_(is_half),
           random_(options.seed),
-          fields_(searched_fields(variant.program.fragment, family.domains)) {}
+          fields_(searched_fields(variant.program.fragment, family.domains)),
+          orders_(searched_orders(fields_, family.domains)) {}
 
     Result<WorstCase> run() {
         for (std::size_t done = 0; done < options_.points && worst_.error <= options_.enough;
@@ -49,8 +51,11 @@ class Search {
             std::vector<Sample> samples = is_fresh ? drawn(count, is_alone) : varied(count, kept);
             for (Sample& sample : samples) {
                 for (const SearchedField& field : fields_) bring_into_domain(field, sample);
+                are_in_order(sample);
                 if (model_.environment_brdf == oracle::EnvironmentBrdf::table) look_up_table(model_, sample);
             }
+            std::erase_if(samples, [&](Sample& sample) { return !are_in_order(sample); });
+            if (samples.empty()) continue;
             GOBO_TRY_DO(judge(verify::rounded_to_float(std::move(samples)), kept));
         }
         return std::move(worst_);
@@ -62,6 +67,13 @@ class Search {
         double excess = 0;
         Sample sample;
     };
+
+    /// Puts the sample into each order; whether all could be kept, one beside the other.
+    bool are_in_order(Sample& sample) {
+        std::size_t kept = 0;
+        for (const SearchedOrder& order : orders_) kept += bring_into_order(order, fields_, sample) ? 1 : 0;
+        return kept == orders_.size();
+    }
 
     std::vector<Sample> drawn(std::size_t count, bool is_alone) {
         std::vector<Sample> samples = verify::make_samples(own_model_, StageKind::fragment,
@@ -162,6 +174,7 @@ class Search {
     SearchRandom random_;
     std::uint64_t draws_ = 0;
     std::vector<SearchedField> fields_;
+    std::vector<SearchedOrder> orders_;
     std::vector<Kept> kept_;
     std::vector<Kept> kept_alone_;  ///< with one lamp
     WorstCase worst_;
@@ -194,6 +207,21 @@ Result<Variants> mediump_variants(const Subject& subject, std::vector<Key> keys,
     return variants;
 }
 
+/// Where a range is stated of a component that an input of the stage does not have.
+Result<void> refuse_unknown_components(const Family& family, const Variant& variant) {
+    for (const auto* const ports : {&variant.program.fragment.inputs, &variant.program.fragment.uniforms})
+        for (const evaluate::Port& port : *ports)
+            for (const Domain& domain : family.domains) {
+                const auto part = component_name(domain.name);
+                if (part && part->of == verify::without_subscripts(port.name) &&
+                    part->component >= port.components)
+                    return fail(domain.place, "",
+                                fmt::format("'{}' has {} components", part->of, port.components),
+                                fmt::format("end at .{}", "xyzw"[port.components - 1]));
+            }
+    return {};
+}
+
 /// Whether the fragments are handed nothing that the most accurate key computes for each of them.
 bool is_per_fragment(const Variant& variant, const Variant& accurate) {
     const auto& known = accurate.program.fragment.inputs;
@@ -223,6 +251,7 @@ Result<std::vector<WorstCase>> find_worst_cases(const Subject& subject, const st
     } else {
         GOBO_TRY(in_half, mediump_variants(subject, keys, options.mediump));
     }
+    for (const Variant& variant : variants.all) GOBO_TRY_DO(refuse_unknown_components(family, variant));
     std::vector<Key> searched;
     std::vector<std::pair<oracle::Model, oracle::Model>> models;  // the most accurate one, the key's own
     for (const Key& key : keys) {

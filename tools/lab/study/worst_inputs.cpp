@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <gobo/environment_brdf.hpp>
 
-#include "family/constraint.hpp"
 #include "lab/oracle/oracle.hpp"
 #include "lab/verify/random_points.hpp"
 
@@ -74,6 +73,53 @@ std::vector<SearchedField> searched_fields(const evaluate::Program& program,
                     fields.back().parts.emplace_back(i, *own);
         }
     return fields;
+}
+
+std::vector<SearchedOrder> searched_orders(const std::vector<SearchedField>& fields,
+                                           const std::vector<Domain>& domains) {
+    const auto is_named = [&](std::size_t field, const std::string& name) {
+        return verify::without_subscripts(fields[field].name) == name;
+    };
+    std::vector<SearchedOrder> orders;
+    for (const Constraint& constraint : constraints_of(domains)) {
+        if (!constraint.is_comparison() || constraint.has_number()) continue;
+        for (std::size_t less = 0; less < fields.size(); ++less)
+            for (std::size_t more = 0; more < fields.size(); ++more)
+                if (is_named(less, constraint.names[0]) && is_named(more, constraint.names[1]) &&
+                    struct_of(fields[less].name) == struct_of(fields[more].name))  // of the same element
+                    orders.push_back({less, more, constraint.kind});
+    }
+    return orders;
+}
+
+bool bring_into_order(const SearchedOrder& order, const std::vector<SearchedField>& fields, Sample& sample) {
+    const SearchedField& less = fields[order.less];
+    const SearchedField& more = fields[order.more];
+    const auto is_kept = [&] {
+        const std::vector<double> left = less.field.get(sample);
+        const std::vector<double> right = more.field.get(sample);
+        for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+            const auto a = static_cast<float>(left[i]);
+            const auto b = static_cast<float>(right[i]);
+            if (order.kind == Constraint::Kind::less         ? a >= b
+                : order.kind == Constraint::Kind::less_equal ? a > b
+                                                             : a == b)
+                return false;
+        }
+        return true;
+    };
+    if (is_kept()) return true;
+    std::vector<double> left = less.field.get(sample);
+    std::vector<double> right = more.field.get(sample);
+    for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+        if (left[i] > right[i]) std::swap(left[i], right[i]);
+        if (left[i] == right[i]) right[i] = std::nextafter(static_cast<float>(right[i]), HUGE_VALF);
+    }
+    less.field.set(sample, left);
+    more.field.set(sample, right);
+    bring_into_domain(less, sample);
+    bring_into_domain(more, sample);
+    return is_kept();
 }
 
 void bring_to_edges(Sample& sample, SearchRandom& random) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "family/constraint.hpp"
 #include "family/family.hpp"
 #include "lab/evaluate/evaluate.hpp"
 #include "lab/oracle/model.hpp"
@@ -27,6 +28,19 @@ struct SearchedField {
 };
 [[nodiscard]] std::vector<SearchedField> searched_fields(const evaluate::Program& program,
                                                          const std::vector<Domain>& domains);
+
+/// Two fields that [domain] has in an order, by their places among the fields.
+struct SearchedOrder {
+    std::size_t less = 0;
+    std::size_t more = 0;
+    Constraint::Kind kind = Constraint::Kind::less;
+};
+[[nodiscard]] std::vector<SearchedOrder> searched_orders(const std::vector<SearchedField>& fields,
+                                                         const std::vector<Domain>& domains);
+
+/// Puts two fields, each within its domain, into their order; whether that could be done.
+[[nodiscard]] bool bring_into_order(const SearchedOrder& order, const std::vector<SearchedField>& fields,
+                                    verify::Sample& sample);
 
 /// Puts the sample where models have their edges: any shininess, narrow cones with the point beside their
 /// edge, and the point anywhere from the middle of the view, 1e-3 radians from it, to straight aside.
