@@ -529,12 +529,25 @@ void add_unwritten(const evaluate::Outputs& outputs, const TrapObserver& observe
     }
 }
 
-/// Outputs beyond their bounds at points that neither trap nor are discarded.
+/// Per invocation whether it leaves that output unwritten.
+std::vector<char> unwritten_in(const TrapObserver& observer, std::size_t output, std::size_t count) {
+    std::vector<char> unwritten(count);
+    for (const UndefinedOutput& undefined : observer.undefined_outputs())
+        for (std::size_t lane = 0; lane < kLanes && undefined.output == output; ++lane)
+            if (undefined.is_unwritten && (undefined.lanes >> lane & 1U) != 0 &&
+                undefined.first_invocation + lane < count)
+                unwritten[undefined.first_invocation + lane] = 1;
+    return unwritten;
+}
+
+/// Outputs beyond their bounds at points that write them, and neither trap nor are discarded.
 void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& observer,
                        std::span<const Interval> all, OutputFindings& findings) {
     const std::size_t components = all.size() / outputs.count;
     std::size_t component = 0;
-    for (const evaluate::Port& port : findings.run.program.outputs) {
+    for (std::size_t output = 0; output < findings.run.program.outputs.size(); ++output) {
+        const evaluate::Port& port = findings.run.program.outputs[output];
+        const std::vector<char> unwritten = unwritten_in(observer, output, outputs.count);
         const std::vector<double>& values = outputs.values.at(port.name);
         // Every vertex stage has one: it matters where it is written.
         const bool is_left_out =
@@ -544,7 +557,7 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
                 const double value = values[c * outputs.count + i];
                 const Interval& bounds = all[i * components + component];
                 if (value >= bounds.low && value <= bounds.high) continue;
-                if (is_left_out || outputs.discarded[i] || observer.trapped(i)) continue;
+                if (is_left_out || unwritten[i] != 0 || outputs.discarded[i] || observer.trapped(i)) continue;
                 const auto low = static_cast<float>(bounds.low);
                 const auto high = static_cast<float>(bounds.high);
                 const std::string_view promise = broken_promise(value, bounds);
