@@ -87,11 +87,12 @@ struct Descriptor {
     Only only = {};
 };
 
-/// A block of push constants, from offset 0.
+/// A block of push constants. Stages may each have one of their own: views of the same memory.
 struct PushConstants {
     std::string_view name;
-    std::uint32_t size = 0;    ///< bytes
+    std::uint32_t size = 0;    ///< bytes, from 0 to the end of the last member
     std::uint32_t stages = 0;  ///< as in Descriptor
+    std::uint32_t offset = 0;  ///< of the first member
 };
 
 /// A location of a vertex attribute: matrices have one for each column, arrays for each element. In Vulkan a

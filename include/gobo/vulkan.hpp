@@ -81,19 +81,26 @@ template <class Descriptors, class Permutation>
 }
 
 /// For vkCreatePipelineLayout. Vulkan allows a stage one range, so of a stage with several blocks, those of
-/// other keys, it is the largest; stages with as many bytes share one.
+/// other keys, it holds all of them; stages with the same bytes share one.
 template <class PushConstants>
 [[nodiscard]] std::vector<VkPushConstantRange> push_constant_ranges(const PushConstants& push_constants) {
     std::vector<VkPushConstantRange> ranges;
     for (std::uint32_t stage = 1; stage != 0; stage <<= 1U) {
+        std::uint32_t begin = ~0U;
+        std::uint32_t end = 0;
+        for (const runtime::PushConstants& block : push_constants) {
+            if ((block.stages & stage) == 0) continue;
+            begin = block.offset < begin ? block.offset : begin;
+            end = block.size > end ? block.size : end;
+        }
+        if (begin >= end) continue;
         VkPushConstantRange range{};
         range.stageFlags = stage;
-        for (const runtime::PushConstants& block : push_constants)
-            if ((block.stages & stage) != 0 && range.size < block.size) range.size = block.size;
-        if (range.size == 0) continue;
+        range.offset = begin;
+        range.size = end - begin;
         bool is_new = true;
         for (VkPushConstantRange& other : ranges)
-            if (other.size == range.size) {
+            if (other.offset == range.offset && other.size == range.size) {
                 other.stageFlags |= stage;
                 is_new = false;
             }

@@ -10,18 +10,19 @@
 
 namespace gobo::cost {
 
-/// Shader texts of two stages.
+/// Shader texts of two stages, or of a compute stage.
 struct Sources {
     std::string name;
     std::string vertex;
     std::string fragment;
     std::string descriptors;  ///< their kinds and counts, or the error
+    std::string compute = {};
 };
 
 inline const std::string kVertex =
     "#version 450\nin vec4 position;\nvoid main() { gl_Position = position; }\n";
 
-/// The two stages of a permutation as gobo compiles them.
+/// The stages of a permutation as gobo compiles them.
 [[nodiscard]] Result<Pipeline> pipeline_of(const Family& family, const Composition& composition);
 [[nodiscard]] Result<Pipeline> pipeline_of(const Sources& sources, Dialect dialect = Dialect::own);
 

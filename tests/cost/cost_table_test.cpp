@@ -91,6 +91,20 @@ TEST(Baseline, TellsOfWhatIsNoLongerMeasured) {
     EXPECT_EQ(rows_lost(read_csv("no,table\n1,2\n"), baseline), 0U);
 }
 
+TEST(Baseline, HoldsComputeStages) {
+    auto before = costs(100, 24, 500, false);
+    before.front().keys.front().stages.front().stage = "compute";
+    auto now = before;
+    now.front().keys.front().stages.front().cycles = 1000;
+    const auto comparison = compare_with_baseline(now, to_table(before), "costs.csv", 2);
+    ASSERT_TRUE(comparison);
+    ASSERT_EQ(comparison->diagnostics.size(), 1U);
+    EXPECT_EQ(
+        to_text(comparison->diagnostics.front()),
+        "gobo: error: the compute stage has grown on navi21: cycles 500 -> 1000 (+100.0 %) [fog=linear]\n"
+        "  help: if that is meant, write it anew with --update\n");
+}
+
 TEST(Baseline, LeavesOutCyclesThatWereGuessed) {
     const CsvTable guessed = to_table(costs(100, 24, 300, true));
     const auto comparison = compare_with_baseline(costs(100, 24, 500, false), guessed, "costs.csv", 2);

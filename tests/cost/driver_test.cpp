@@ -72,8 +72,15 @@ TEST_P(BadDrivers, AreErrorsThatSayWhatToInstall) {
 INSTANTIATE_TEST_SUITE_P(
     Cost, BadDrivers,
     testing::Values(BadDriver{"KnowsNoSuchChip", "tahiti", GOBO_FAKE_DRIVER,
-                              "tahiti: the driver was ended by signal 6 (Aborted): fake: unknown chip"},
-                    BadDriver{"HasNoDevice", "pitcairn", GOBO_FAKE_DRIVER, "has no device"},
+                              "tahiti: the driver was ended by signal 6 (Aborted): fake: unknown chip",
+                              "a newer mesa-vulkan-drivers may know it"},
+                    BadDriver{"KnowsTheChipByAnotherName", "gfx1100", GOBO_FAKE_DRIVER,
+                              "gfx1100: the driver was ended by signal 6 (Aborted): fake: unknown chip",
+                              "newer drivers know it as navi31: write --gpu navi31"},
+                    BadDriver{"CrashesAsItIsLoaded", "hawaii", GOBO_FAKE_DRIVER,
+                              "hawaii: the driver was ended by signal 6 (Aborted)",
+                              "'gobo cost --gpu list' says of which chips this driver has figures"},
+                    BadDriver{"HasNoDevice", "pitcairn", GOBO_FAKE_DRIVER, "has no device", "--gpu list"},
                     BadDriver{"TellsNothing", "bonaire", GOBO_FAKE_DRIVER,
                               "fake 1.0 tells nothing of compiled shaders", "libvulkan_radeon.so"},
                     BadDriver{"IsNotThere", "navi21", "libno_such_driver.so",
@@ -211,6 +218,28 @@ TEST_F(Mesa, ChargesMoreForMore) {
         for (std::size_t i = 1; i < chip.size(); ++i) {
             EXPECT_GT(chip[i][1].cycles, chip[i - 1][1].cycles) << keys[i];
             EXPECT_GT(chip[i][1].instructions, chip[i - 1][1].instructions) << keys[i];
+        }
+}
+
+TEST_F(Mesa, ChargesComputeStages) {
+    std::vector<Pipeline> pipelines;
+    for (const char* value : {"x", "sin(x)", "sin(x) + shared_values[63 - gl_LocalInvocationIndex]"})
+        pipelines.push_back(
+            pipeline_of({"", "", "", "",
+                         fmt::format("#version 450\nlayout(local_size_x = 64) in;\nuniform float gain;\n"
+                                     "layout(std430, binding = 0) buffer Values {{ float values[]; }};\n"
+                                     "shared float shared_values[64];\n"
+                                     "void main() {{\n  float x = gain * values[gl_GlobalInvocationID.x];\n"
+                                     "  shared_values[gl_LocalInvocationIndex] = x;\n  barrier();\n"
+                                     "  values[gl_GlobalInvocationID.x] = {};\n}}\n",
+                                     value)})
+                .value());
+    for (const auto& chip : costs_of(pipelines, 2))
+        for (std::size_t i = 0; i < chip.size(); ++i) {
+            ASSERT_EQ(chip[i].size(), 1U);
+            EXPECT_EQ(chip[i][0].stage, "compute");
+            EXPECT_GT(chip[i][0].instructions, i == 0 ? 0 : chip[i - 1][0].instructions);
+            EXPECT_GT(chip[i][0].cycles, i == 0 ? 0 : chip[i - 1][0].cycles);
         }
 }
 

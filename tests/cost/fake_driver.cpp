@@ -22,7 +22,8 @@ VkResult answer = VK_SUCCESS;
 
 VkResult enumerate(VkInstance, std::uint32_t* count, VkPhysicalDevice* devices) {
     const char* family = std::getenv("RADV_FORCE_FAMILY");
-    if (std::strcmp(family, "TAHITI") == 0) {
+    if (std::strcmp(family, "HAWAII") == 0) std::abort();
+    if (std::strcmp(family, "TAHITI") == 0 || std::strcmp(family, "GFX1100") == 0) {
         static_cast<void>(::write(STDERR_FILENO, "fake: unknown chip\n", 19));
         std::abort();
     }

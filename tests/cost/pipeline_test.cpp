@@ -91,6 +91,14 @@ const std::vector<Sources> kPipelines = {
      "gobo: error: a uniform outside blocks holds booleans and is read as a whole, which this driver cannot "
      "be "
      "asked about\n  help: make its booleans ints\n"},
+    {"OfACompute", "", "", "storage_buffer 1\nuniform_buffer 1\nimage 1\n",
+     "#version 450\nlayout(local_size_x = 8, local_size_y = 4) in;\nuniform float gain;\n"
+     "layout(binding = 0, rgba8) uniform image2D picture;\nlayout(std430, binding = 0) buffer Sums { vec4 "
+     "sums[]; "
+     "};\nshared vec4 row[8];\n"
+     "void main() {\n  row[gl_LocalInvocationID.x] = gain * imageLoad(picture, "
+     "ivec2(gl_GlobalInvocationID));\n"
+     "  barrier();\n  sums[gl_WorkGroupID.x] = row[0] + row[7];\n}\n"},
 };
 
 class Pipelines : public testing::TestWithParam<Sources> {};
@@ -105,8 +113,7 @@ TEST_P(Pipelines, AreWhatVulkanTakes) {
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_0);
     std::string said;
     tools.SetMessageConsumer([&](auto, auto, auto, const char* message) { said += message; });
-    EXPECT_TRUE(tools.Validate(pipeline->vertex)) << said;
-    EXPECT_TRUE(tools.Validate(pipeline->fragment)) << said;
+    for (const PipelineStage& stage : pipeline->stages) EXPECT_TRUE(tools.Validate(stage.words)) << said;
 }
 
 INSTANTIATE_TEST_SUITE_P(Cost, Pipelines, testing::ValuesIn(kPipelines),
@@ -132,8 +139,8 @@ TEST_P(Loops, VaryWhereTheirTurnsAreNotWritten) {
              ""},
             Dialect::vulkan)
             .value();
-    EXPECT_EQ(pipeline.fragment_loop_varies, GetParam().varies);
-    EXPECT_FALSE(pipeline.vertex_loop_varies);
+    EXPECT_FALSE(pipeline.stages[0].loop_varies);
+    EXPECT_EQ(pipeline.stages[1].loop_varies, GetParam().varies);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -174,8 +181,8 @@ TEST(PipelineOf, JoinsVaryingsOfOneName) {
     for (const Sources& sources : kPipelines) {
         if (sources.name != "VaryingsByName") continue;
         const Pipeline pipeline = pipeline_of(sources).value();
-        const auto outputs = locations_of(pipeline.vertex, spv::StorageClassOutput);
-        const auto inputs = locations_of(pipeline.fragment, spv::StorageClassInput);
+        const auto outputs = locations_of(pipeline.stages[0].words, spv::StorageClassOutput);
+        const auto inputs = locations_of(pipeline.stages[1].words, spv::StorageClassInput);
         EXPECT_EQ(outputs, (std::map<std::string, std::uint32_t>{{"alpha", 0}, {"beta", 1}, {"gamma", 4}}));
         EXPECT_EQ(inputs, (std::map<std::string, std::uint32_t>{{"beta", 1}, {"gamma", 4}}));
     }

@@ -173,8 +173,10 @@ Result<std::map<std::string, std::vector<GuardCycles>>> measure_cycles(const std
         const Pair pair = pair_of(guard);
         stages.emplace_back(pair.is_in_fragment ? "fragment" : "vertex");
         for (const LitUnderTest* lit : {&pair.guarded, &pair.plain}) {
-            GOBO_TRY(auto pipeline, cost::pipeline_of(lit->spirv(pair.permutation, StageKind::vertex),
-                                                      lit->spirv(pair.permutation, StageKind::fragment)));
+            std::vector<cost::PipelineStage> both;
+            for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
+                both.push_back({kind, lit->spirv(pair.permutation, kind)});
+            GOBO_TRY(auto pipeline, cost::pipeline_of(std::move(both)));
             pipelines.push_back(std::move(pipeline));
         }
     }

@@ -2,11 +2,13 @@
 // constants.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "reflect/reflect.hpp"
 #include "small_families.hpp"
@@ -102,6 +104,76 @@ TEST(VulkanInterface, HasPushConstantsApartFromBlocks) {
     ASSERT_EQ(interface.push_constants.size(), 1u);
     EXPECT_EQ(interface.push_constants[0].name, "Tint");
     EXPECT_EQ(interface.push_constants[0].size, 16);
+}
+
+struct PushedRow {
+    const char* name;
+    const char* vertex;               ///< its push constants
+    const char* fragment;             ///< its own
+    const char* value;                ///< made of those
+    std::vector<std::string> pushed;  ///< block, members with offsets, stages
+};
+
+/// To Vulkan the push constants of stages are views of one memory; glslang compares them as it links.
+class PushConstantsOfStages : public testing::TestWithParam<PushedRow> {};
+
+TEST_P(PushConstantsOfStages, AreTheirOwn) {
+    const PushedRow& row = GetParam();
+    const Built tiny = built(
+        "", std::string(row.vertex) + "void main() { gl_Position = place; }\n",
+        fmt::format("{}OUTPUT(0) vec4 color;\nvoid main() {{ color = {}; }}\n", row.fragment, row.value),
+        {"default"});
+    const Interface interface = interface_of(tiny.validated, tiny.composition.permutations[0]);
+    std::vector<std::string> pushed;
+    for (const Block& block : interface.push_constants) {
+        std::string& text = pushed.emplace_back(block.name);
+        for (const Member& member : block.members) text += fmt::format(" {}@{}", member.name, member.offset);
+        text += " " + join(block.stages, "+");
+    }
+    EXPECT_EQ(pushed, row.pushed);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, PushConstantsOfStages,
+    testing::Values(
+        PushedRow{"alike",
+                  "layout(push_constant) uniform Pushed { vec4 place; };\n",
+                  "layout(push_constant) uniform Pushed { vec4 place; };\n",
+                  "place",
+                  {"Pushed place@0 vertex+fragment"}},
+        PushedRow{"behind_each_other",
+                  "layout(push_constant) uniform Pushed { vec4 place; } own;\n#define place own.place\n",
+                  "layout(push_constant) uniform Pushed { layout(offset = 64) vec4 tint; } own;\n",
+                  "own.tint",
+                  {"Pushed place@0 vertex", "Pushed tint@64 fragment"}},
+        PushedRow{"views_of_the_same_bytes",
+                  "layout(push_constant) uniform Pushed { vec4 place; };\n",
+                  "layout(push_constant) uniform Pushed { float shine, rest[3]; };\n",
+                  "vec4(shine + rest[1])",
+                  {"Pushed place@0 vertex", "Pushed shine@0 rest@4 fragment"}},
+        PushedRow{"members_of_one_name",
+                  "layout(push_constant) uniform Pushed { vec4 place; };\n",
+                  "layout(push_constant) uniform Tints { layout(offset = 16) vec4 place; };\n",
+                  "place",
+                  {"Pushed place@0 vertex", "Tints place@16 fragment"}}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(VulkanInterface, NamesTheSizesOfWorkGroups) {
+    MemoryFileSystem files;
+    files.write("a.comp",
+                "#version 450\nlayout(local_size_x_id = 5, local_size_z_id = 7) in;\n"
+                "layout(constant_id = 1) const float gain = 2.0;\n"
+                "layout(std430, set = 0, binding = 0) buffer Values { float values[]; };\n"
+                "void main() { values[gl_GlobalInvocationID.x] *= gain * float(gl_WorkGroupSize.x); }\n");
+    SearchPath search;
+    const Family family = family_of_files({"a.comp"}, files, search).value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const Validated validated = validate(family, composition, {.keep_spirv = true});
+    ASSERT_EQ(first_text(validated.diagnostics), "");
+    EXPECT_THAT(interface_of(validated, composition.permutations[0]).specialization_constants,
+                ElementsAre(SpecializationConstant{"gain", "float", 1, 0x40000000},
+                            SpecializationConstant{"local_size_x", "uint", 5, 1},
+                            SpecializationConstant{"local_size_z", "uint", 7, 1}));
 }
 
 const std::string kLamps = "[features.lamp]\ncount = [0, 6]\nconstant = \"LAMPS\"\nspecialize = true\n";

@@ -1,4 +1,6 @@
 // A generated header for Vulkan: its tables, and the structs that <gobo/vulkan.hpp> makes of them.
+#include <array>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vulkan/vulkan_core.h>
@@ -8,6 +10,7 @@
 
 #include "descriptor_arrays.hpp"
 #include "lit.hpp"
+#include "pushed_by_stage.hpp"
 #include "spirv.hpp"
 
 namespace gobo {
@@ -120,18 +123,16 @@ TEST(VulkanHeader, GivesArraysOneBindingAndKnowsEveryKind) {
 struct PushConstantsRow {
     const char* name;
     std::vector<runtime::PushConstants> blocks;
-    std::vector<std::pair<VkShaderStageFlags, std::uint32_t>> ranges;  ///< stages and bytes
+    std::vector<std::array<std::uint32_t, 3>> ranges;  ///< stages, offset and bytes
 };
 
 /// No stage is in two ranges (VUID-VkPipelineLayoutCreateInfo-pPushConstantRanges-00292).
 class PushConstantRanges : public testing::TestWithParam<PushConstantsRow> {};
 
 TEST_P(PushConstantRanges, HaveEachStageOnce) {
-    std::vector<std::pair<VkShaderStageFlags, std::uint32_t>> ranges;
-    for (const VkPushConstantRange& range : vulkan::push_constant_ranges(GetParam().blocks)) {
-        EXPECT_EQ(range.offset, 0u);
-        ranges.emplace_back(range.stageFlags, range.size);
-    }
+    std::vector<std::array<std::uint32_t, 3>> ranges;
+    for (const VkPushConstantRange& range : vulkan::push_constant_ranges(GetParam().blocks))
+        ranges.push_back({range.stageFlags, range.offset, range.size});
     EXPECT_EQ(ranges, GetParam().ranges);
 }
 
@@ -141,11 +142,18 @@ INSTANTIATE_TEST_SUITE_P(
     Rows, PushConstantRanges,
     testing::Values(
         PushConstantsRow{"none", {}, {}},
-        PushConstantsRow{"of_two_stages", {{"Tint", 16, kVertex | kFragment}}, {{kVertex | kFragment, 16}}},
-        PushConstantsRow{"of_keys", {{"Tint", 16, kFragment}, {"Tone", 32, kFragment}}, {{kFragment, 32}}},
+        PushConstantsRow{
+            "of_two_stages", {{"Tint", 16, kVertex | kFragment}}, {{kVertex | kFragment, 0, 16}}},
+        PushConstantsRow{"of_keys", {{"Tint", 16, kFragment}, {"Tone", 32, kFragment}}, {{kFragment, 0, 32}}},
         PushConstantsRow{"of_keys_and_stages",
                          {{"Tint", 16, kVertex | kFragment}, {"Tone", 32, kFragment}},
-                         {{kVertex, 16}, {kFragment, 32}}}),
+                         {{kVertex, 0, 16}, {kFragment, 0, 32}}},
+        PushConstantsRow{"behind_each_other",
+                         {pushed_by_stage::push_constants.begin(), pushed_by_stage::push_constants.end()},
+                         {{kVertex, 0, 16}, {kFragment, 16, 16}}},
+        PushConstantsRow{"of_keys_behind_another_stage",
+                         {{"Tint", 32, kFragment, 16}, {"Tone", 80, kFragment, 64}, {"Place", 64, kVertex}},
+                         {{kVertex, 0, 64}, {kFragment, 16, 64}}}),
     [](const auto& row) { return std::string(row.param.name); });
 
 struct Vertex {

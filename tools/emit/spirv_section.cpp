@@ -147,8 +147,9 @@ Result<void> spirv_section(const EmitInput& input, const Interface& interface, c
     add_table(own, "descriptor", descriptors);
     std::vector<std::string> push_constants;
     for (const Block& block : interface.push_constants)
-        push_constants.push_back(
-            fmt::format("{{{}, {}, {:#x}}}", cpp_literal(block.name), block.size, stage_bits(block.stages)));
+        push_constants.push_back(fmt::format("{{{}, {}, {:#x}, {}}}", cpp_literal(block.name), block.size,
+                                             stage_bits(block.stages),
+                                             std::ranges::min(block.members, {}, &Member::offset).offset));
     add_table(own, "push_constant", push_constants);
     add_table(own, "vertex_input", vertex_input_rows(interface, declarations, dialect));
     std::vector<std::string> constants;

@@ -457,11 +457,13 @@ std::string domain_text(const std::vector<Domain>& domains, const std::string& p
 
 namespace {
 
+constexpr std::string_view kPushConstants = "push constant block";
+
 /// Adds the structs of a list of blocks, and their checks. The elements of an array of blocks share a struct
 /// where they have one layout.
-Result<void> add_blocks(const std::vector<Block>& blocks, bool is_storage, const std::vector<Domain>& domains,
-                        const Declarations& declarations, const TextTemplate& check, StructWriter& writer,
-                        std::string& checks) {
+Result<void> add_blocks(const std::vector<Block>& blocks, std::string_view kind,
+                        const std::vector<Domain>& domains, const Declarations& declarations,
+                        const TextTemplate& check, StructWriter& writer, std::string& checks) {
     struct Layout {
         NamedBlock block;
         std::string users;
@@ -481,11 +483,12 @@ Result<void> add_blocks(const std::vector<Block>& blocks, bool is_storage, const
             int number = 1;
             for (const Block* same = &block; same != blocks.data() && same[-1].name == block.name; --same)
                 ++number;
-            const auto differing =
-                declarations.find(is_storage ? "storage block" : "uniform block", block.name);
-            const std::string users =
+            const auto differing = declarations.find(kind, block.name);
+            std::string users =
                 differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "";
-            layout = layouts.insert(layout, {{name, std::move(sorted), is_storage}, users, {}});
+            if (kind == kPushConstants && std::ranges::count(blocks, block.name, &Block::name) > 1)
+                users = fmt::format(" of stage {}", fmt::join(block.stages, ", "));
+            layout = layouts.insert(layout, {{name, std::move(sorted), kind != "uniform block"}, users, {}});
         }
         layout->elements.insert(block.name);
         if (is_array) layout->block.count = static_cast<int>(layout->elements.size());
@@ -509,12 +512,12 @@ Result<void> block_section(const Interface& interface, const std::vector<Domain>
                            CppScope& scope, TemplateValues& values) {
     StructWriter writer(domains, templates, scope);
     std::string& checks = values["checks"] = "";
-    GOBO_TRY_DO(
-        add_blocks(interface.blocks, false, domains, declarations, templates.at("check"), writer, checks));
-    GOBO_TRY_DO(add_blocks(interface.storage_blocks, true, domains, declarations, templates.at("check"),
+    GOBO_TRY_DO(add_blocks(interface.blocks, "uniform block", domains, declarations, templates.at("check"),
                            writer, checks));
-    GOBO_TRY_DO(add_blocks(interface.push_constants, true, domains, declarations, templates.at("check"),
-                           writer, checks));
+    GOBO_TRY_DO(add_blocks(interface.storage_blocks, "storage block", domains, declarations,
+                           templates.at("check"), writer, checks));
+    GOBO_TRY_DO(add_blocks(interface.push_constants, kPushConstants, domains, declarations,
+                           templates.at("check"), writer, checks));
     values["structs"] = writer.text();
     return {};
 }

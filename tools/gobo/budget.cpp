@@ -13,6 +13,7 @@
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "gobo/input.hpp"
+#include "gobo/name_lists.hpp"
 
 namespace gobo {
 namespace {
@@ -23,7 +24,8 @@ Result<StudiedEffects> load_studied(const World& world, LoadedFamily& family, co
     if (options.study.empty() && !world.shipped.is_file(shipped)) return StudiedEffects{};
     GOBO_TRY(const auto study, read_or_shipped(world, options.study, shipped));
     if (!options.study.empty() && options.study != "-") family.files.push_back(options.study);
-    return read_studied(study.text, study.path, family.family, split(join(options.gpus, ","), ','));
+    GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
+    return read_studied(study.text, study.path, family.family, gpus);
 }
 
 /// The best buy that is promised within the error over the whole domain.

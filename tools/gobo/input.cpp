@@ -19,6 +19,7 @@
 #include "family/read_family.hpp"
 #include "gobo/known_names.hpp"
 #include "gobo/literal_counts.hpp"
+#include "gobo/name_lists.hpp"
 #include "gobo/shader_files.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/scene_domains.hpp"
@@ -355,11 +356,7 @@ std::string_view first_given(const SelectionOptions& options) {
 
 Result<Selection> load_selection(const World& world, LoadedFamily& family, const SelectionOptions& options) {
     Selection selection = options.more;
-    for (const std::string& names : options.more.over)
-        if (has_empty_part(names, ','))
-            return fail(Fault::usage, fmt::format("--over: '{}' holds an empty name", names),
-                        "write one comma between two names");
-    selection.over = split(join(options.more.over, ","), ',');
+    GOBO_TRY(selection.over, names_in("--over", options.more.over));
     for (const std::string& text : options.keys) selection.keys.push_back({text});
     for (const std::string& path : options.key_files) {
         GOBO_TRY(const auto keys, keys_of_file(world, path));

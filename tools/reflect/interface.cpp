@@ -126,14 +126,17 @@ void unite_list(const std::string& kind, std::vector<Entry> Interface::*list,
     struct Declarations {
         std::vector<Entry> entries;
         std::map<std::size_t, int> declared;  ///< by program
+        bool differ_by_stage = false;         ///< push constants, of which a program has several by one name
     };
     std::map<std::string, Declarations> names;
     const auto add = [&names](std::size_t program, const Entry& entry) {
-        auto& [entries, declared] = names[entry.name];
+        auto& [entries, declared, differ_by_stage] = names[entry.name];
         const auto serves = [&](Entry& other) { return serve_both(other, entry); };
         auto place = std::ranges::find_if(entries, serves);
         if (place == entries.end()) place = entries.insert(place, entry);
-        declared[program] = static_cast<int>(place - entries.begin()) + 1;
+        const int number = static_cast<int>(place - entries.begin()) + 1;
+        const auto [known, is_new] = declared.try_emplace(program, number);
+        differ_by_stage = differ_by_stage || (!is_new && known->second != number);
     };
     // Those that state a place come first: one that states none joins them, whatever the order of the
     // programs.
@@ -145,7 +148,7 @@ void unite_list(const std::string& kind, std::vector<Entry> Interface::*list,
                 if ((place_of(entry) >= 0) == is_stated) add(program, entry);
             }
     for (auto& [name, declarations] : names) {
-        if (declarations.entries.size() > 1) {
+        if (declarations.entries.size() > 1 && !declarations.differ_by_stage) {
             Differing& differing =
                 united.differing.emplace_back(kind, name, std::vector<int>(programs.size()));
             for (const auto& [program, number] : declarations.declared) differing.declared[program] = number;
@@ -194,6 +197,24 @@ std::string without_indices(std::string_view name) {
     return result;
 }
 
+namespace {
+
+/// Each stage may view the one memory of push constants by a block of its own, whatever its name.
+void add_push_constants(std::vector<Block>& list, const std::vector<Block>& more) {
+    for (const Block& other : more) {
+        const auto [first, last] = std::ranges::equal_range(list, other.name, {}, &Block::name);
+        const auto same = std::ranges::find(first, last, other.members, &Block::members);
+        if (same == last) {
+            list.insert(last, other);
+            continue;
+        }
+        add_stages(same->stages, other.stages);
+        same->usage.unused = same->usage.unused && other.usage.unused;
+    }
+}
+
+}  // namespace
+
 Interface merge(std::vector<Interface> stages) {
     if (stages.empty()) return {};
     std::ranges::stable_sort(stages, {}, [](const Interface& stage) {
@@ -206,7 +227,7 @@ Interface merge(std::vector<Interface> stages) {
         add_entries(program.storage_blocks, stage.storage_blocks);
         add_entries(program.uniforms, stage.uniforms);
         add_entries(program.samplers, stage.samplers);
-        add_entries(program.push_constants, stage.push_constants);
+        add_push_constants(program.push_constants, stage.push_constants);
         add_constants(program.specialization_constants, stage.specialization_constants);
     }
     program.inputs = std::move(stages.front().inputs);

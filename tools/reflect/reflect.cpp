@@ -217,13 +217,26 @@ class Reflection {
         return api_ == Api::opengl ? -1 : decorated(module_, spv::DecorationDescriptorSet, variable);
     }
 
+    /// The source's name of a constant; of a work group's size, which has none in SPIR-V, what it is stated
+    /// by.
+    [[nodiscard]] std::string name_of_constant(Id id) const {
+        for (const spirv::Instruction& instruction : module_.instructions) {
+            if (instruction.opcode != spv::OpSpecConstantComposite ||
+                module_.decoration(instruction.result, spv::DecorationBuiltIn) != spv::BuiltInWorkgroupSize)
+                continue;
+            for (std::size_t i = 0; i < 3; ++i)
+                if (instruction.id(3 + i) == id) return fmt::format("local_size_{}", "xyz"[i]);
+        }
+        return module_.name(id);
+    }
+
     void add_constants() {
         for (const spirv::Instruction& instruction : module_.instructions) {
             const auto is = [&](spv::Op opcode) { return instruction.opcode == opcode; };
             const auto id = module_.decoration(instruction.result, spv::DecorationSpecId);
             if (!id || instruction.result == Id::none) continue;
             const std::string type = type_name(module_, instruction.type);
-            const std::string name = module_.name(instruction.result);
+            const std::string name = name_of_constant(instruction.result);
             if (type != "int" && type != "uint" && type != "float" && type != "bool")
                 return stop("the specialisation constant '{}' is none of int, uint, float and bool", name,
                             Fault::input, "make it a float or an int: headers carry values of 32 bits");

@@ -138,15 +138,11 @@ void explain(Diagnostic& diagnostic) {
             "declare it by BLOCK(N, name) or SAMPLER(N, type), or write layout(set = S, binding = N)";
     if (diagnostic.message.starts_with("'location' : SPIR-V requires location"))
         diagnostic.help = "write layout(location = N): where there is SPIR-V, names do not count";
-    // The alignment of an array, a struct or a matrix is left to the reader.
     if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
     const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
     const auto at = std::ranges::find(tokens, "offset");
     if (tokens.end() - at < 5 || at[1] != "=" || at[3] != ")") return;
-    const std::optional<GlslType> type = glsl_type(at[4]);
-    if (type && !type->is_matrix())
-        diagnostic.message += fmt::format(": {} is not a multiple of {}, to which a {} is aligned", at[2],
-                                          type->column_alignment(), at[4]);
+    diagnostic.message = unaligned_text(at[2], at[4]);
 }
 
 /// The names of the specialisation constants that the text declares.
@@ -164,6 +160,16 @@ std::vector<std::string_view> specialization_constants_in(std::string_view text)
 }
 
 }  // namespace
+
+std::string unaligned_text(std::string_view offset, std::string_view type) {
+    std::string text = "'offset' : must be a multiple of the member's alignment";
+    // That of an array, a struct or a matrix is left to the reader.
+    const std::optional<GlslType> known = glsl_type(type);
+    if (known && !known->is_matrix())
+        text += fmt::format(": {} is not a multiple of {}, to which a {} is aligned", offset,
+                            known->column_alignment(), type);
+    return text;
+}
 
 std::string id_of_count(int id, std::string_view count) {
     return fmt::format("constant_id {} is that of the count {}", id, count);

@@ -10,6 +10,8 @@
 
 namespace gobo {
 
+/// glslang's error of a member that states an offset to which its type is not aligned, with both numbers.
+[[nodiscard]] std::string unaligned_text(std::string_view offset, std::string_view type);
 /// What is said of a shader's own constant that has the constant_id of a count.
 [[nodiscard]] std::string id_of_count(int id, std::string_view count);
 inline constexpr std::string_view kIdsOfCounts =

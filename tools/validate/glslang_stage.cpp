@@ -337,6 +337,34 @@ Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
 }
 
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
+    Diagnostics found = link_by_glslang(stages);
+    if (stages.front()->dialect_ != Dialect::vulkan || !has_errors(found)) return found;
+    // glslang compares the push constants of stages. To Vulkan they are views of one memory, so they are
+    // linked with names of their own.
+    std::deque<Piece> prologues;
+    std::vector<std::unique_ptr<GlslangStage>> apart;
+    std::vector<GlslangStage*> linked;
+    bool is_changed = false;
+    for (const GlslangStage* const stage : stages) {
+        std::vector<const Piece*> pieces = stage->pieces_;
+        Piece& prologue = prologues.emplace_back(*pieces.front());
+        for (const std::string& name : names_of_push_constants(pieces))
+            prologue.text += fmt::format("#define {0} {0}_of_{1}\n", name, name_of(stage->kind_));
+        is_changed = is_changed || prologue.text.size() > pieces.front()->text.size();
+        pieces.front() = &prologue;
+        apart.push_back(std::make_unique<GlslangStage>(stage->kind_, std::move(pieces), stage->dialect_));
+        linked.push_back(apart.back().get());
+    }
+    if (!is_changed) return found;
+    for (GlslangStage* const stage : linked)
+        if (has_errors(stage->parse())) return found;
+    found = link_by_glslang(linked);
+    if (!has_errors(found))
+        for (GlslangStage* const stage : stages) stage->parse();  // glslang keeps the error in them
+    return found;
+}
+
+Diagnostics link_by_glslang(const std::vector<GlslangStage*>& stages) {
     glslang::TProgram program;
     for (GlslangStage* const stage : stages) program.addShader(&stage->shader_->shader);
     const bool is_vulkan = stages.front()->dialect_ == Dialect::vulkan;

@@ -36,6 +36,7 @@ class GlslangStage {
 
     /// What glslang says of the stages as one program. All must have been parsed.
     friend Diagnostics link(const std::vector<GlslangStage*>& stages);
+    friend Diagnostics link_by_glslang(const std::vector<GlslangStage*>& stages);
 
   private:
     /// glslang's shader with the strings it points into.
@@ -63,7 +64,7 @@ class GlslangStage {
     bool without_formats_ = false;  ///< glslang sees no formats of images
     Precisions precisions_;         ///< of the stage as OpenGL ES, where it is that
     Stated stated_;
-    bool makes_invariant_ = false;  ///< each of its outputs, by a pragma that glslang does not read
+    bool makes_invariant_ = false;          ///< each of its outputs, by a pragma that glslang does not read
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for
 };
 

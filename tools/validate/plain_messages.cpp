@@ -73,16 +73,7 @@ Diagnostic mismatch_message(std::string_view message, const PieceList& pieces, c
     const Declaration at = declaration_of(name, "", pieces);
     const std::string other =
         declaration_of(initialised.empty() ? last_name(there) : name, "", earlier).text();
-    const auto has_push_constants = [](const PieceList& list) {
-        return std::ranges::any_of(list, [](const Piece* piece) {
-            return std::ranges::count(tokens_of(piece->text), "push_constant") > 0;
-        });
-    };
-    const bool may_be_pushed = has_push_constants(pieces) && has_push_constants(earlier);
-    const char* const help = may_be_pushed
-                                 ? "declare it alike in both stages; blocks of push constants whose members "
-                                   "differ name differently"
-                                 : "declare it alike in both stages";
+    const char* const help = "declare it alike in both stages";
     if (!initialised.empty())
         return diagnostic_at(at, Severity::error,
                              fmt::format("'{}' begins with another value here than in {}", name, other),

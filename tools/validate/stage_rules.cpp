@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "compose/tokens.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
+#include "validate/glslang_log.hpp"
 #include "validate/guarantees.hpp"
 
 namespace gobo {
@@ -38,6 +42,7 @@ class StageCheck {
         check_sizes();
         check_writeonly();
         check_offsets();
+        if (dialect_ == Dialect::vulkan) check_stated_offsets();
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -108,7 +113,8 @@ class StageCheck {
 
     /// glslang takes 1 where nothing is stated, OpenGL does not (GLSL 4.50, 4.4.1.4).
     void check_local_size() {
-        for (const std::string_view name : {"local_size_x", "local_size_y", "local_size_z"})
+        for (const std::string_view name : {"local_size_x", "local_size_y", "local_size_z", "local_size_x_id",
+                                            "local_size_y_id", "local_size_z_id"})
             if (use_of(name, pieces_).place.line > 0) return;
         found_.push_back(
             diagnostic_at({{pieces_.back()->path, 0, 0}, "", false}, Severity::error,
@@ -239,6 +245,28 @@ class StageCheck {
                                         member.offset, where, before.name),
                             "order members by their offsets, each behind the end of the one before");
                     }
+                }
+    }
+
+    /// In a block that leaves its layout to Vulkan, glslang moves a member whose offset its type does not
+    /// allow.
+    void check_stated_offsets() {
+        for (const auto* const blocks : {&interface_.blocks, &interface_.storage_blocks})
+            for (const Block& block : *blocks)
+                for (const Member& member : block.members) {
+                    const Declaration at = declaration_of_member(root_of(block.name), member.name, pieces_);
+                    const std::vector<std::string_view> tokens = tokens_of(at.quoted_line);
+                    const auto name = std::ranges::find(tokens, std::string_view(member.name));
+                    const auto begin =
+                        std::find_if(std::reverse_iterator(name), tokens.rend(), [](std::string_view token) {
+                            return token == ";" || token == "{";
+                        }).base();
+                    const auto offset = std::find(begin, name, "offset");
+                    if (name - offset < 3) continue;
+                    int stated = member.offset;  // what is no plain number is taken as it came
+                    std::from_chars(offset[2].data(), offset[2].data() + offset[2].size(), stated);
+                    if (stated == member.offset || (offset[3] != ")" && offset[3] != ",")) continue;
+                    return refuse(at, unaligned_text(offset[2], member.array.empty() ? member.type : ""), "");
                 }
     }
 

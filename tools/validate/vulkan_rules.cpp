@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "compose/tokens.hpp"
+#include "core/text.hpp"
 #include "spirv/vertex_locations.hpp"
 #include "validate/declaration.hpp"
 
@@ -56,7 +58,33 @@ void check_inputs(const Interface& interface, const std::vector<const Piece*>& p
     }
 }
 
+/// The names that the declaration at `at` gives, "layout(push_constant) uniform Block { members } instance;".
+void add_names(const std::vector<std::string_view>& tokens, std::size_t at, std::set<std::string>& names) {
+    while (at < tokens.size() && tokens[at] != "uniform" && tokens[at] != ";") ++at;
+    if (at + 2 >= tokens.size() || tokens[at] != "uniform" || tokens[at + 2] != "{") return;
+    names.emplace(tokens[at + 1]);
+    std::set<std::string> members;
+    for (at += 3; at < tokens.size() && tokens[at] != "}"; ++at) {
+        const bool ends = tokens[at] == ";" || tokens[at] == "," || tokens[at] == "[";
+        if (ends && is_identifier(tokens[at - 1])) members.emplace(tokens[at - 1]);
+    }
+    if (at + 1 < tokens.size() && is_identifier(tokens[at + 1]))
+        names.emplace(tokens[at + 1]);
+    else
+        names.merge(members);
+}
+
 }  // namespace
+
+std::set<std::string> names_of_push_constants(const std::vector<const Piece*>& pieces) {
+    std::set<std::string> names;
+    for (const Piece* const piece : pieces) {
+        const std::vector<std::string_view> tokens = tokens_of(piece->text);
+        for (std::size_t at = 0; at < tokens.size(); ++at)
+            if (tokens[at] == "push_constant") add_names(tokens, at, names);
+    }
+    return names;
+}
 
 Diagnostics check_vulkan(StageKind kind, const Interface& interface,
                          const std::vector<const Piece*>& pieces) {

@@ -1,6 +1,8 @@
 // What Vulkan 1.0 lacks and glslang takes all the same within one stage.
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -13,5 +15,9 @@ namespace gobo {
 /// which each has one VkVertexInputAttributeDescription.
 [[nodiscard]] Diagnostics check_vulkan(StageKind kind, const Interface& interface,
                                        const std::vector<const Piece*>& pieces);
+
+/// What the stage's text calls its block of push constants: the block, its instance, and its members where it
+/// has no instance.
+[[nodiscard]] std::set<std::string> names_of_push_constants(const std::vector<const Piece*>& pieces);
 
 }  // namespace gobo

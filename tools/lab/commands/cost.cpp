@@ -6,6 +6,7 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "gobo/name_lists.hpp"
 #include "lab/commands/cost_pipelines.hpp"
 #include "lab/cost/baseline.hpp"
 #include "lab/cost/study_cycles.hpp"
@@ -61,11 +62,11 @@ Result<Outcome> list_chips(const CostCommandOptions& options, const World& world
                    "--driver"};
 }
 
-/// The names of the pieces of both stages.
+/// The names of the pieces of all stages.
 std::vector<std::string> pieces_of(const Composition& composition, const Permutation& permutation) {
     std::vector<std::string> names;
-    for (const int stage : {permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]})
-        for (const int piece : composition.stage(stage).pieces) {
+    for (const int stage : permutation.stages.values)
+        for (const int piece : stage < 0 ? std::vector<int>() : composition.stage(stage).pieces) {
             const std::string& name = composition.piece(piece).name;
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
         }
@@ -110,6 +111,17 @@ Result<void> put_first(Subject& subject, const std::string& against) {
     for (const Permutation& permutation : subject.composition.permutations)
         if (permutation.key != keys.front()) keys.push_back(permutation.key);
     GOBO_TRY(subject.composition, compose_keys(subject.family, keys));
+    const std::vector<Permutation>& permutations = subject.composition.permutations;
+    const auto kind = [](const Permutation& permutation) {
+        return std::pair(is_costed(permutation.stages), permutation.stages[StageKind::compute] >= 0);
+    };
+    for (const Permutation& permutation : permutations)
+        if (kind(permutation) != kind(permutations.front()))
+            return fail(Fault::usage,
+                        fmt::format("--against: '{}' and '{}' are of programs that have other stages",
+                                    key_text(subject.family.family, keys.front()),
+                                    key_text(subject.family.family, permutation.key)),
+                        "name a key of the same program");
     return {};
 }
 
@@ -160,34 +172,29 @@ Result<Outcome> cost_study(const World& world, const CostCommandOptions& options
     return Outcome{csv_text(cost::with_cycles(study, costs)), std::move(diagnostics)};
 }
 
-/// An error where shader files are not of a vertex and a fragment stage.
+/// An error where shader files are no pipeline that drivers are asked about.
 Result<void> refuse_other_files(const StageNumbers& stages) {
-    const std::string help = "name a file of each of those two: gobo cost game.vert game.frag --gpu navi21";
-    for (const StageNames& stage : kStages) {
-        const bool is_usual = stage.kind == StageKind::vertex || stage.kind == StageKind::fragment;
-        if (!is_usual && stages[stage.kind] >= 0)
+    if (is_costed(stages)) return {};
+    const std::string help =
+        "name a file of each of those two: gobo cost game.vert game.frag --gpu navi21; or a compute stage";
+    for (const StageNames& stage : kStages)
+        if ((lies_between(stage.kind) || stage.kind == StageKind::compute) && stages[stage.kind] >= 0)
             return fail(
                 Fault::usage,
                 fmt::format("gobo cost compiles a vertex and a fragment stage alone, and here is a {} "
                             "stage",
                             stage.name),
                 help);
-    }
-    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
-        if (stages[kind] < 0)
-            return fail(Fault::usage,
-                        fmt::format("there is no {} stage, and drivers compile both together", name_of(kind)),
-                        help);
-    return {};
+    const StageKind missing = stages[StageKind::vertex] < 0 ? StageKind::vertex : StageKind::fragment;
+    return fail(Fault::usage,
+                fmt::format("there is no {} stage, and drivers compile both together", name_of(missing)),
+                help);
 }
 
 Result<Outcome> run(const CostCommandOptions& options, const World& world) {
-    const std::vector<std::string> gpus = split(join(options.gpus, ","), ',');
+    GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
     GOBO_TRY(const std::vector<cost::Chip> chips, cost::chips_named(gpus));
-    if (chips.empty())
-        return fail(Fault::usage, "--gpu names no chip",
-                    "name some, such as navi21,vega10; --gpu list has all");
     if (options.names.empty())
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");
@@ -198,26 +205,28 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
         return Outcome{{}, warn_of_no_keys(subject.composition, "there is nothing to cost")};
     if (subject.are_files) GOBO_TRY_DO(refuse_other_files(subject.composition.permutations.front().stages));
     // Of a family with passes of other stages the rest is costed.
-    const auto left_out =
-        std::erase_if(subject.composition.permutations,
-                      [&](const Permutation& permutation) { return !permutation.stages.is_usual_pair(); });
+    const auto left_out = std::erase_if(subject.composition.permutations, [](const Permutation& permutation) {
+        return !is_costed(permutation.stages);
+    });
     if (subject.composition.permutations.empty())
-        return fail(
-            Place{subject.family.family.path}, "",
-            "gobo cost compiles a vertex and a fragment stage, and no key of the selection has those alone",
-            "name keys of other programs by --where");
+        return fail(Place{subject.family.family.path}, "",
+                    "gobo cost compiles a vertex and a fragment stage or a compute stage, and no key of the "
+                    "selection "
+                    "has those alone",
+                    "name keys of other programs by --where");
     if (!options.against.empty()) GOBO_TRY_DO(put_first(subject, options.against));
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true}));
-    Pairs pairs = pairs_of(options, subject, validated);
+    Pipelines pipelines = pipelines_of(options, subject, validated);
     Diagnostics diagnostics = std::move(validated.diagnostics);
     if (left_out > 0)
         diagnostics.push_back(
             {.severity = Severity::warning,
              .message = fmt::format(
-                 "{} keys are left out: gobo cost compiles a vertex and a fragment stage alone", left_out),
+                 "{} keys are left out: gobo cost compiles a vertex and a fragment stage or a compute stage",
+                 left_out),
              .help = "name those that have no other stages by --where"});
-    append(diagnostics, pairs.errors);
-    const auto costs = costs_of(world, options, subject, pairs, chips, diagnostics);
+    append(diagnostics, pipelines.errors);
+    const auto costs = costs_of(world, options, subject, pipelines, chips, diagnostics);
     if (!options.baseline.empty()) return hold_to_baseline(world, options, costs, std::move(diagnostics));
     std::string text;
     if (!options.against.empty()) {
@@ -264,7 +273,7 @@ Command cost_command() {
     const auto options = std::make_shared<CostCommandOptions>();
     return {
         titles::kCost,
-        {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert, .frag, .vert.glsl, .frag.glsl)",
+        {{"NAMES", "FAMILY|FILES...", "A family, or shader files (.vert and .frag, or .comp; .vert.glsl ...)",
           &options->names},
          stages_option(options->stages),
          dialect_option(options->dialect),
@@ -311,7 +320,7 @@ Command cost_command() {
           {.excludes = "--json --csv"}},
          {"--json", "", "Print JSON", &options->json, {.excludes = "--csv"}},
          {"--csv", "", "Print CSV, with instructions by kind", &options->csv},
-         keep_option(options->folder, "the SPIR-V of pairs that a driver crashes on"),
+         keep_option(options->folder, "the SPIR-V of stages that a driver crashes on"),
          driver_option(options->driver)},
         {selection_options(*options)},
         "  gobo cost lit --cover 2 --gpu polaris10,vega10,navi21\n"
@@ -319,13 +328,15 @@ Command cost_command() {
         "  gobo cost lit --key 'point=2 light_sum=compensated' --against point=2 --gpu navi21\n"
         "  gobo cost lit --cover 2 --specialized --gpu navi21\n"
         "  gobo cost game.vert game.frag --gpu navi21\n"
+        "  gobo cost blur.comp --gpu navi21\n"
         "  gobo cost game.vert game.frag --gpu navi21 --dialect vulkan\n"
         "  gobo cost lit --gpu navi21 --baseline costs.csv --update\n"
         "  gobo cost --gpu list",
         [options](const World& world) { return run(*options, world); },
         "Figures are a compiler's static estimates: no time was measured, and no GPU is needed. Cycles are "
         "those of "
-        "64 vertices or fragments; of NVIDIA's chips they are gobo's own estimate from the driver's "
+        "64 vertices, fragments or invocations; of NVIDIA's chips they are gobo's own estimate from the "
+        "driver's "
         "assembly. Where "
         "'loop' stands, the compiler guesses how often it runs."};
 }

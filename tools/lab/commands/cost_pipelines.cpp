@@ -1,6 +1,7 @@
 #include "lab/commands/cost_pipelines.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -13,18 +14,18 @@
 namespace gobo {
 namespace {
 
-Pair pair_of(const Permutation& permutation) {
-    Pair pair{permutation.stages[StageKind::vertex], permutation.stages[StageKind::fragment]};
+PipelineKey key_of(const Permutation& permutation) {
+    PipelineKey key{permutation.stages};
     for (const SpecializedCount& count : permutation.specialized)
-        pair.constants.emplace_back(count.id, count.value);
-    return pair;
+        key.constants.emplace_back(count.id, count.value);
+    return key;
 }
 
-/// Puts the error where one of the two stages first has the name.
+/// Puts the error where one of the stages first has the name.
 void put_at_name(Diagnostic& error, const Composition& composition, const Permutation& permutation,
                  const std::string& name) {
-    for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
-        for (const int number : composition.stage(permutation.stages[kind]).pieces) {
+    for (const int stage : permutation.stages.values)
+        for (const int number : stage < 0 ? std::vector<int>() : composition.stage(stage).pieces) {
             const std::string& text = composition.piece(number).text;
             for (const std::string_view token : tokens_of(text)) {
                 if (token != name) continue;
@@ -41,22 +42,33 @@ std::string_view bytes_of(const cost::Words& words) {
 
 }  // namespace
 
+bool is_costed(const StageNumbers& stages) {
+    StageNumbers compute;
+    compute[StageKind::compute] = stages[StageKind::compute];
+    return stages.is_usual_pair() || (stages == compute && stages != StageNumbers());
+}
+
 cost::CompileOptions compile_options(const CostCommandOptions& options, const World& world) {
     return {.driver = options.driver, .jobs = world.jobs()};
 }
 
 Result<cost::Pipeline> pipeline_of(const Composition& composition, const Validated& validated,
                                    const Permutation& permutation) {
-    const Pair pair = pair_of(permutation);
-    const ValidatedStage& vertex = validated.stage(pair.vertex);
-    const ValidatedStage& fragment = validated.stage(pair.fragment);
+    std::vector<cost::PipelineStage> stages;
+    std::uint32_t push_bytes = 0;
+    for (const StageNames& names : kStages) {
+        const int number = permutation.stages[names.kind];
+        if (number < 0) continue;
+        const ValidatedStage& stage = validated.stage(number);
+        stages.push_back({names.kind, stage.spirv});
+        for (const Block& block : stage.interface.push_constants)
+            push_bytes = std::max(push_bytes, static_cast<std::uint32_t>(block.size));
+    }
     const bool is_vulkan = composition.dialect == Dialect::vulkan;
-    GOBO_TRY(cost::Pipeline pipeline, is_vulkan ? cost::pipeline_of_vulkan(vertex.spirv, fragment.spirv)
-                                                : cost::pipeline_of(vertex.spirv, fragment.spirv));
-    pipeline.constants = pair.constants;
-    for (const ValidatedStage* stage : {&vertex, &fragment})
-        for (const Block& block : stage->interface.push_constants)
-            pipeline.push_bytes = std::max(pipeline.push_bytes, static_cast<std::uint32_t>(block.size));
+    GOBO_TRY(cost::Pipeline pipeline,
+             is_vulkan ? cost::pipeline_of_vulkan(std::move(stages)) : cost::pipeline_of(std::move(stages)));
+    pipeline.constants = key_of(permutation).constants;
+    pipeline.push_bytes = push_bytes;
     return pipeline;
 }
 
@@ -68,24 +80,25 @@ std::string text_of(const CostCommandOptions& options, const Subject& subject,
     return join(options.names, " ") + (is_only ? "" : " " + key);
 }
 
-Pairs pairs_of(const CostCommandOptions& options, const Subject& subject, const Validated& validated) {
-    Pairs pairs;
-    std::map<Pair, bool> seen;
+Pipelines pipelines_of(const CostCommandOptions& options, const Subject& subject,
+                       const Validated& validated) {
+    Pipelines pipelines;
+    std::set<PipelineKey> seen;
     for (const Permutation& permutation : subject.composition.permutations) {
-        if (!seen.try_emplace(pair_of(permutation)).second) continue;
+        if (!seen.insert(key_of(permutation)).second) continue;
         auto pipeline = pipeline_of(subject.composition, validated, permutation);
         if (pipeline) {
-            pairs.numbers[pair_of(permutation)] = pairs.pipelines.size();
-            pairs.pipelines.push_back(*std::move(pipeline));
+            pipelines.numbers[key_of(permutation)] = pipelines.list.size();
+            pipelines.list.push_back(*std::move(pipeline));
             continue;
         }
         for (Diagnostic& error : pipeline.error()) {
             put_at_name(error, subject.composition, permutation, error.subject);
             error.subject = text_of(options, subject, permutation);
-            pairs.errors.push_back(std::move(error));
+            pipelines.errors.push_back(std::move(error));
         }
     }
-    return pairs;
+    return pipelines;
 }
 
 Diagnostics report_failure(const World& world, const CostCommandOptions& options, const cost::Chip& chip,
@@ -95,54 +108,56 @@ Diagnostics report_failure(const World& world, const CostCommandOptions& options
     Diagnostic& error = diagnostics.front();
     error.message = fmt::format("{} has no figures: the driver {}", chip.name, reason);
     error.subject = key;
-    error.help = "keep its two stages as SPIR-V with -o DIR, for a report to the driver's makers";
+    error.help = "keep its stages as SPIR-V with -o DIR, for a report to the driver's makers";
     if (options.folder.empty()) return diagnostics;
     std::string name = picture_name(key);
     std::replace(name.begin(), name.end(), '/', '+');  // of files
     const std::string path = fmt::format("{}/{}.{}", options.folder, chip.name, name);
-    error.help =
-        fmt::format("its stages, for a report to the driver's makers: {0}.vert.spv, {0}.frag.spv", path);
-    for (const auto& [end, words] :
-         {std::pair(".vert.spv", &pipeline.vertex), {".frag.spv", &pipeline.fragment}})
-        if (const auto written = world.disk.write(path + end, bytes_of(*words)); !written)
+    std::vector<std::string> files;
+    for (const cost::PipelineStage& stage : pipeline.stages) {
+        files.push_back(fmt::format("{}.{}.spv", path, names_of(stage.kind).infix));
+        if (const auto written = world.disk.write(files.back(), bytes_of(stage.words)); !written)
             append(diagnostics, written.error());
+    }
+    diagnostics.front().help =
+        fmt::format("its stages, for a report to the driver's makers: {}", join(files, ", "));
     return diagnostics;
 }
 
 std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOptions& options,
-                                     const Subject& subject, const Pairs& pairs,
+                                     const Subject& subject, const Pipelines& pipelines,
                                      const std::vector<cost::Chip>& chips, Diagnostics& diagnostics) {
     std::vector<cost::ChipCost> costs;
-    if (pairs.pipelines.empty()) return costs;
+    if (pipelines.list.empty()) return costs;
     const auto answers =
-        cost::compile_on_chips(world.disk, chips, pairs.pipelines, compile_options(options, world));
+        cost::compile_on_chips(world.disk, chips, pipelines.list, compile_options(options, world));
     for (std::size_t i = 0; i < chips.size(); ++i) {
         if (!answers[i]) {
             append(diagnostics, answers[i].error());
             continue;
         }
-        std::vector<std::vector<cost::StageCost>> stages(pairs.pipelines.size());
-        for (std::size_t pair = 0; pair < stages.size(); ++pair) {
-            const cost::Pipeline& pipeline = pairs.pipelines[pair];
-            if (const auto& compiled = answers[i]->pipelines[pair])
-                for (const cost::CompiledStage& stage : *compiled)
-                    stages[pair].push_back(cost::cost_of(stage, chips[i],
-                                                         stage.stage == "vertex"
-                                                             ? pipeline.vertex_loop_varies
-                                                             : pipeline.fragment_loop_varies));
-        }
+        std::vector<std::vector<cost::StageCost>> stages(pipelines.list.size());
+        for (std::size_t number = 0; number < stages.size(); ++number)
+            if (const auto& compiled = answers[i]->pipelines[number])
+                for (const cost::CompiledStage& stage : *compiled) {
+                    const auto varies = [&](const cost::PipelineStage& own) {
+                        return own.loop_varies && name_of(own.kind) == stage.stage;
+                    };
+                    stages[number].push_back(cost::cost_of(
+                        stage, chips[i], std::ranges::any_of(pipelines.list[number].stages, varies)));
+                }
         cost::ChipCost& cost = costs.emplace_back(cost::ChipCost{chips[i], answers[i]->driver, {}});
         std::vector<bool> is_reported(stages.size());
         for (const Permutation& permutation : subject.composition.permutations) {
-            const auto number = pairs.numbers.find(pair_of(permutation));
-            if (number == pairs.numbers.end()) continue;
-            const std::size_t pair = number->second;
+            const auto found = pipelines.numbers.find(key_of(permutation));
+            if (found == pipelines.numbers.end()) continue;
+            const std::size_t number = found->second;
             const std::string key = text_of(options, subject, permutation);
-            if (const auto& compiled = answers[i]->pipelines[pair]) {
-                cost.keys.push_back({key, stages[pair]});
-            } else if (!is_reported[pair]) {
-                is_reported[pair] = true;
-                append(diagnostics, report_failure(world, options, chips[i], pairs.pipelines[pair], key,
+            if (const auto& compiled = answers[i]->pipelines[number]) {
+                cost.keys.push_back({key, stages[number]});
+            } else if (!is_reported[number]) {
+                is_reported[number] = true;
+                append(diagnostics, report_failure(world, options, chips[i], pipelines.list[number], key,
                                                    compiled.error()));
             }
         }
@@ -150,6 +165,7 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
     }
     return costs;
 }
+
 std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamily& family,
                                            const CsvTable& study, const std::string& path,
                                            const std::vector<cost::Chip>& chips, const std::string& driver,
@@ -177,9 +193,9 @@ std::vector<cost::ChipCost> costs_of_study(const World& world, const LoadedFamil
         append(diagnostics, validated.error());
         return {};
     }
-    const Pairs pairs = pairs_of(options, subject, *validated);
-    append(diagnostics, pairs.errors);
-    return costs_of(world, options, subject, pairs, chips, diagnostics);
+    const Pipelines pipelines = pipelines_of(options, subject, *validated);
+    append(diagnostics, pipelines.errors);
+    return costs_of(world, options, subject, pipelines, chips, diagnostics);
 }
 
 }  // namespace gobo

@@ -32,26 +32,27 @@ struct CostCommandOptions : SelectionOptions {
     std::string folder;  ///< for SPIR-V that a driver does not take; empty: it is not kept
 };
 
-/// A permutation's two stages, indices into Composition::stages, and the values of its specialisation
-/// constants by constant_id.
-struct Pair {
-    int vertex = 0;
-    int fragment = 0;
+/// A permutation's stages and the values of its specialisation constants by constant_id.
+struct PipelineKey {
+    StageNumbers stages;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
 
-    friend auto operator<=>(const Pair&, const Pair&) = default;
+    friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
 };
 
-/// What is compiled: each distinct pair once.
-struct Pairs {
-    std::vector<cost::Pipeline> pipelines;
-    std::map<Pair, std::size_t> numbers;  ///< index into pipelines
-    Diagnostics errors;                   ///< of pairs that are no pipeline
+/// What is compiled: each distinct pipeline once.
+struct Pipelines {
+    std::vector<cost::Pipeline> list;
+    std::map<PipelineKey, std::size_t> numbers;  ///< index into the list
+    Diagnostics errors;                          ///< of permutations that are no pipeline
 };
+
+/// Whether drivers are asked about such stages: a vertex and a fragment stage, or a compute stage.
+[[nodiscard]] bool is_costed(const StageNumbers& stages);
 
 [[nodiscard]] cost::CompileOptions compile_options(const CostCommandOptions& options, const World& world);
 
-/// A permutation's two stages with the values of its constants. Errors: what Vulkan does not take.
+/// A permutation's stages with the values of its constants. Errors: what Vulkan does not take.
 [[nodiscard]] Result<cost::Pipeline> pipeline_of(const Composition& composition, const Validated& validated,
                                                  const Permutation& permutation);
 
@@ -59,17 +60,17 @@ struct Pairs {
 [[nodiscard]] std::string text_of(const CostCommandOptions& options, const Subject& subject,
                                   const Permutation& permutation);
 
-[[nodiscard]] Pairs pairs_of(const CostCommandOptions& options, const Subject& subject,
-                             const Validated& validated);
+[[nodiscard]] Pipelines pipelines_of(const CostCommandOptions& options, const Subject& subject,
+                                     const Validated& validated);
 
-/// A pair that a driver did not compile, its SPIR-V where -o says.
+/// A pipeline that a driver did not compile, its SPIR-V where -o says.
 [[nodiscard]] Diagnostics report_failure(const World& world, const CostCommandOptions& options,
                                          const cost::Chip& chip, const cost::Pipeline& pipeline,
                                          const std::string& key, const std::string& reason);
 
 /// The costs of every permutation that a chip's driver compiles; what fails is added to `diagnostics`.
 [[nodiscard]] std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOptions& options,
-                                                   const Subject& subject, const Pairs& pairs,
+                                                   const Subject& subject, const Pipelines& pipelines,
                                                    const std::vector<cost::Chip>& chips,
                                                    Diagnostics& diagnostics);
 

@@ -1,4 +1,5 @@
 // gobo cost --specialized: counts as constants of the pipeline against the same counts as numbers.
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -42,8 +43,9 @@ Result<Outcome> compare_specialized(const World& world, const CostCommandOptions
                     "leave --dialect out, or name vulkan");
     const auto compiled = [&](const std::string& dialect, Counts counts) -> Result<Side> {
         GOBO_TRY(Subject subject, load_subject(world, options.names, {}, dialect, &options, counts));
-        GOBO_TRY_DO(
-            refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
+        if (!std::ranges::all_of(subject.composition.permutations, is_costed, &Permutation::stages))
+            GOBO_TRY_DO(
+                refuse_other_stages(subject.family.family, subject.composition, "gobo cost compiles", true));
         Side side;
         GOBO_TRY(side.validated, compile(world, subject, {.keep_spirv = true}));
         for (const ValidatedStage& stage : side.validated.stages) GOBO_TRY_DO(side.modules.add(stage.spirv));

@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "gobo/name_lists.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/study_cycles.hpp"
@@ -103,7 +104,8 @@ Result<Outcome> show_front(const StudyCommandOptions& options, const World& worl
         if (!options.svg.empty()) GOBO_TRY_DO(world.disk.write(options.svg, chart.svg()));
         return Outcome{study::front_table(rows), {}, options.svg};
     }
-    GOBO_TRY(const auto measures, study::measures_of(rows, split(join(options.gpus, ","), ',')));
+    GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
+    GOBO_TRY(const auto measures, study::measures_of(rows, gpus));
     if (!options.svg.empty())
         GOBO_TRY_DO(
             world.disk.write(options.svg, study::fronts_svg(family.family, plan.rate, all, title, measures)));
@@ -134,7 +136,8 @@ Result<Outcome> show_fronts(const StudyCommandOptions& options, const World& wor
     GOBO_TRY(const LoadedFamily family, load_family(world, options.family));
     GOBO_TRY(const auto plan, load_plan(world, family.family, options.plan));
     GOBO_TRY(const auto rows, read_study(options, world, family.family, nullptr));
-    GOBO_TRY(const auto measures, study::measures_of(rows, split(join(options.gpus, ","), ',')));
+    GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
+    GOBO_TRY(const auto measures, study::measures_of(rows, gpus));
     GOBO_TRY_DO(
         world.disk.write(options.fronts, study::fronts_page(family.family, plan.rate, rows, measures)));
     return Outcome{
@@ -433,7 +436,8 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
                     "name the folder for index.html, the charts and the tables: -o study");
     if (options.weigh) return weigh(options, world);
     if (!options.draw.empty()) return draw(options, world);
-    GOBO_TRY(const auto chips, cost::chips_named(split(join(options.gpus, ","), ',')));
+    GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
+    GOBO_TRY(const auto chips, cost::chips_named(gpus));
     GOBO_TRY(const LoadedFamily loaded, load_family(world, options.family));
     const Family& family = loaded.family;
     study::StudyOptions study_options = options.study;

@@ -46,7 +46,7 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
         const RowName row_name = {cells[names[0]], cells[names[1]], cells[names[2]]};
         if (std::ranges::find(chips(), row_name[0], &Chip::name) == chips().end())
             return unknown("GPU that gobo knows", row_name[0]);
-        if (row_name[2] != "vertex" && row_name[2] != "fragment")
+        if (row_name[2] != "vertex" && row_name[2] != "fragment" && row_name[2] != "compute")
             return unknown("stage that is costed", row_name[2]);
         const auto [at, is_new] = rows.try_emplace(row_name);
         if (!is_new)

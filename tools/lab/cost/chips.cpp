@@ -78,12 +78,13 @@ std::string_view install_driver(Maker maker) {
                  "and name it with --driver";
 }
 
-std::string_view install_newer(Maker maker) {
-    return maker == Maker::amd
+std::string_view install_newer(const Chip& chip) {
+    if (chip.name == "gfx1100") return "newer drivers know it as navi31: write --gpu navi31";
+    return chip.maker == Maker::amd
                ? "a newer mesa-vulkan-drivers may know it: fetch one into a folder with tools/fetch_mesa.sh "
                  "(installed: share/gobo/tools) "
                  "and name it with --driver; 'gobo cost --gpu list' says which chips this one knows"
-               : install_driver(maker);
+               : install_driver(chip.maker);
 }
 
 }  // namespace gobo::cost

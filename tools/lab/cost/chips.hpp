@@ -31,8 +31,9 @@ struct Chip {
 /// none has, with the nearest one.
 [[nodiscard]] Result<std::vector<Chip>> chips_named(const std::vector<std::string>& names);
 
-/// What to install where the maker's driver is missing, or does not know a chip.
+/// What to install where the maker's driver is missing.
 [[nodiscard]] std::string_view install_driver(Maker maker);
-[[nodiscard]] std::string_view install_newer(Maker maker);
+/// What to do where the driver does not know the chip.
+[[nodiscard]] std::string_view install_newer(const Chip& chip);
 
 }  // namespace gobo::cost

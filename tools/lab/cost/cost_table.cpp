@@ -165,9 +165,10 @@ std::string difference_text(const std::vector<ChipCost>& costs, const std::strin
         const KeyCost* first = cost_of_key(cost, before);
         const KeyCost* second = cost_of_key(cost, after);
         if (first == nullptr || second == nullptr) continue;
-        for (std::size_t i = 0; i < std::min(first->stages.size(), second->stages.size()); ++i) {
-            const StageCost& was = first->stages[i];
-            const StageCost& is = second->stages[i];
+        for (const StageCost& is : second->stages) {
+            const auto found = std::ranges::find(first->stages, is.stage, &StageCost::stage);
+            if (found == first->stages.end()) continue;  // of a key of another program
+            const StageCost& was = *found;
             text += fmt::format("{}, {} stage{}\n", cost.chip.name, is.stage,
                                 was.has_loop || is.has_loop ? " (loop: cycles and latency are guessed)" : "");
             for (const Figure& figure : figures()) {

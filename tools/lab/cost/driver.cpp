@@ -30,6 +30,7 @@ tl::unexpected<Diagnostics> fail_call(const char* name, VkResult result) {
     DO(vkCreatePipelineLayout)               \
     DO(vkDestroyPipelineLayout)              \
     DO(vkCreateGraphicsPipelines)            \
+    DO(vkCreateComputePipelines)             \
     DO(vkDestroyPipeline)                    \
     DO(vkGetPipelineExecutablePropertiesKHR) \
     DO(vkGetPipelineExecutableStatisticsKHR) DO(vkGetPipelineExecutableInternalRepresentationsKHR)
@@ -106,6 +107,15 @@ std::uint32_t size_of(const std::vector<Item>& list) {
     return static_cast<std::uint32_t>(list.size());
 }
 
+using StageInfos = std::vector<VkPipelineShaderStageCreateInfo>;
+
+constexpr VkPipelineCreateFlags kCaptured = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR |
+                                            VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
+
+VkShaderStageFlagBits bit_of(StageKind kind) {
+    return static_cast<VkShaderStageFlagBits>(1U << static_cast<unsigned>(kind));  // the pipeline's order
+}
+
 }  // namespace
 
 struct Driver::Device {
@@ -114,16 +124,23 @@ struct Driver::Device {
     std::string name;
 
     [[nodiscard]] Result<VkShaderModule> module_of(const Words& words) const;
-    [[nodiscard]] Result<VkPipeline> pipeline_of(const Pipeline& pipeline, VkShaderModule vertex,
-                                                 VkShaderModule fragment, VkPipelineLayout layout) const;
+    [[nodiscard]] Result<VkPipeline> graphics_of(const Pipeline& pipeline, const StageInfos& stages,
+                                                 VkPipelineLayout layout) const;
+    [[nodiscard]] Result<VkPipeline> compute_of(const VkPipelineShaderStageCreateInfo& stage,
+                                                VkPipelineLayout layout) const;
     [[nodiscard]] Result<std::vector<CompiledStage>> stages_of(VkPipeline pipeline) const;
     [[nodiscard]] Result<std::string> assembly_of(const VkPipelineExecutableInfoKHR& executable) const;
 };
 
 Result<Driver> Driver::open(const std::string& library) {
     void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (loaded == nullptr)
-        return fail(Fault::file, fmt::format("cannot load the Vulkan driver: {}", dlerror()));
+    if (loaded == nullptr) {
+        const std::string reason = dlerror();
+        const bool lacks_libc = reason.find("GLIBC") != std::string::npos;
+        return fail(
+            Fault::file, fmt::format("cannot load the Vulkan driver: {}", reason),
+            lacks_libc ? "name the folder with its C library instead, as tools/fetch_mesa.sh makes it" : "");
+    }
     const auto entry = [&](const char* name) { return dlsym(loaded, name); };
     const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry("vk_icdGetInstanceProcAddr"));
     if (get == nullptr)
@@ -152,7 +169,8 @@ Result<Driver> Driver::open(const std::string& library) {
     VkPhysicalDevice gpu = nullptr;
     if (const VkResult result = vk.vkEnumeratePhysicalDevices(instance, &count, &gpu);
         (result != VK_SUCCESS && result != VK_INCOMPLETE) || count == 0)
-        return fail(Fault::file, fmt::format("{} has no device", library));
+        return fail(Fault::file, fmt::format("{} has no device", library),
+                    "'gobo cost --gpu list' says of which chips this driver has figures");
     auto driver = made<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
     auto properties =
         made<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
@@ -212,8 +230,8 @@ Result<VkShaderModule> Driver::Device::module_of(const Words& words) const {
 }
 
 /// Triangles from one buffer, drawn to as many targets as the fragment stage writes, with a depth buffer.
-Result<VkPipeline> Driver::Device::pipeline_of(const Pipeline& pipeline, VkShaderModule vertex,
-                                               VkShaderModule fragment, VkPipelineLayout layout) const {
+Result<VkPipeline> Driver::Device::graphics_of(const Pipeline& pipeline, const StageInfos& stages,
+                                               VkPipelineLayout layout) const {
     std::vector<VkVertexInputAttributeDescription> attributes;
     VkVertexInputBindingDescription buffer{0, 0, VK_VERTEX_INPUT_RATE_VERTEX};
     for (const VertexInput& input : pipeline.inputs) {
@@ -259,25 +277,8 @@ Result<VkPipeline> Driver::Device::pipeline_of(const Pipeline& pipeline, VkShade
     targets.colorAttachmentCount = size_of(formats);
     targets.pColorAttachmentFormats = formats.data();
     targets.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
-    std::vector stages(
-        2, made<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO));
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex;
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment;
-    stages[0].pName = stages[1].pName = "main";
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
-    for (const auto& [id, value] : pipeline.constants) {
-        entries.push_back({id, static_cast<std::uint32_t>(sizeof(value) * values.size()), sizeof(value)});
-        values.push_back(value);
-    }
-    const VkSpecializationInfo constants{size_of(entries), entries.data(),
-                                         sizeof(std::uint32_t) * values.size(), values.data()};
-    stages[0].pSpecializationInfo = stages[1].pSpecializationInfo = &constants;
     auto info = made<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &targets);
-    info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR |
-                 VK_PIPELINE_CREATE_CAPTURE_INTERNAL_REPRESENTATIONS_BIT_KHR;
+    info.flags = kCaptured;
     info.stageCount = size_of(stages);
     info.pStages = stages.data();
     info.pVertexInputState = &inputs;
@@ -290,6 +291,17 @@ Result<VkPipeline> Driver::Device::pipeline_of(const Pipeline& pipeline, VkShade
     info.layout = layout;
     VkPipeline compiled = VK_NULL_HANDLE;
     GOBO_VULKAN(vkCreateGraphicsPipelines, device, VK_NULL_HANDLE, 1, &info, nullptr, &compiled);
+    return compiled;
+}
+
+Result<VkPipeline> Driver::Device::compute_of(const VkPipelineShaderStageCreateInfo& stage,
+                                              VkPipelineLayout layout) const {
+    auto info = made<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.flags = kCaptured;
+    info.stage = stage;
+    info.layout = layout;
+    VkPipeline compiled = VK_NULL_HANDLE;
+    GOBO_VULKAN(vkCreateComputePipelines, device, VK_NULL_HANDLE, 1, &info, nullptr, &compiled);
     return compiled;
 }
 
@@ -328,8 +340,8 @@ Result<std::vector<CompiledStage>> Driver::Device::stages_of(VkPipeline pipeline
         GOBO_VULKAN(vkGetPipelineExecutableStatisticsKHR, device, &executable, &statistic_count,
                     statistics.data());
         CompiledStage& stage = stages.emplace_back();
-        const bool is_vertex = (executables[i].stages & VK_SHADER_STAGE_VERTEX_BIT) != 0;
-        stage.stage = is_vertex ? "vertex" : "fragment";
+        for (const StageNames& names : kStages)
+            if ((executables[i].stages & bit_of(names.kind)) != 0) stage.stage = names.name;
         stage.invocations = executables[i].subgroupSize;
         for (const auto& statistic : statistics) stage.statistics[statistic.name] = value_of(statistic);
         GOBO_TRY(stage.assembly, assembly_of(executable));
@@ -340,10 +352,11 @@ Result<std::vector<CompiledStage>> Driver::Device::stages_of(VkPipeline pipeline
 Result<std::vector<CompiledStage>> Driver::compile(const Pipeline& pipeline) const {
     const Functions& vk = device_->vk;
     VkDevice device = device_->device;
+    const VkShaderStageFlags seen_by =
+        pipeline.is_compute() ? VK_SHADER_STAGE_COMPUTE_BIT : VK_SHADER_STAGE_ALL_GRAPHICS;
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const Descriptor& descriptor : pipeline.descriptors)
-        bindings.push_back({size_of(bindings), type_of(descriptor.kind), descriptor.count,
-                            VK_SHADER_STAGE_ALL_GRAPHICS, nullptr});
+        bindings.push_back({size_of(bindings), type_of(descriptor.kind), descriptor.count, seen_by, nullptr});
     auto set_info =
         made<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set_info.bindingCount = size_of(bindings);
@@ -353,18 +366,35 @@ Result<std::vector<CompiledStage>> Driver::compile(const Pipeline& pipeline) con
     auto layout_info = made<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout_info.setLayoutCount = 1;
     layout_info.pSetLayouts = &set;
-    const VkPushConstantRange pushed{VK_SHADER_STAGE_ALL_GRAPHICS, 0, pipeline.push_bytes};
+    const VkPushConstantRange pushed{seen_by, 0, pipeline.push_bytes};
     layout_info.pushConstantRangeCount = pushed.size > 0 ? 1 : 0;
     layout_info.pPushConstantRanges = &pushed;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     GOBO_VULKAN(vkCreatePipelineLayout, device, &layout_info, nullptr, &layout);
-    GOBO_TRY(const VkShaderModule vertex, device_->module_of(pipeline.vertex));
-    GOBO_TRY(const VkShaderModule fragment, device_->module_of(pipeline.fragment));
-    GOBO_TRY(const VkPipeline compiled, device_->pipeline_of(pipeline, vertex, fragment, layout));
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    for (const auto& [id, value] : pipeline.constants) {
+        entries.push_back({id, static_cast<std::uint32_t>(sizeof(value) * values.size()), sizeof(value)});
+        values.push_back(value);
+    }
+    const VkSpecializationInfo constants{size_of(entries), entries.data(),
+                                         sizeof(std::uint32_t) * values.size(), values.data()};
+    StageInfos infos;
+    for (const PipelineStage& stage : pipeline.stages) {
+        auto info =
+            made<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+        info.stage = bit_of(stage.kind);
+        GOBO_TRY(info.module, device_->module_of(stage.words));
+        info.pName = "main";
+        info.pSpecializationInfo = &constants;
+        infos.push_back(info);
+    }
+    GOBO_TRY(const VkPipeline compiled, pipeline.is_compute()
+                                            ? device_->compute_of(infos.front(), layout)
+                                            : device_->graphics_of(pipeline, infos, layout));
     auto stages = device_->stages_of(compiled);
     vk.vkDestroyPipeline(device, compiled, nullptr);
-    vk.vkDestroyShaderModule(device, vertex, nullptr);
-    vk.vkDestroyShaderModule(device, fragment, nullptr);
+    for (const auto& info : infos) vk.vkDestroyShaderModule(device, info.module, nullptr);
     vk.vkDestroyPipelineLayout(device, layout, nullptr);
     vk.vkDestroyDescriptorSetLayout(device, set, nullptr);
     return stages;

@@ -14,7 +14,7 @@ namespace gobo::cost {
 
 /// A stage as the driver compiled it.
 struct CompiledStage {
-    std::string stage;                                ///< "vertex" or "fragment"
+    std::string stage;                                ///< "vertex", "fragment" or "compute"
     std::uint32_t invocations = 64;                   ///< of a wave
     std::map<std::string, std::uint64_t> statistics;  ///< by the driver's names: "Instructions"
     std::string assembly;

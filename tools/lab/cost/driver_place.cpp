@@ -26,6 +26,9 @@ Result<DriverPlace> find_driver(const FileSystem& disk, const std::string& where
     const std::string library = library_of(maker);
     const std::string shim = maker == Maker::nvidia ? kShim : "";
     const bool is_library = where.find(".so") != std::string::npos && where.back() != '/';
+    if (!where.empty() && !is_library && disk.is_file(where))
+        return fail(Fault::file, fmt::format("{} is a file, and neither a folder nor a library (.so)", where),
+                    "name the folder into which Mesa's packages were unpacked, or its " + library);
     if (where.empty() || is_library) return DriverPlace{where.empty() ? library : where, "", "", shim};
     for (const std::string folder : kLibraryFolders) {
         const std::string libraries = fmt::format("{}/{}", where, folder);

@@ -62,10 +62,11 @@ Words words_in(const json& content) {
 }
 
 json to_json(const Pipeline& pipeline) {
-    json content = {{"vertex", to_json(pipeline.vertex)}, {"fragment", to_json(pipeline.fragment)},
-                    {"descriptors", json::array()},       {"inputs", json::array()},
-                    {"outputs", json::array()},           {"constants", json::array()},
-                    {"push_bytes", pipeline.push_bytes}};
+    json content = {{"stages", json::array()},    {"descriptors", json::array()},
+                    {"inputs", json::array()},    {"outputs", json::array()},
+                    {"constants", json::array()}, {"push_bytes", pipeline.push_bytes}};
+    for (const PipelineStage& stage : pipeline.stages)
+        content["stages"].push_back({static_cast<int>(stage.kind), to_json(stage.words)});
     for (const auto& [id, value] : pipeline.constants) content["constants"].push_back({id, value});
     for (const Descriptor& descriptor : pipeline.descriptors)
         content["descriptors"].push_back({static_cast<int>(descriptor.kind), descriptor.count});
@@ -77,7 +78,9 @@ json to_json(const Pipeline& pipeline) {
 }
 
 Pipeline pipeline_in(const json& content) {
-    Pipeline pipeline{words_in(content["vertex"]), words_in(content["fragment"]), {}, {}, {}};
+    Pipeline pipeline;
+    for (const json& stage : content["stages"])
+        pipeline.stages.push_back({static_cast<StageKind>(stage[0].get<int>()), words_in(stage[1])});
     for (const json& descriptor : content["descriptors"])
         pipeline.descriptors.push_back(
             {static_cast<Descriptor::Kind>(descriptor[0].get<int>()), descriptor[1]});
@@ -255,7 +258,13 @@ Result<std::string> DriverProcess::open(const DriverPlace& place, const Chip& ch
     ::fcntl(requests_, F_SETFL, O_NONBLOCK);
     if (process_ < 0) return lose("no process can be started", "");
     const Answer answer = exchange("");
-    if (!answer.content) return lose(fmt::format("the driver {}", answer.ending), install_newer(chip.maker));
+    if (!answer.content) {
+        // RADV writes "Unknown family" before it aborts; else that it knows the chip is not in doubt.
+        const bool is_unknown = chip.maker == Maker::amd && answer.ending.find("nknown") != std::string::npos;
+        return lose(fmt::format("the driver {}", answer.ending),
+                    is_unknown ? install_newer(chip)
+                               : "'gobo cost --gpu list' says of which chips this driver has figures");
+    }
     if (answer.content->contains("error")) {
         const auto help = (*answer.content)["help"].get<std::string>();
         return lose((*answer.content)["error"], help.empty() ? install_driver(chip.maker) : help,

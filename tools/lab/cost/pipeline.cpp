@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -192,59 +193,61 @@ std::vector<std::optional<Scalar>> outputs_of(const Module& module) {
     return outputs;
 }
 
-Result<Words> with_blocks_only(const Words& words, const std::string& stage) {
-    GOBO_TRY(const Module module, spirv::read_module(words));
-    return with_uniform_block(module, words, stage + " stage's uniforms outside blocks");
-}
-
 /// `match` gives varyings that meet by name the same locations.
-Result<Pipeline> linked(const Words& vertex_words, const Words& fragment_words, bool match) {
-    GOBO_TRY(const Module vertex, spirv::read_module(vertex_words));
-    GOBO_TRY(const Module fragment, spirv::read_module(fragment_words));
+Result<Pipeline> linked(std::vector<PipelineStage> stages, bool match) {
     Pipeline pipeline;
-    GOBO_TRY(pipeline.inputs, inputs_of(vertex));
-    pipeline.outputs = outputs_of(fragment);
-    pipeline.vertex_loop_varies = has_varying_loop(vertex);
-    pipeline.fragment_loop_varies = has_varying_loop(fragment);
+    std::vector<Module> modules;
+    for (PipelineStage& stage : stages) {
+        GOBO_TRY(Module module, spirv::read_module(stage.words));
+        modules.push_back(std::move(module));
+        stage.loop_varies = has_varying_loop(modules.back());
+        if (stage.kind == StageKind::vertex) {
+            GOBO_TRY(pipeline.inputs, inputs_of(modules.back()));
+        }
+        if (stage.kind == StageKind::fragment) pipeline.outputs = outputs_of(modules.back());
+    }
     std::map<std::string, Descriptor> by_name;
-    for (const Module* module : {&vertex, &fragment})
-        for (const Variable& variable : module->variables) {
+    for (const Module& module : modules)
+        for (const Variable& variable : module.variables) {
             if (variable.storage == spv::StorageClassAtomicCounter)
                 return fail({.message = fmt::format("Vulkan has no atomic counters, and here is one: {}",
-                                                    module->name(variable.id)),
+                                                    module.name(variable.id)),
                              .help = "count in a storage block, with atomicAdd()",
-                             .subject = module->name(variable.id)});
+                             .subject = module.name(variable.id)});
             if (is_resource(variable))
-                by_name.try_emplace(name_of(*module, variable), descriptor_of(*module, variable));
+                by_name.try_emplace(name_of(module, variable), descriptor_of(module, variable));
         }
     std::map<std::string, std::uint32_t> binding_of;
     for (const auto& [name, descriptor] : by_name) {
         binding_of[name] = static_cast<std::uint32_t>(pipeline.descriptors.size());
         pipeline.descriptors.push_back(descriptor);
     }
-    const auto bindings_of = [&](const Module& module) {
+    std::vector<Numbers> locations(modules.size());
+    if (match && modules.size() == 2)
+        std::tie(locations[0], locations[1]) = matched_locations(modules[0], modules[1]);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
         Numbers bindings;
-        for (const Variable& variable : module.variables)
-            if (is_resource(variable)) bindings[variable.id] = binding_of.at(name_of(module, variable));
-        return bindings;
-    };
-    const auto [outputs, inputs] =
-        match ? matched_locations(vertex, fragment) : std::pair<Numbers, Numbers>();
-    pipeline.vertex = rewritten(vertex, vertex_words, bindings_of(vertex), outputs);
-    pipeline.fragment = rewritten(fragment, fragment_words, bindings_of(fragment), inputs);
+        for (const Variable& variable : modules[i].variables)
+            if (is_resource(variable)) bindings[variable.id] = binding_of.at(name_of(modules[i], variable));
+        stages[i].words = rewritten(modules[i], stages[i].words, bindings, locations[i]);
+    }
+    pipeline.stages = std::move(stages);
     return pipeline;
 }
 
 }  // namespace
 
-Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl) {
-    GOBO_TRY(const Words vertex, with_blocks_only(vertex_of_opengl, "vertex"));
-    GOBO_TRY(const Words fragment, with_blocks_only(fragment_of_opengl, "fragment"));
-    return linked(vertex, fragment, true);
+Result<Pipeline> pipeline_of(std::vector<PipelineStage> stages) {
+    for (PipelineStage& stage : stages) {
+        GOBO_TRY(const Module module, spirv::read_module(stage.words));
+        const std::string name = fmt::format("{} stage's uniforms outside blocks", name_of(stage.kind));
+        GOBO_TRY(stage.words, with_uniform_block(module, stage.words, name));
+    }
+    return linked(std::move(stages), true);
 }
 
-Result<Pipeline> pipeline_of_vulkan(const Words& vertex, const Words& fragment) {
-    return linked(vertex, fragment, false);
+Result<Pipeline> pipeline_of_vulkan(std::vector<PipelineStage> stages) {
+    return linked(std::move(stages), false);
 }
 
 }  // namespace gobo::cost

@@ -1,4 +1,4 @@
-// A pair of stages as a Vulkan driver takes it: gobo's SPIR-V is for OpenGL.
+// The stages of a pipeline as a Vulkan driver takes them: gobo's SPIR-V is for OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
+#include "core/stage.hpp"
 #include "spirv/glsl_type.hpp"
 
 namespace gobo::cost {
@@ -35,30 +36,34 @@ struct VertexInput {
     int components = 4;
 };
 
-/// Two stages and what they are linked with. Everything is bound in set 0; the binding of a descriptor is its
-/// index.
+struct PipelineStage {
+    StageKind kind = StageKind::vertex;
+    Words words;
+    bool loop_varies = false;  ///< whether it has a loop whose turns the driver guesses (has_varying_loop())
+};
+
+/// A vertex and a fragment stage, or a compute stage alone, and what they are linked with. Everything is
+/// bound in set 0; the binding of a descriptor is its index.
 struct Pipeline {
-    Words vertex;
-    Words fragment;
+    std::vector<PipelineStage> stages;
     std::vector<Descriptor> descriptors;
     std::vector<VertexInput> inputs;
     std::vector<std::optional<Scalar>> outputs;  ///< of the fragment stage, by location; nothing: none there
-    /// Whether a stage has a loop whose turns the driver guesses (has_varying_loop()).
-    bool vertex_loop_varies = false;
-    bool fragment_loop_varies = false;
-    /// Specialisation constants of both stages: constant_id and value.
+    /// Specialisation constants of all stages: constant_id and value.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constants = {};
     std::uint32_t push_bytes = 0;  ///< of push constants
+
+    [[nodiscard]] bool is_compute() const { return stages.front().kind == StageKind::compute; }
 };
 
-/// The pipeline of two stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one
-/// space of bindings for blocks and samplers, uniforms outside blocks gathered in one for each stage,
-/// varyings matched by location instead of by name, gl_VertexID and the origin of gl_FragCoord. Errors: what
-/// Vulkan lacks, such as samplers within structs; their subject is the variable.
-[[nodiscard]] Result<Pipeline> pipeline_of(const Words& vertex_of_opengl, const Words& fragment_of_opengl);
+/// The pipeline of stages in OpenGL's SPIR-V. What Vulkan has otherwise is rewritten in the words: one space
+/// of bindings for blocks and samplers, uniforms outside blocks gathered in one for each stage, varyings
+/// matched by location instead of by name, gl_VertexID and the origin of gl_FragCoord. Errors: what Vulkan
+/// lacks, such as samplers within structs; their subject is the variable.
+[[nodiscard]] Result<Pipeline> pipeline_of(std::vector<PipelineStage> stages_of_opengl);
 
 /// The same of stages in Vulkan's SPIR-V, whose resources are gathered in set 0. Push constants are left to
 /// the caller.
-[[nodiscard]] Result<Pipeline> pipeline_of_vulkan(const Words& vertex, const Words& fragment);
+[[nodiscard]] Result<Pipeline> pipeline_of_vulkan(std::vector<PipelineStage> stages);
 
 }  // namespace gobo::cost

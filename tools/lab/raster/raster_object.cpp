@@ -74,10 +74,13 @@ Result<evaluate::Invocations> uniforms_of(const evaluate::Program& program, cons
                                           const evaluate::Images& images) {
     GOBO_TRY(const auto resolved, resolve_uniforms(interface, values, view));
     evaluate::Invocations invocations;
-    for (const auto blocks : {&Interface::blocks, &Interface::push_constants})
-        for (const Block& block : interface.*blocks)
-            if (std::ranges::count(program.uniform_blocks, block.name, &evaluate::UniformBlock::name) > 0)
-                invocations.blocks[block.name] = bytes_of(block, resolved.assignments);
+    const auto reads = [&](const Block& block) {
+        return std::ranges::count(program.uniform_blocks, block.name, &evaluate::UniformBlock::name) > 0;
+    };
+    for (const Block& block : interface.blocks)
+        if (reads(block)) invocations.blocks[block.name] = bytes_of(block, resolved.assignments);
+    for (const Block& block : interface.push_constants)
+        if (reads(block)) invocations.blocks[block.name] = pushed_bytes(interface, resolved.assignments);
     for (const Assignment& assignment : resolved.assignments)
         if (assignment.leaf.block.empty()) add_plain_uniform(program, assignment, invocations);
     add_images(program, values, images, invocations);

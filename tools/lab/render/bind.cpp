@@ -489,6 +489,16 @@ std::vector<std::byte> bytes_of(const Block& block, const std::vector<Assignment
     return bytes;
 }
 
+std::vector<std::byte> pushed_bytes(const Interface& interface, const std::vector<Assignment>& assignments) {
+    std::vector<std::byte> bytes;
+    for (const Block& block : interface.push_constants)
+        bytes.resize(std::max(bytes.size(), static_cast<std::size_t>(block.size)));
+    for (const Assignment& assignment : assignments)
+        if (std::ranges::count(interface.push_constants, assignment.leaf.block, &Block::name) > 0)
+            write(assignment, bytes);
+    return bytes;
+}
+
 void set_uniform(const GladGLContext& gl, const Program& program, const Assignment& assignment) {
     const auto type = settable_type(assignment.leaf.type);
     const GLint location = gl.GetUniformLocation(program.id(), assignment.leaf.name.c_str());

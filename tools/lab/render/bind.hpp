@@ -80,6 +80,9 @@ struct ResolvedUniforms {
 /// The bytes of a uniform block: each of its members at its reflected offset, with its strides and in its
 /// byte representation (a bool is a 32-bit 0 or 1). Numbers beyond an integer's range become its nearest.
 [[nodiscard]] std::vector<std::byte> bytes_of(const Block& block, const std::vector<Assignment>& assignments);
+/// The push constants of all stages: one memory, of which each stage's block is a view from its first byte.
+[[nodiscard]] std::vector<std::byte> pushed_bytes(const Interface& interface,
+                                                  const std::vector<Assignment>& assignments);
 
 /// Sets a plain uniform of the program, which must be the one in use. One that the program does not use is
 /// left.

@@ -115,11 +115,7 @@ class Drawing {
         const VkCullModeFlags none = VK_CULL_MODE_NONE;
         const VkCullModeFlags back = object.is_mirrored() ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
         GOBO_TRY(item.pipeline, pipelines_.of(object.culls_back_faces ? back : none, item.attributes));
-        for (const Block& block : interface_.push_constants) {
-            const std::vector<std::byte> bytes = bytes_of(block, resolved.assignments);
-            item.pushed.resize(std::max(item.pushed.size(), bytes.size()));
-            std::copy(bytes.begin(), bytes.end(), item.pushed.begin());
-        }
+        item.pushed = pushed_bytes(interface_, resolved.assignments);
         items_.push_back(std::move(item));
         return {};
     }
