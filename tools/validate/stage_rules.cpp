@@ -64,11 +64,19 @@ class StageCheck {
     /// What glslang takes although OpenGL, or the version, has it not.
     void check_language() {
         for (const auto& [place, literal] : module_.decorations)
-            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId && !is_spirv(dialect_))
-                return refuse(use_of("constant_id", pieces_),
-                              "OpenGL's GLSL has no constant_id: it is Vulkan's",
+            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId && !is_spirv(dialect_)) {
+                const auto is_used = [&](std::string_view word) {
+                    return use_of(word, pieces_).place.line > 0;
+                };
+                constexpr std::array<std::string_view, 4> kWords = {"constant_id", "local_size_x_id",
+                                                                    "local_size_y_id", "local_size_z_id"};
+                const auto word = std::ranges::find_if(kWords, is_used);
+                const std::string_view said = word == kWords.end() ? kWords.front() : *word;
+                return refuse(use_of(said, pieces_),
+                              fmt::format("OpenGL's GLSL has no {}: it is Vulkan's", said),
                               "write a #define, make it a count or a choice of the family, or build for "
                               "--dialect vulkan or gl_spirv");
+            }
         const std::string& prologue = pieces_.front()->text;
         const GlslVersion version = version_of(prologue);
         if (version.es || version.number >= 400) return;
