@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <random>
 #include <utility>
@@ -52,31 +51,53 @@ PartialKey only_values(const KeySpace& space) {
     return only;
 }
 
-/// Every set of `strength` features that have several values, in lexicographic order, with the tuples that
-/// occur in the space open.
+/// In how many ways `chosen` of `all` can be chosen.
+std::size_t ways(std::size_t all, std::size_t chosen) {
+    std::size_t product = 1;
+    for (std::size_t i = 0; i < chosen; ++i) product = product * (all - i) / (i + 1);
+    return all < chosen ? 0 : product;
+}
+
+/// Where a set of numbers below `count`, ascending, stands among all of its size in lexicographic order.
+std::size_t position_of(const std::vector<std::size_t>& set, std::size_t count) {
+    std::size_t position = 0;
+    std::size_t next = 0;  // the first number that could stand here
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const std::size_t left = set.size() - i;
+        position += ways(count - next, left) - ways(count - set[i], left);
+        next = set[i] + 1;
+    }
+    return position;
+}
+
+/// Every set of `strength` of the features, in lexicographic order, with the tuples that occur in the space
+/// open. The features: ascending.
 std::vector<Combination> find_combinations(const KeySpace& space, std::size_t strength,
-                                           const PartialKey& only) {
-    std::map<std::vector<std::size_t>, Combination> found;
+                                           const std::vector<std::size_t>& features) {
+    std::vector<Combination> found(ways(features.size(), strength));
     PartialKey key(space.feature_count(), -1);
-    // Chooses one more feature than those that are decided in `key`, and its value, in every way.
-    const auto follow = [&](const auto& self, const OpenPaths& paths,
-                            std::vector<std::size_t> features) -> void {
-        const std::size_t first = features.empty() ? 0 : features.back() + 1;
-        features.push_back(first);
-        for (; features.back() + strength < space.feature_count() + features.size(); ++features.back()) {
-            const std::size_t feature = features.back();
-            if (only[feature] >= 0) continue;
-            Combination* whole = nullptr;
-            if (features.size() == strength)
-                whole = &found.try_emplace(features, combination_of(space, features)).first->second;
+    // Chooses one more feature than those that are decided in `key`, and its value, in every way; `set` has
+    // where they stand in `features`.
+    const auto follow = [&](const auto& self, const OpenPaths& paths, std::vector<std::size_t> set) -> void {
+        const std::size_t first = set.empty() ? 0 : set.back() + 1;
+        set.push_back(first);
+        for (; set.back() + strength < features.size() + set.size(); ++set.back()) {
+            const std::size_t feature = features[set.back()];
+            const bool is_whole = set.size() == strength;
+            Combination* const whole = is_whole ? &found[position_of(set, features.size())] : nullptr;
+            if (is_whole && whole->features.empty()) {
+                std::vector<std::size_t> chosen;
+                for (const std::size_t at : set) chosen.push_back(features[at]);
+                *whole = combination_of(space, std::move(chosen));
+            }
             const std::vector<char> allowed = paths.allowed(feature);
             for (std::size_t value = 0; value < allowed.size(); ++value) {
                 if (allowed[value] == 0) continue;
                 key[feature] = static_cast<int>(value);
-                if (whole == nullptr) {
+                if (!is_whole) {
                     OpenPaths further = paths;
                     further.decide(feature, key[feature]);
-                    self(self, further, features);
+                    self(self, further, set);
                 } else if (std::exchange(whole->open[*tuple_index(*whole, key)], 1) == 0) {
                     ++whole->left;
                 }
@@ -84,9 +105,15 @@ std::vector<Combination> find_combinations(const KeySpace& space, std::size_t st
         }
     };
     follow(follow, OpenPaths(space), {});
-    std::vector<Combination> combinations;
-    for (auto& [features, combination] : found) combinations.push_back(std::move(combination));
-    return combinations;
+    return found;
+}
+
+/// The features that have several values.
+std::vector<std::size_t> undecided(const PartialKey& only) {
+    std::vector<std::size_t> features;
+    for (std::size_t feature = 0; feature < only.size(); ++feature)
+        if (only[feature] < 0) features.push_back(feature);
+    return features;
 }
 
 class Coverer {
@@ -94,7 +121,7 @@ class Coverer {
     Coverer(const KeySpace& space, std::size_t strength, PartialKey only)
         : space_(space),
           only_(std::move(only)),
-          combinations_(find_combinations(space, strength, only_)),
+          combinations_(find_combinations(space, strength, undecided(only_))),
           touching_(space.feature_count()),
           nothing_decided_(space) {
         for (const Combination& combination : combinations_)
@@ -109,6 +136,7 @@ class Coverer {
         std::vector<Key> keys;
         PartialKey start;
         while (next_start(start)) {
+            if (sums_ > most_sums) return std::nullopt;
             if (!keys.empty() && looks_ / keys.size() * std::max(fewest_keys, keys.size()) > most_looks)
                 return std::nullopt;
             OpenPaths paths = nothing_decided_;
@@ -130,9 +158,12 @@ class Coverer {
     /// Orders of features tried for each key; more gave covers smaller by under one per cent.
     static constexpr int attempts = 6;
 
-    /// At nodes of the space, each some 25 ns. The covers of `lit` by triples and by fours take 25 and some
+    /// Each some 25 ns. The covers of `lit` by triples and by fours take 25 and some
     /// 250 million.
     static constexpr std::size_t most_looks = 2'000'000'000;
+
+    /// Each some 5 ns. The cover of `lit` by fours takes some 950 million.
+    static constexpr std::size_t most_sums = 8'000'000'000;
 
     /// A key, and how many open tuples it has besides the one that it began with.
     struct Attempt {
@@ -188,7 +219,8 @@ class Coverer {
     }
 
     /// Per value of the feature: how many open tuples it makes up with what is decided already.
-    [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey& key, std::size_t feature) const {
+    [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey& key, std::size_t feature) {
+        sums_ += touching_[feature].size();
         key[feature] = 0;  // only for the index of the first tuple
         std::vector<std::size_t> gains(space_.value_count(feature), 0);
         for (const auto& [combination, stride] : touching_[feature]) {
@@ -203,14 +235,17 @@ class Coverer {
 
     /// Combinations of which nothing is open any more are left out of all further sums.
     void mark(const Key& key) {
+        std::vector<char> has_closed(touching_.size(), 0);
         for (std::size_t number = cursor_; number < combinations_.size(); ++number) {
             Combination& combination = combinations_[number];
             if (std::exchange(combination.open[*tuple_index(combination, key)], 0) == 0) continue;
             if (--combination.left > 0) continue;
-            for (const std::size_t feature : combination.features)
-                std::erase_if(touching_[feature],
-                              [&](const Touch& touch) { return touch.combination == &combination; });
+            for (const std::size_t feature : combination.features) has_closed[feature] = 1;
         }
+        for (std::size_t feature = 0; feature < touching_.size(); ++feature)
+            if (has_closed[feature] != 0)
+                std::erase_if(touching_[feature],
+                              [](const Touch& touch) { return touch.combination->left == 0; });
     }
 
     /// A combination that names a feature, and how far that feature's next value is in it.
@@ -226,6 +261,7 @@ class Coverer {
     OpenPaths nothing_decided_;
     std::size_t cursor_ = 0;
     std::size_t looks_ = 0;       ///< at nodes of the space, over all attempts
+    std::size_t sums_ = 0;        ///< combinations that a value's gain was summed over
     std::mt19937 random_{20231};  // a fixed seed: the same cover everywhere
 };
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t small_family = 256;
 
 /// A cover of these takes minutes; the time grows by more than their number.
-constexpr double most_combinations = 5e7;
+constexpr double most_combinations = 2e7;
 
 Result<Key> named_key(const Family& family, const NamedKey& named, std::string_view dialect) {
     GOBO_TRY(Key key, parse_key(family, named.text, named.place));
