@@ -8,7 +8,7 @@ std::vector<Hazard> precision_hazards() {
         {"mediump_square",
          "an infinity made from finite numbers",
          {"float d = dot(v, v); c.r = 1.0 / (1.0 + d);"},
-         {"highp vec3 q = v; highp float d = dot(q, q); c.r = 1.0 / (1.0 + float(d));"},
+         {"highp vec3 q = v; highp float d = dot(q, q); c.r = 1.0 / (1.0 + d);"},
          {domain("v", -1000, 1000)},
          Setting::mediump},
         {"mediump_length",

@@ -18,7 +18,7 @@ const LinkRow blocks[] = {
      "layout(location = 1) out Surface { vec4 tint, tone; };\n"
      "void main() { tint = tone = gl_Position = vec4(0.0); }\n",
      "layout(location = 1) in Surface { vec4 tint, tone; } i;\nout vec4 c;\nvoid main() { c = i.tint; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"'Surface.tint' is of an instance here, but of none in tiny.vert:2, and their block states locations"}},
     {"instance_of_a_block_in_one_stage",
      "450",
@@ -32,7 +32,7 @@ const LinkRow blocks[] = {
      "void main() { o.tint = gl_Position = vec4(0.0); }\n",
      "layout(location = 2) in Surface { layout(location = 0) vec4 tint; } i;\nout vec4 c;\n"
      "void main() { c = i.tint; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"tiny.frag:2: error: the block of 'Surface.tint' states one location, and its first member another"}},
     {"array_of_structs_of_other_precisions",
      "150",
@@ -90,7 +90,7 @@ const LinkRow blocks[] = {
      "vec4(0.0); }\n",
      "layout(location = 4) in Surface { layout(location = 0) vec2 uv; };\nout vec4 c;\n"
      "void main() { c = vec4(1.0); }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"'Surface.uv' is of no instance here, but of one in tiny.vert:2, and their block states locations"}},
     {"located_block_that_leaves_locations_free",
      "450",
@@ -98,7 +98,7 @@ const LinkRow blocks[] = {
      "void main() { o.tint = vec3(o.gloss = 1.0); gl_Position = vec4(0.0); }\n",
      "layout(location = 0) in Surface { vec3 tint; layout(location = 5) float gloss; } i;\nout vec4 c;\n"
      "void main() { c = i.tint.xyzx; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"tiny.frag:2: error: the block 'Surface' states a location, and its members leave some free "
       "between them"}},
     {"located_members_that_leave_locations_free",
@@ -237,7 +237,7 @@ const LinkRow blocks[] = {
      "layout(packed) uniform Light { vec4 tint; } lights[2];\nvoid main() { gl_Position = vec4(0.0); }\n",
      "layout(packed) uniform Light { vec4 tint; } lights[2];\nout vec4 c;\n"
      "void main() { c = lights[1].tint; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"tiny.frag:2: error: the block 'Light' has layout packed and is read here, but is not in tiny.vert:2"}},
     {"packed_block_that_one_stage_reads",
      "330 core",

@@ -70,8 +70,12 @@ const LinkRow language[] = {
      "    layout(offset = 12) vec4 second; } b;\nout vec4 c;\n"
      "void main() { c = vec4(b.first, 1.0) + b.second; }\n",
      Mesa::refuses,
-     {"tiny.frag:3: error: 'offset' : must be a multiple of the member's alignment: 12 is not a multiple of "
-      "16, to which a vec4 is aligned"}},
+     {kNewerGlslang ? "tiny.frag:3: error: 'offset' : must be a multiple of the member's alignment (layout "
+                      "offset = 12 | "
+                      "member alignment = 16): 12 is not a multiple of 16, to which a vec4 is aligned"
+                    : "tiny.frag:3: error: 'offset' : must be a multiple of the member's alignment: 12 is "
+                      "not a multiple "
+                      "of 16, to which a vec4 is aligned"}},
     {"lod_query",
      "330 core",
      plain,
@@ -123,8 +127,10 @@ const LinkRow language[] = {
      plain,
      "out vec4 c;\nvoid main() { c = vec4(1.0); gl_SampleMask[1] = 3; }\n",
      Mesa::refuses,
-     {"tiny.frag:3: error: elements of gl_SampleMask up to the last: 2, OpenGL guarantees only 1 "
-      "(MAX_SAMPLE_MASK_WORDS)"}},
+     {kNewerGlslang
+          ? "tiny.frag:3: error: '[' : gl_SampleMask array index out of range '1'"
+          : "tiny.frag:3: error: elements of gl_SampleMask up to the last: 2, OpenGL guarantees only "
+            "1 (MAX_SAMPLE_MASK_WORDS)"}},
     {"sample_mask_of_the_first",
      "450",
      plain,

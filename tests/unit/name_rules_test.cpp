@@ -213,7 +213,7 @@ const LinkRow names[] = {
      "320 es",
      "layout(std140) uniform B { vec4 tint; };\nvoid main() { gl_Position = vec4(0.0); }\n",
      "layout(std140, binding = 2) uniform B { vec4 tint; };\nout vec4 c;\nvoid main() { c = tint; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"the block 'B' has binding 2 here, but no binding in tiny.vert:2"}},
     {"binding_of_a_storage_block_in_one_stage",
      "450",

@@ -30,6 +30,7 @@ struct Row {
     bool is_right;
     std::vector<const char*> messages = {};  ///< each that gobo gives, in part
     bool mesa_is_lax = false;  ///< links what GLSL 4.50, 4.3.4, refuses: an input that nothing writes
+    bool ends_mesa = false;    ///< of 25.0, which crashes
 };
 
 void PrintTo(const Row& row, std::ostream* stream) {
@@ -61,6 +62,7 @@ TEST_P(Stages, AreCheckedAsMesaDoes) {
         EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << all;
     EXPECT_EQ(exit_status(found) == 0, row.is_right) << all;
 
+    if (row.ends_mesa) return;
     const Result<Context> context = open_context(Backend::osmesa);
     ASSERT_TRUE(context) << first_text(context.error());
     const Result<Program> program =
@@ -292,7 +294,9 @@ const Row with_compute[] = {
      "330 core",
      {{kCompute, "void main() {}\n"}},
      false,
-     {"tiny.comp: error: a compute stage needs GLSL 430, but this is 330"}},
+     {"tiny.comp: error: a compute stage needs GLSL 430, but this is 330"},
+     false,
+     true},
 };
 
 struct PictureRow {

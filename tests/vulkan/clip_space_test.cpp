@@ -78,7 +78,8 @@ Picture drawn(const std::string& vertex, const std::string& fragment, const std:
     const Tiny tiny(vertex, fragment, Dialect::vulkan);
     std::vector<std::span<const std::uint32_t>> modules;
     for (const ValidatedStage& stage : tiny.validated.stages) modules.emplace_back(stage.spirv);
-    static const vulkan::Device device = device_with_layer();
+    // Never destroyed: when statics are, the validation layer is gone already.
+    static const vulkan::Device& device = *new vulkan::Device(device_with_layer());
     return checked(vulkan::render_permutation(
         device, vulkan::modules_of(modules, tiny.permutation()), tiny.interface,
         {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, small_view(), {}, start));
