@@ -1,10 +1,10 @@
 // gobo show: the composed source of one key.
 #include <fmt/format.h>
 
+#include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/commands.hpp"
-#include "gobo/literal_counts.hpp"
 
 namespace gobo {
 namespace {
@@ -30,11 +30,12 @@ Result<Outcome> run(const ShowOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, options.dialect));
     if (options.comments) family.comments = Comments::keep;
     GOBO_TRY(Composition composition, compose_selection(world, family, {.keys = {options.key}}));
-    // Whether counts stay numbers shows when the stages are compiled; what else is wrong, gobo check tells.
-    if (!composition.permutations.front().specialized.empty())
-        static_cast<void>(validate_with_counts(
-            family, composition,
-            {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache}));
+    // Of SPIR-V it shows when the stages are compiled whether counts stay numbers. What is wrong is told beside
+    // the source, which is what one looks at then.
+    Diagnostics problems;
+    if (is_spirv(family.dialect))
+        if (auto validated = compile(world, family, composition, {}); !validated)
+            problems = std::move(validated).error();
     const Permutation& permutation = composition.permutations.front();
     const std::optional<StageKind> only = stage_named(options.stage);
     if (only && permutation.stages[*only] < 0)
@@ -48,7 +49,8 @@ Result<Outcome> run(const ShowOptions& options, const World& world) {
         texts.push_back(only ? text
                              : fmt::format("{}{}:\n{}", options.pieces ? "" : "// ", stage.name, text));
     }
-    return Outcome{join(texts, "\n"), std::move(composition.notes)};
+    append(problems, composition.notes);
+    return Outcome{join(texts, "\n"), std::move(problems)};
 }
 
 }  // namespace
@@ -69,7 +71,8 @@ Command show_command() {
             "  gobo show lit 'spot=1' --stage vertex --dialect es300",
             [options](const World& world) { return run(*options, world); },
             "Without --stage all stages are printed for a reader, each behind its name. What another program "
-            "is to take is printed with --stage: that source alone, as it is shipped."};
+            "is to take is printed with --stage: that source alone, as it is shipped. Of dialects of SPIR-V the "
+            "key is checked too: its errors come with the source."};
 }
 
 }  // namespace gobo
