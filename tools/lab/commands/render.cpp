@@ -255,6 +255,23 @@ Result<void> refuse_equal_names(const RenderOptions& options, const PictureOptio
     return {};
 }
 
+/// One of the two.
+struct SceneRenderer {
+    std::optional<Context> context;
+    std::optional<vulkan::Device> device;
+};
+
+Result<SceneRenderer> open_scene_renderer(const RenderOptions& options) {
+    SceneRenderer renderer;
+    if (options.backend == kVulkanBackend) {
+        GOBO_TRY(renderer.device, vulkan::open_device());
+    } else {
+        GOBO_TRY(const Backend backend, backend_of(options.backend));
+        GOBO_TRY(renderer.context, open_context(backend));
+    }
+    return renderer;
+}
+
 /// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
 /// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
@@ -278,21 +295,27 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
     GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, shaders.composition));
     GOBO_TRY(const Environment environment, environment_of(world, options.environment, shaders.interfaces));
     append(rendered.diagnostics, warnings_of_environment(options.environment, shaders.interfaces));
-    GOBO_TRY(const Backend backend, backend_of(options.backend));
-    DriverTasks<Context, PictureFile> tasks{renderer_of(options), 1};
-    tasks.open = [&] { return open_context(backend); };
-    tasks.work = [&](const Context& context, std::size_t, DriverClock& clock) -> Result<PictureFile> {
-        scene::SceneTextures textures;
-        if (shadow_pass) textures.depth_pass = &shadow_pass->pass;
-        EnvironmentMaps maps(context);
-        GOBO_TRY_DO(environment.add_to(maps));
-        textures.given = maps.textures();
-        GOBO_TRY(Picture picture,
-                 scene::draw_scene(context, scene, shaders, family.family.render, view, textures, &clock));
+    DriverTasks<SceneRenderer, PictureFile> tasks{renderer_of(options), 1};
+    tasks.open = [&] { return open_scene_renderer(options); };
+    tasks.work = [&](const SceneRenderer& renderer, std::size_t, DriverClock& clock) -> Result<PictureFile> {
+        Picture picture;
+        if (renderer.device) {
+            const vulkan::ShadowPass pass = shadow_pass ? shadow_pass->for_vulkan() : vulkan::ShadowPass();
+            GOBO_TRY(picture, scene::draw_scene_by_vulkan(
+                                  *renderer.device, scene, shaders, family.family.render, view,
+                                  {shadow_pass ? &pass : nullptr, environment.for_vulkan()}, &clock));
+        } else {
+            EnvironmentMaps maps(*renderer.context);
+            GOBO_TRY_DO(environment.add_to(maps));
+            GOBO_TRY(picture, scene::draw_scene(*renderer.context, scene, shaders, family.family.render, view,
+                                                {shadow_pass ? &shadow_pass->pass : nullptr, maps.textures()},
+                                                &clock));
+        }
         clock.stop();
         // Holes are cut, nothing is blended: what was drawn is opaque, whatever alpha its vertices have.
         for (std::size_t i = 3; i < picture.color.values.size(); i += 4) picture.color.values[i] = 1;
-        return picture_file(std::move(picture), pictures, context.renderer());
+        return picture_file(std::move(picture), pictures,
+                            renderer.device ? renderer.device->name() : renderer.context->renderer());
     };
     tasks.done = [&](std::size_t, Result<PictureFile> picture, std::optional<int> death) {
         if (death) {
@@ -332,8 +355,6 @@ Result<Outcome> run(const RenderOptions& options, const World& world) {
     GOBO_TRY_DO(refuse_equal_names(options, pictures));
     GOBO_TRY(const std::string dialect, dialect_for(options.backend, options.dialect));
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
-    if (!options.scenes.empty() && options.backend == kVulkanBackend)
-        return fail(Fault::usage, "--backend vulkan draws no scenes", "draw them by --backend osmesa or egl");
     RenderedSelection rendered;
     std::vector<std::string> notes;
     for (const std::string& path : options.scenes)
@@ -360,8 +381,7 @@ Command render_command() {
               &options->size},
              {"--smooth", "N", "Make each pixel the average of N x N; without a page", &options->smooth,
               between(1, 8)},
-             {"--backend", kBackends, "What draws; vulkan draws keys without a page, and no scenes",
-              &options->backend},
+             {"--backend", kBackends, "What draws; vulkan draws keys without a page", &options->backend},
              {"--format", "png|exr|pfm", "png is sRGB for the eye; exr and pfm hold linear floats",
               &options->format},
              {"--page", "", "Beside a page live.html: it draws every key, of those that es300 allows, itself",

@@ -17,40 +17,17 @@
 namespace gobo::scene {
 namespace {
 
-/// Without those above the renderer's largest texture: the first that fits is drawn in their place.
-std::vector<TextureImage> levels_within(const Context& context, std::vector<TextureImage> levels,
-                                        Diagnostics& warnings) {
+int largest_texture(const Context& context) {
     GLint most = 0;
     context.gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    const auto first = std::ranges::find_if(
-        levels, [&](const TextureImage& level) { return std::max(level.width, level.height) <= most; });
-    if (first == levels.begin()) return levels;
-    Diagnostic& warning = warnings.emplace_back();
-    warning.severity = Severity::warning;
-    warning.message =
-        fmt::format("a picture of {} x {} texels is drawn by {} x {}: the renderer's largest side is {}",
-                    levels.front().width, levels.front().height, first->width, first->height, most);
-    levels.erase(levels.begin(), first);
-    return levels;
-}
-
-/// A map that fits into the renderer's largest texture.
-AlphaMap alpha_map_within(const Context& context, const AlphaMap& map, Diagnostics& warnings) {
-    TextureImage picture{map.width, map.height, {}};
-    for (const std::uint8_t alpha : map.texels) picture.texels.insert(picture.texels.end(), 4, alpha);
-    const TextureImage level = levels_within(context, picture_levels(picture, false), warnings).front();
-    AlphaMap result{level.width, level.height, {}};
-    for (std::size_t i = 3; i < level.texels.size(); i += 4) result.texels.push_back(level.texels[i]);
-    return result;
+    return most;
 }
 
 /// The map as the alpha of a texture that is white otherwise: filtered linearly, repeated. Opaque where the
 /// draw has none.
 Texture make_alpha_map(const Context& context, const SceneImages& images, std::size_t draw,
                        Diagnostics& warnings) {
-    const AlphaMap opaque{1, 1, {255}};
-    const bool has_map = draw < images.opacity.size() && !images.opacity[draw].texels.empty();
-    const AlphaMap map = alpha_map_within(context, has_map ? images.opacity[draw] : opaque, warnings);
+    const AlphaMap map = alpha_map_within(largest_texture(context), images.opacity, draw, warnings);
     const GladGLContext& gl = context.gl();
     context.make_current();
     Texture texture;
@@ -66,11 +43,6 @@ Texture make_alpha_map(const Context& context, const SceneImages& images, std::s
         set(color, GL_ONE);
     set(GL_TEXTURE_SWIZZLE_A, GL_RED);
     return texture;
-}
-
-bool reads(const Interface& interface, std::string_view sampler) {
-    return std::any_of(interface.samplers.begin(), interface.samplers.end(),
-                       [&](const Sampler& own) { return own.name == sampler; });
 }
 
 constexpr double usual_angle = 0.7;
@@ -99,6 +71,11 @@ glm::dmat4 view_of(const glm::dmat4& world) {
 }
 
 }  // namespace
+
+bool reads(const Interface& interface, std::string_view sampler) {
+    return std::any_of(interface.samplers.begin(), interface.samplers.end(),
+                       [&](const Sampler& own) { return own.name == sampler; });
+}
 
 std::vector<std::size_t> drawing_order(const std::vector<Draw>& draws, const SceneImages& images,
                                        const SceneView& view) {
@@ -169,7 +146,7 @@ Texture SceneDrawing::texture_of(const Context& context, const PictureUse& use) 
     // side is odd.
     GLint number = 0;
     for (const TextureImage& level :
-         levels_within(context, picture_levels(*use.picture, use.is_srgb), warnings_))
+         levels_within(largest_texture(context), picture_levels(*use.picture, use.is_srgb), warnings_))
         gl.TexImage2D(GL_TEXTURE_2D, number++, use.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, level.width,
                       level.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, level.texels.data());
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, use.use->min_filter);

@@ -14,6 +14,7 @@
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
 #include "lab/scene_picture/scene_objects.hpp"
+#include "lab/vulkan/picture.hpp"
 #include "reflect/interface.hpp"
 #include "scene/effects.hpp"
 #include "scene/scene_keys.hpp"
@@ -79,6 +80,9 @@ struct SceneShaders {
 /// The objects of all draws; empty ones for draws that are not drawn.
 [[nodiscard]] std::vector<Object> objects_of(const Scene& scene, const SceneShaders& shaders);
 
+/// Whether the interface has a sampler of that name.
+[[nodiscard]] bool reads(const Interface& interface, std::string_view sampler);
+
 /// What a scene's samplers read, beside what the family's values say.
 struct SceneTextures {
     const DepthPass* depth_pass = nullptr;  ///< draws shadow maps; null: nothing is in shadow
@@ -124,6 +128,20 @@ class SceneDrawing {
     std::vector<List> blended_;  ///< behind the others, the farthest from the viewer first
     Diagnostics warnings_;
 };
+
+/// The same for Vulkan.
+struct VulkanSceneTextures {
+    const vulkan::ShadowPass* pass = nullptr;
+    vulkan::Textures given;
+};
+
+/// Draws the scene by Vulkan as draw_scene() does by OpenGL; `shaders` are of the dialect vulkan.
+[[nodiscard]] Result<Picture> draw_scene_by_vulkan(const vulkan::Device& device, const Scene& scene,
+                                                   const SceneShaders& shaders,
+                                                   const std::vector<RenderValue>& family_values,
+                                                   const SceneView& view,
+                                                   const VulkanSceneTextures& textures = {},
+                                                   DriverClock* clock = nullptr);
 
 /// Whether the picture is empty since every face of every draw is turned away from the viewer, and culled.
 [[nodiscard]] bool turns_all_faces_away(const Scene& scene, const std::vector<Draw>& draws,

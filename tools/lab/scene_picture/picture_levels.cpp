@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "lab/render/image.hpp"
 
 namespace gobo::scene {
@@ -70,6 +72,31 @@ std::vector<TextureImage> picture_levels(const TextureImage& picture, bool is_sr
     while (levels.back().width > 1 || levels.back().height > 1)
         levels.push_back(halved(levels.back(), is_srgb));
     return levels;
+}
+
+std::vector<TextureImage> levels_within(int most, std::vector<TextureImage> levels, Diagnostics& warnings) {
+    const auto first = std::ranges::find_if(
+        levels, [&](const TextureImage& level) { return std::max(level.width, level.height) <= most; });
+    if (first == levels.begin()) return levels;
+    Diagnostic& warning = warnings.emplace_back();
+    warning.severity = Severity::warning;
+    warning.message =
+        fmt::format("a picture of {} x {} texels is drawn by {} x {}: the renderer's largest side is {}",
+                    levels.front().width, levels.front().height, first->width, first->height, most);
+    levels.erase(levels.begin(), first);
+    return levels;
+}
+
+AlphaMap alpha_map_within(int most, const std::vector<AlphaMap>& maps, std::size_t draw,
+                          Diagnostics& warnings) {
+    if (draw >= maps.size() || maps[draw].texels.empty()) return {1, 1, {255}};
+    const AlphaMap& map = maps[draw];
+    TextureImage picture{map.width, map.height, {}};
+    for (const std::uint8_t alpha : map.texels) picture.texels.insert(picture.texels.end(), 4, alpha);
+    const TextureImage level = levels_within(most, picture_levels(picture, false), warnings).front();
+    AlphaMap result{level.width, level.height, {}};
+    for (std::size_t i = 3; i < level.texels.size(); i += 4) result.texels.push_back(level.texels[i]);
+    return result;
 }
 
 }  // namespace gobo::scene

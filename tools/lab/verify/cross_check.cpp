@@ -143,8 +143,8 @@ class VulkanRenderer final : public Renderer {
                        combined_type(sampler.type) == "sampler2D") {
                 const TextureSource source{value->source, value->numbers};
                 const auto texels = vulkan::usual_texels(sampler.type, source, TextureLevels::one);
-                if (!texels) continue;
-                given[sampler.name] = *texels;
+                if (texels == nullptr) continue;
+                given[sampler.name] = texels;
                 drawn.images[sampler.name] = raster::colors_of_picture(texture_texels(source));
             }
         }

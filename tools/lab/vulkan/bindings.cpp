@@ -17,13 +17,28 @@ VkDescriptorType descriptor_type(const Sampler& sampler) {
     return is_apart ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 }
 
+VkSamplerAddressMode address_mode(TextureLookup::Beyond beyond) {
+    switch (beyond) {
+        case TextureLookup::Beyond::mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case TextureLookup::Beyond::edge:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case TextureLookup::Beyond::repeat:
+            break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
 }  // namespace
 
-Result<void> Bindings::make(std::size_t objects, const std::vector<RenderValue>& values,
-                            const Textures& given) {
+Result<void> Bindings::make(std::size_t objects, const std::vector<RenderValue>& values) {
     GOBO_TRY_DO(make_layouts());
     GOBO_TRY_DO(make_pool(objects));
-    return make_textures(values, given);
+    GOBO_TRY_DO(check_textures(interface_, values));
+    for (const Sampler& sampler : interface_.samplers)
+        usual_[sampler.name] =
+            usual_texels(sampler.type, texture_source_of(sampler.name, values), TextureLevels::all);
+    return {};
 }
 
 Result<void> Bindings::make_layouts() {
@@ -98,42 +113,44 @@ Result<void> Bindings::make_pool(std::size_t objects) {
 Result<VkSampler> Bindings::make_sampler(const TextureTexels& texels) {
     const Functions& vk = resources_.state().vk;
     auto info = made<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
-    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    info.mipmapMode = texels.has_levels ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
-    info.addressModeU = info.addressModeV = info.addressModeW =
-        texels.repeats ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    info.maxLod = texels.has_levels ? VK_LOD_CLAMP_NONE : 0;
+    const TextureLookup& lookup = texels.lookup;
+    const auto filter = [](bool is_nearest) { return is_nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR; };
+    info.magFilter = filter(lookup.enlarges_nearest);
+    info.minFilter = filter(lookup.shrinks_nearest);
+    info.mipmapMode = texels.has_levels && !lookup.nearest_level ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                 : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = info.addressModeW = address_mode(lookup.s);
+    info.addressModeV = address_mode(lookup.t);
+    // Above 0, so that the first level alone is shrunk by its own filter (VkSamplerCreateInfo).
+    info.maxLod = texels.has_levels ? VK_LOD_CLAMP_NONE : 0.25F;
     info.compareEnable = texels.is_depth ? VK_TRUE : VK_FALSE;
     info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     return resources_.make<VkSampler>("vkCreateSampler", vk.vkCreateSampler, vk.vkDestroySampler, info);
 }
 
-Result<void> Bindings::make_textures(const std::vector<RenderValue>& values, const Textures& given) {
-    GOBO_TRY_DO(check_textures(interface_, values));
-    for (const Sampler& sampler : interface_.samplers) {
-        if (sampler.type == "sampler") {  // apart from its textures, whatever levels they have
-            TextureTexels any;
-            any.has_levels = true;
-            GOBO_TRY(const VkSampler handle, make_sampler(any));
-            textures_[sampler.name] = {handle, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
-            continue;
-        }
-        std::optional<TextureTexels> texels;
-        if (const auto found = given.find(sampler.name); found != given.end())
-            texels = found->second;
-        else
-            texels = usual_texels(sampler.type, texture_source_of(sampler.name, values), TextureLevels::all);
-        if (!texels)
-            return fail(Fault::input, fmt::format("the renderer has no texture for '{}' of type {}",
-                                                  sampler.name, sampler.type));
-        GOBO_TRY(const DeviceImage image, resources_.make_texture(*texels));
-        GOBO_TRY(const VkSampler handle, make_sampler(*texels));
-        textures_[sampler.name] = {handle, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+Result<VkDescriptorImageInfo> Bindings::image_of(const Sampler& sampler, const Textures& given) {
+    Texels texels = usual_.at(sampler.name);
+    if (const auto found = given.find(sampler.name); found != given.end()) texels = found->second;
+    const bool is_sampler = sampler.type == "sampler";  // apart from its textures, whatever levels they have
+    if (is_sampler && texels == nullptr) {
+        TextureTexels any;
+        any.has_levels = true;
+        texels = usual_[sampler.name] = std::make_shared<const TextureTexels>(std::move(any));
     }
-    return {};
+    if (texels == nullptr)
+        return fail(Fault::input, fmt::format("the renderer has no texture for '{}' of type {}", sampler.name,
+                                              sampler.type));
+    const auto [handle, is_new] = samplers_.try_emplace(texels, VK_NULL_HANDLE);
+    if (is_new) {
+        GOBO_TRY(handle->second, make_sampler(*texels));
+    }
+    if (is_sampler) return VkDescriptorImageInfo{handle->second, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
+    GOBO_TRY(const DeviceImage image, resources_.texture_of(texels));
+    return VkDescriptorImageInfo{handle->second, image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
-Result<std::vector<VkDescriptorSet>> Bindings::sets_of(const ResolvedUniforms& resolved) {
+Result<std::vector<VkDescriptorSet>> Bindings::sets_of(const ResolvedUniforms& resolved,
+                                                       const Textures& given) {
     std::vector<VkDescriptorSet> sets(set_layouts_.size());
     if (sets.empty()) return sets;
     const Device::State& state = resources_.state();
@@ -159,8 +176,9 @@ Result<std::vector<VkDescriptorSet>> Bindings::sets_of(const ResolvedUniforms& r
         vk.vkUpdateDescriptorSets(state.device, 1, &write, 0, nullptr);
     }
     for (const Sampler& sampler : interface_.samplers) {
+        GOBO_TRY(const VkDescriptorImageInfo image, image_of(sampler, given));
         const std::vector<VkDescriptorImageInfo> images(
-            static_cast<std::size_t>(element_count(sampler.array)), textures_.at(sampler.name));
+            static_cast<std::size_t>(element_count(sampler.array)), image);
         auto write = made<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = sets[static_cast<std::size_t>(sampler.set)];
         write.dstBinding = static_cast<std::uint32_t>(sampler.binding);

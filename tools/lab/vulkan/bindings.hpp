@@ -19,10 +19,12 @@ class Bindings {
     Bindings(Resources& resources, const Interface& interface)
         : resources_(resources), interface_(interface) {}
 
-    /// For so many objects. Each sampler gets the texture that is given, else what the renderer has.
-    Result<void> make(std::size_t objects, const std::vector<RenderValue>& values, const Textures& given);
-    /// The sets of one object, with buffers of its own.
-    [[nodiscard]] Result<std::vector<VkDescriptorSet>> sets_of(const ResolvedUniforms& resolved);
+    /// For so many objects. `values` say what textures the renderer has for samplers.
+    Result<void> make(std::size_t objects, const std::vector<RenderValue>& values);
+    /// The sets of one object, with buffers of its own. Each sampler gets the texture that is given, else
+    /// what the renderer has.
+    [[nodiscard]] Result<std::vector<VkDescriptorSet>> sets_of(const ResolvedUniforms& resolved,
+                                                               const Textures& given);
 
     [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
     /// The stages that read push constants.
@@ -32,7 +34,7 @@ class Bindings {
     Result<void> make_layouts();
     Result<void> make_pool(std::size_t objects);
     Result<VkSampler> make_sampler(const TextureTexels& texels);
-    Result<void> make_textures(const std::vector<RenderValue>& values, const Textures& given);
+    Result<VkDescriptorImageInfo> image_of(const Sampler& sampler, const Textures& given);
 
     Resources& resources_;
     const Interface& interface_;
@@ -42,7 +44,8 @@ class Bindings {
     VkShaderStageFlags push_stages_ = 0;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    std::map<std::string, VkDescriptorImageInfo> textures_;
+    std::map<std::string, Texels> usual_;  ///< what the renderer has for samplers; null where it has nothing
+    std::map<Texels, VkSampler> samplers_;
 };
 
 }  // namespace gobo::vulkan

@@ -197,6 +197,10 @@ const std::string& Device::name() const {
     return state_->name;
 }
 
+int Device::largest_texture() const {
+    return static_cast<int>(state_->limits.maxImageDimension2D);
+}
+
 Diagnostics Device::messages() const {
     std::vector<std::string> texts;
     {

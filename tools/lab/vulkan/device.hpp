@@ -17,6 +17,8 @@ class Device {
 
     /// The device and its driver: every figure measured here is to be labelled with it.
     [[nodiscard]] const std::string& name() const;
+    /// Texels along a side of the largest texture.
+    [[nodiscard]] int largest_texture() const;
     /// What validation layers have said since this was last asked, each an error. Whoever wants them sets
     /// VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation, as for any program.
     [[nodiscard]] Diagnostics messages() const;

@@ -2,7 +2,9 @@
 // renderer has, in Vulkan's clip space.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -27,13 +29,23 @@ struct StageModule {
 [[nodiscard]] std::vector<StageModule> modules_of(const std::vector<std::span<const std::uint32_t>>& modules,
                                                   const Permutation& permutation);
 
+/// How a texture is looked up.
+struct TextureLookup {
+    enum class Beyond { repeat, mirror, edge };  ///< outside 0 to 1: `edge`, the border's texels go on
+    Beyond s = Beyond::repeat;
+    Beyond t = Beyond::repeat;
+    bool enlarges_nearest = false;  ///< without interpolation between texels
+    bool shrinks_nearest = false;
+    bool nearest_level = false;  ///< of smaller levels one, not two
+};
+
 /// The texels of a texture, layer by layer: colours of four channels, or depths of one. Row 0 is that at t =
 /// 0.
 struct TextureTexels {
     enum class Shape { flat, array, cube, volume };
     Shape shape = Shape::flat;
     bool is_depth = false;  ///< compared as sampler2DShadow does: reference <= depth
-    bool repeats = true;    ///< beyond 0 to 1; else the border's texels go on
+    TextureLookup lookup = {};
     bool has_levels = false;
     std::vector<std::vector<float>> smaller;  ///< the levels behind the first; empty: means of four texels
     int width = 1;
@@ -41,19 +53,21 @@ struct TextureTexels {
     int layers = 1;
     std::vector<float> values;
 };
+/// Those that several draws look up are uploaded once.
+using Texels = std::shared_ptr<const TextureTexels>;
 /// By the name of their sampler.
-using Textures = std::map<std::string, TextureTexels>;
+using Textures = std::map<std::string, Texels>;
 
 /// What the renderer has for a sampler that nothing is given to, as make_texture() of OpenGL's renderer;
-/// nothing where it has none of the type.
-[[nodiscard]] std::optional<TextureTexels> usual_texels(const std::string& sampler_type,
-                                                        const TextureSource& source, TextureLevels levels);
+/// null where it has none of the type.
+[[nodiscard]] Texels usual_texels(const std::string& sampler_type, const TextureSource& source,
+                                  TextureLevels levels);
 /// Level by level six faces, one below the other.
-[[nodiscard]] TextureTexels cube_texels(const std::vector<Image>& levels);
+[[nodiscard]] Texels cube_texels(const std::vector<Image>& levels);
 /// A table of four channels, looked up from its first texel to its last.
-[[nodiscard]] TextureTexels table_texels(const Image& table);
+[[nodiscard]] Texels table_texels(const Image& table);
 /// Shadow maps, as draw_shadow_maps() draws them.
-[[nodiscard]] TextureTexels depth_texels(const std::vector<Image>& layers);
+[[nodiscard]] Texels depth_texels(const std::vector<Image>& layers);
 
 /// From OpenGL's clip space to Vulkan's: depth 0 to 1, y downward. A projection behind this draws upright
 /// pictures whose triangles run as OpenGL's do.
@@ -77,6 +91,29 @@ struct DrawStart {
                                                  const std::vector<RenderValue>& values, const View& view,
                                                  const Textures& textures = {}, const DrawStart& start = {});
 
+/// What some draws of a picture have in common: the stages of a permutation, and what its uniforms hold but
+/// for what objects say themselves. What is referred to outlives it.
+struct DrawnBy {
+    std::vector<StageModule> stages;
+    const Interface& interface;
+    const std::vector<RenderValue>& values;
+};
+
+struct Draw {
+    std::size_t by = 0;  ///< the number of its permutation
+    const Object& object;
+    const Textures& textures;
+    bool is_blended = false;  ///< over what is there, by its alpha; its depth is not written
+};
+
+/// Draws in their order to one picture. `view` has OpenGL's projection; `begins` is told of each permutation
+/// when the driver is given it. Errors as of render_permutation().
+[[nodiscard]] Result<Picture> render_draws(const Device& device, const std::vector<DrawnBy>& permutations,
+                                           const std::vector<Draw>& draws, ViewedObject view, int width,
+                                           int height, const std::array<float, 4>& background,
+                                           const std::function<void(std::size_t permutation)>& begins = {},
+                                           const DrawStart& start = {});
+
 /// What draws shadow maps: `pass` with its stages as modules.
 struct ShadowPass {
     std::vector<StageModule> stages;
@@ -87,10 +124,13 @@ struct ShadowPass {
     double units = 4;
 };
 
-/// The depth of all objects as each camera of a plan sees them; row 0 of each is that at t = 0.
+/// The depth of all objects as each camera of a plan sees them, those with holes by draws of their own, of
+/// `permutations`; row 0 of each is that at t = 0.
 [[nodiscard]] Result<std::vector<Image>> draw_shadow_maps(const Device& device, const ShadowPass& pass,
                                                           const ShadowPlan& plan,
-                                                          const std::vector<Object>& objects);
+                                                          const std::vector<Object>& objects,
+                                                          const std::vector<DrawnBy>& permutations = {},
+                                                          const std::vector<Draw>& with_holes = {});
 
 /// Draws a selection by Vulkan, as opengl_renderer() does by OpenGL; `modules` are by stage.
 [[nodiscard]] std::unique_ptr<KeyRenderer> vulkan_renderer(

@@ -139,14 +139,15 @@ Result<void> Pipelines::make(VkPipelineLayout layout) {
     return make_nothing();
 }
 
-Result<VkPipeline> Pipelines::of(VkCullModeFlags culled, const std::vector<AttributeBuffer>& attributes) {
-    std::vector<std::uint32_t> kind = {culled};
+Result<VkPipeline> Pipelines::of(VkCullModeFlags culled, bool is_blended,
+                                 const std::vector<AttributeBuffer>& attributes) {
+    std::vector<std::uint32_t> kind = {culled, is_blended ? 1U : 0U};
     for (const AttributeBuffer& attribute : attributes)
         kind.insert(kind.end(),
                     {attribute.location, static_cast<std::uint32_t>(attribute.format), attribute.stride});
     const auto [place, is_new] = known_.try_emplace(std::move(kind), VK_NULL_HANDLE);
     if (is_new) {
-        GOBO_TRY(place->second, make_pipeline(culled, attributes, infos_));
+        GOBO_TRY(place->second, make_pipeline(culled, is_blended, attributes, infos_));
     }
     return place->second;
 }
@@ -164,11 +165,12 @@ Result<void> Pipelines::make_nothing() {
     stage.pName = "main";
     GOBO_TRY(stage.module, resources_.make<VkShaderModule>("vkCreateShaderModule", vk.vkCreateShaderModule,
                                                            vk.vkDestroyShaderModule, info));
-    GOBO_TRY(nothing_, make_pipeline(VK_CULL_MODE_NONE, {}, {stage}, true));
+    GOBO_TRY(nothing_, make_pipeline(VK_CULL_MODE_NONE, false, {}, {stage}, true));
     return {};
 }
 
-Result<VkPipeline> Pipelines::make_pipeline(VkCullModeFlags culled, const std::vector<AttributeBuffer>& given,
+Result<VkPipeline> Pipelines::make_pipeline(VkCullModeFlags culled, bool is_blended,
+                                            const std::vector<AttributeBuffer>& given,
                                             const std::vector<VkPipelineShaderStageCreateInfo>& stages,
                                             bool draws_nothing) {
     const Device::State& state = resources_.state();
@@ -214,12 +216,19 @@ Result<VkPipeline> Pipelines::make_pipeline(VkCullModeFlags culled, const std::v
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     auto depth = made<VkPipelineDepthStencilStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
-    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+    depth.depthTestEnable = VK_TRUE;
+    depth.depthWriteEnable = is_blended ? VK_FALSE : VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_LESS;
     VkPipelineColorBlendAttachmentState all_written{};
     if (writes_color_)
         all_written.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                      VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    if (is_blended) {
+        all_written.blendEnable = VK_TRUE;
+        all_written.srcColorBlendFactor = all_written.srcAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        all_written.dstColorBlendFactor = all_written.dstAlphaBlendFactor =
+            VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    }
     auto blending =
         made<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     blending.attachmentCount = target_.has_color ? 1 : 0;

@@ -1,4 +1,5 @@
-// The pipelines of a permutation: one for each way in which objects are culled and bring their attributes.
+// The pipelines of a permutation: one for each way in which objects are culled, are
+// blended and bring their attributes.
 #pragma once
 
 #include <map>
@@ -37,7 +38,7 @@ class Pipelines {
 
     Result<void> make(VkPipelineLayout layout);
     /// The pipeline for an object; made where none is alike.
-    [[nodiscard]] Result<VkPipeline> of(VkCullModeFlags culled,
+    [[nodiscard]] Result<VkPipeline> of(VkCullModeFlags culled, bool is_blended,
                                         const std::vector<AttributeBuffer>& attributes);
     /// A pipeline that draws nothing, to be drawn by before each object; none where it is not needed.
     [[nodiscard]] VkPipeline nothing() const { return nothing_; }
@@ -46,7 +47,8 @@ class Pipelines {
 
   private:
     Result<void> make_nothing();
-    Result<VkPipeline> make_pipeline(VkCullModeFlags culled, const std::vector<AttributeBuffer>& attributes,
+    Result<VkPipeline> make_pipeline(VkCullModeFlags culled, bool is_blended,
+                                     const std::vector<AttributeBuffer>& attributes,
                                      const std::vector<VkPipelineShaderStageCreateInfo>& stages,
                                      bool draws_nothing = false);
 

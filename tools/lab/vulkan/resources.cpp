@@ -110,6 +110,14 @@ Result<DeviceImage> Resources::make_image(const ImageShape& shape) {
     return image;
 }
 
+Result<DeviceImage> Resources::texture_of(const Texels& texels) {
+    const auto [place, is_new] = textures_.try_emplace(texels);
+    if (is_new) {
+        GOBO_TRY(place->second, make_texture(*texels));
+    }
+    return place->second;
+}
+
 Result<DeviceImage> Resources::make_texture(const TextureTexels& texels) {
     const Functions& vk = state().vk;
     const bool is_volume = texels.shape == TextureTexels::Shape::volume;

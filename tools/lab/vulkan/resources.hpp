@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 
 #include "lab/vulkan/picture.hpp"
 #include "lab/vulkan/state.hpp"
@@ -54,18 +55,20 @@ class Resources {
     /// A buffer that the processor writes and reads.
     [[nodiscard]] Result<Buffer> make_buffer(VkBufferUsageFlags usage, const void* data, std::size_t size);
     [[nodiscard]] Result<DeviceImage> make_image(const ImageShape& shape);
-    /// An image that shaders read, with its texels.
-    [[nodiscard]] Result<DeviceImage> make_texture(const TextureTexels& texels);
+    /// An image that shaders read, with its texels; made once.
+    [[nodiscard]] Result<DeviceImage> texture_of(const Texels& texels);
 
     /// Records commands, has them done and waits for that.
     [[nodiscard]] Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
 
   private:
+    [[nodiscard]] Result<DeviceImage> make_texture(const TextureTexels& texels);
     Result<void> give_memory(const VkMemoryRequirements& needs, VkMemoryPropertyFlags properties,
                              VkDeviceMemory& memory);
 
     Device device_;
     std::vector<std::function<void()>> kept_;
+    std::map<Texels, DeviceImage> textures_;
 };
 
 /// Makes all of an image ready for another use, once what came before is done.

@@ -5,8 +5,17 @@
 
 namespace gobo::vulkan {
 
-std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const TextureSource& source,
-                                          TextureLevels levels) {
+namespace {
+
+Texels shared(TextureTexels texels) {
+    return std::make_shared<const TextureTexels>(std::move(texels));
+}
+
+constexpr TextureLookup kToItsEdge{TextureLookup::Beyond::edge, TextureLookup::Beyond::edge};
+
+}  // namespace
+
+Texels usual_texels(const std::string& sampler_type, const TextureSource& source, TextureLevels levels) {
     using enum TextureTexels::Shape;
     struct Row {
         std::string_view type;
@@ -18,13 +27,13 @@ std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const
                              {"sampler2DShadow", flat, true}, {"sampler2DArrayShadow", array, true}};
     const auto* const row =
         std::ranges::find(std::begin(kRows), std::end(kRows), combined_type(sampler_type), &Row::type);
-    if (row == std::end(kRows)) return std::nullopt;
+    if (row == std::end(kRows)) return nullptr;
     TextureTexels texels;
     texels.shape = row->shape;
     texels.is_depth = row->is_depth;
     if (row->is_depth) {
         texels.values = {source.numbers.empty() ? 1.0F : static_cast<float>(source.numbers.front())};
-        return texels;
+        return shared(std::move(texels));
     }
     const Image image = texture_texels(source);
     texels.width = image.width;
@@ -33,10 +42,10 @@ std::optional<TextureTexels> usual_texels(const std::string& sampler_type, const
     texels.has_levels = levels == TextureLevels::all && row->shape != volume;
     for (int layer = 0; layer < texels.layers; ++layer)
         texels.values.insert(texels.values.end(), image.values.begin(), image.values.end());
-    return texels;
+    return shared(std::move(texels));
 }
 
-TextureTexels cube_texels(const std::vector<Image>& levels) {
+Texels cube_texels(const std::vector<Image>& levels) {
     TextureTexels texels;
     texels.shape = TextureTexels::Shape::cube;
     texels.width = texels.height = levels.front().width;
@@ -44,29 +53,29 @@ TextureTexels cube_texels(const std::vector<Image>& levels) {
     texels.has_levels = levels.size() > 1;
     for (std::size_t i = 0; i < levels.size(); ++i)
         (i == 0 ? texels.values : texels.smaller.emplace_back()) = four_channels(levels[i]);
-    return texels;
+    return shared(std::move(texels));
 }
 
-TextureTexels table_texels(const Image& table) {
+Texels table_texels(const Image& table) {
     TextureTexels texels;
-    texels.repeats = false;
+    texels.lookup = kToItsEdge;
     texels.width = table.width;
     texels.height = table.height;
     texels.values = table.values;
-    return texels;
+    return shared(std::move(texels));
 }
 
-TextureTexels depth_texels(const std::vector<Image>& layers) {
+Texels depth_texels(const std::vector<Image>& layers) {
     TextureTexels texels;
     texels.shape = TextureTexels::Shape::array;
     texels.is_depth = true;
-    texels.repeats = false;
+    texels.lookup = kToItsEdge;
     texels.width = layers.front().width;
     texels.height = layers.front().height;
     texels.layers = static_cast<int>(layers.size());
     for (const Image& layer : layers)
         texels.values.insert(texels.values.end(), layer.values.begin(), layer.values.end());
-    return texels;
+    return shared(std::move(texels));
 }
 
 }  // namespace gobo::vulkan
