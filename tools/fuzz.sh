@@ -33,4 +33,21 @@ for target in "${targets[@]}"; do
   printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$target" "$processor" "$(sed -nE 's/^stat::number_of_executed_units: *([0-9]+).*/\1/p' "$log")" \
     "$(last cov)" "$(last ft)" "$(find "$build/corpus/$target" -type f | wc -l)" "$found"
 done
+
+# What came of the inputs of headers, each once.
+headers=$build/headers
+rm -rf "$headers"
+for target in "${targets[@]}"; do
+  case $target in header | names)
+    GOBO_FUZZ_HEADERS=$headers "$build/fuzz/fuzz_$target" -runs=0 "$build/corpus/$target" "tests/fuzz/corpus/$target" >"$build/found/$target.log" 2>&1 ;;
+  esac
+done
+if [ -d "$headers" ]; then
+  if CXX=$compiler tests/fuzz/compile_headers.sh "$headers" >"$headers.log" 2>&1; then
+    printf 'headers compiled: %s\n' "$(find "$headers" -name '*.hpp' | wc -l)"
+  else
+    printf 'some header does not compile: %s.log\n' "$headers"
+    failures=$((failures + 1))
+  fi
+fi
 exit $((failures > 0))

@@ -1,11 +1,13 @@
 // What libFuzzer kept and what it found, through the same code as it is shipped.
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"
@@ -16,16 +18,20 @@ namespace {
 
 const std::string corpus = GOBO_SOURCE_DIR "/tests/fuzz/corpus/";
 
+std::vector<std::string> inputs_of(const Target& target) {
+    const DiskFileSystem disk;
+    const std::string folder = corpus + std::string(target.name);
+    std::vector<std::string> inputs;
+    for (const std::string& file : disk.files_below(folder))
+        inputs.push_back(disk.read(folder + "/" + file).value());
+    return inputs;
+}
+
 class Replay : public testing::TestWithParam<Target> {};
 
 TEST_P(Replay, EndsInAValueOrInErrors) {
-    const DiskFileSystem disk;
-    const std::string folder = corpus + std::string(GetParam().name);
-    const std::vector<std::string> files = disk.files_below(folder);
     bool is_some_value = false;
-    for (const std::string& file : files) {
-        SCOPED_TRACE(file);
-        const std::string input = disk.read(folder + "/" + file).value();
+    for (const std::string& input : inputs_of(GetParam())) {
         is_some_value = GetParam().run(input) || is_some_value;
         // Half of it is another one, and so is what has another byte in its middle.
         GetParam().run(std::string_view(input).substr(0, input.size() / 2));
@@ -67,11 +73,7 @@ std::string mutated(const std::vector<std::string>& inputs, std::mt19937& random
 
 /// As many as a normal run has time for; more where GOBO_FUZZ_TRIES says so.
 TEST_P(Replay, EndsSoForMutantsToo) {
-    const DiskFileSystem disk;
-    const std::string folder = corpus + std::string(GetParam().name);
-    std::vector<std::string> inputs;
-    for (const std::string& file : disk.files_below(folder))
-        inputs.push_back(disk.read(folder + "/" + file).value());
+    const std::vector<std::string> inputs = inputs_of(GetParam());
     ASSERT_FALSE(inputs.empty());
     const char* const wanted = std::getenv("GOBO_FUZZ_TRIES");
     const char* const seed = std::getenv("GOBO_FUZZ_SEED");
@@ -84,6 +86,27 @@ TEST_P(Replay, EndsSoForMutantsToo) {
         GetParam().run(input);
     }
     std::remove(kept.c_str());
+}
+
+/// What the targets of headers make of the corpus and of mutants of it, as C++17.
+TEST(Headers, Compile) {
+    const DiskFileSystem disk;
+    const std::string folder = testing::TempDir() + "gobo_fuzz_headers";
+    std::filesystem::remove_all(folder);
+    ::setenv("GOBO_FUZZ_HEADERS", folder.c_str(), 1);
+    std::mt19937 random(1);
+    for (const Target& target : kTargets) {
+        if (target.name != "header" && target.name != "names") continue;
+        const std::vector<std::string> inputs = inputs_of(target);
+        for (const std::string& input : inputs) target.run(input);
+        for (int i = 0; i < 300; ++i) target.run(mutated(inputs, random));
+    }
+    ::unsetenv("GOBO_FUZZ_HEADERS");
+    EXPECT_GE(disk.files_below(folder).size(), 10U);
+    const std::string log = folder + ".log";
+    const std::string command =
+        fmt::format("'{}/tests/fuzz/compile_headers.sh' '{}' > '{}' 2>&1", GOBO_SOURCE_DIR, folder, log);
+    EXPECT_EQ(std::system(command.c_str()), 0) << disk.read(log).value();
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Replay, testing::ValuesIn(kTargets),

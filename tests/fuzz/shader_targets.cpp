@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +24,15 @@ Result<Composition> composed(const Files& parts, const Family& family) {
     return compose(family, some_keys(family), search, Dialect::own);
 }
 
+/// Where GOBO_FUZZ_HEADERS names a folder, headers are kept there to be compiled, each once.
+void keep_header(const std::string& text) {
+    const char* const folder = std::getenv("GOBO_FUZZ_HEADERS");
+    if (folder == nullptr) return;
+    DiskFileSystem disk;
+    require(
+        disk.write(fmt::format("{}/{:016x}.hpp", folder, std::hash<std::string>()(text)), text).has_value());
+}
+
 bool emit(const Family& family, const Files& parts) {
     const Result<Composition> composition = composed(parts, family);
     if (!is_value(composition)) return false;
@@ -30,7 +41,9 @@ bool emit(const Family& family, const Files& parts) {
         read_header_templates(disk, GOBO_SOURCE_DIR "/templates/header").value();
     const Interface interface;
     const EmitInput emitted{family, *composition, interface, {}};
-    if (!is_value(emit_header(emitted, templates))) return false;
+    const Result<EmittedCpp> header = emit_header(emitted, templates);
+    if (!is_value(header)) return false;
+    keep_header(header->header);
     static_cast<void>(emit_manifest(emitted));
     return true;
 }
