@@ -28,9 +28,11 @@ Result<evaluate::Program> program_of(const World& world, Subject& subject, Stage
              compile(world, subject, {.keep_spirv = true, .debug_information = true}));
     const Permutation& permutation = subject.composition.permutations.front();
     const int index = permutation.stages[stage];
-    if (index < 0)
+    if (index < 0) {
+        GOBO_TRY_DO(refuse_other_stages(subject.family.family, subject.composition, "gobo eval evaluates"));
         return fail(Fault::input, fmt::format("there is no {} stage to evaluate", name_of(stage)),
                     "name its file, or state another 'stage' in the input file");
+    }
     return evaluate::decode(validated.stages[static_cast<std::size_t>(index)].spirv,
                             {std::max(evaluate::kUnstatedLength, longest_array), evaluate::Widths::up_to_64});
 }
