@@ -222,8 +222,12 @@ const LinkRow varyings[] = {
      "layout(location = 1) flat in vec2 a;\nlayout(location = 1, component = 2) in vec2 b;\nout vec4 c;\n"
      "void main() { c = vec4(a, 0.0, 1.0); }\n",
      Mesa::refuses,
-     {"tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth",
-      "tiny.frag:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth"}},
+     {kNewerGlslang ? "tiny.vert:3: error: 'location' : the aliases sharing the location 1 must be the same "
+                      "basic type and interpolation"
+                    : "tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth",
+      kNewerGlslang ? "tiny.frag:3: error: 'location' : the aliases sharing the location 1 must be the same "
+                      "basic type and interpolation"
+                    : "tiny.frag:3: error: 'vec2 a' and 'vec2 b' share location 1 and are flat and smooth"}},
     {"centroid_beside_an_array",
      "450",
      "layout(location = 1) out vec2 a[2];\nlayout(location = 2, component = 2) centroid out vec2 b;\n"
@@ -231,14 +235,20 @@ const LinkRow varyings[] = {
      "layout(location = 1) in vec2 a[2];\nlayout(location = 2, component = 2) in vec2 b;\nout vec4 c;\n"
      "void main() { c = vec4(a[1], b); }\n",
      Mesa::refuses,
-     {"tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 2 and are smooth and smooth centroid"}},
+     {kNewerGlslang
+          ? "tiny.vert:3: error: 'location' : the aliases sharing the location 2 must be the same basic type "
+            "and interpolation"
+          : "tiny.vert:3: error: 'vec2 a' and 'vec2 b' share location 2 and are smooth and smooth centroid"}},
     {"numbers_beside_an_array",
      "450",
      "layout(location = 1) flat out vec2 a[2];\nlayout(location = 2, component = 2) flat out ivec2 b;\n"
      "void main() { a[0] = a[1] = vec2(1.0); b = ivec2(1); gl_Position = vec4(0.0); }\n",
      color,
      Mesa::refuses,
-     {"tiny.vert:3: error: 'vec2 a' and 'ivec2 b' share location 2 and have not one numerical type"}},
+     {kNewerGlslang
+          ? "tiny.vert:3: error: 'location' : the aliases sharing the location 2 must be the same basic type "
+            "and interpolation"
+          : "tiny.vert:3: error: 'vec2 a' and 'ivec2 b' share location 2 and have not one numerical type"}},
     {"alike_at_one_location",
      "450",
      "layout(location = 1) flat out vec2 a;\nlayout(location = 1, component = 2) flat out vec2 b;\n"
@@ -253,7 +263,7 @@ const LinkRow varyings[] = {
      "layout(location = 1) out Surface { vec4 tint; } o;\nvoid main() { o.tint = gl_Position = vec4(0.0); "
      "}\n",
      "layout(location = 1) in vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n",
-     Mesa::refuses,
+     Mesa::older_refuses,
      {"tiny.frag:2: error: 'tint' (location 1, 'Surface.tint' in the vertex stage) is no member of a block "
       "here, but a member of a block in tiny.vert:2"}},
     {"centroid_of_a_member_of_a_block",
