@@ -1,7 +1,6 @@
 // Hard cases (depth out of range, broken depth promise) in real depth targets: what a permutation writes, as
 // 24-bit and 32-bit float targets hold it, against gl_FragCoord.z in the same target and against the
 // evaluator.
-#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "lit_cases.hpp"

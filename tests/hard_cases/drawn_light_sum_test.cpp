@@ -1,6 +1,5 @@
 // A sum of many lights as OpenGL draws it: 4096 equal terms through each piece that sums lights, in one
 // fragment.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 

@@ -9,6 +9,7 @@
 
 #include "core/csv.hpp"
 #include "core/file_system.hpp"
+#include "core/text.hpp"
 #include "lab/cost/compile_on_chips.hpp"
 #include "lab/cost/stage_cost.hpp"
 #include "lit_drawing.hpp"
@@ -253,7 +254,9 @@ GuardTimes times_of_csv(const std::string& csv) {
             const auto column = table.column(name);
             return column ? row[*column] : "";
         };
-        const auto number = [&](const std::string& name) { return number_in_cell(cell(name)).value_or(0); };
+        const auto number = [&](const std::string& name) {
+            return number_from<double>(cell(name)).value_or(0);
+        };
         GuardTime& time = times[cell("guard")];
         time.guarded = {number("guarded_us_low"), number("guarded_us"), number("guarded_us_high")};
         time.plain = {number("plain_us_low"), number("plain_us"), number("plain_us_high")};

@@ -24,13 +24,7 @@ struct Losses {
 /// Of one output's first component, whose values are at most about 1 where they matter.
 Losses losses_of(const evaluate::Program& program, const std::string& output,
                  const evaluate::Invocations& points) {
-    const auto in_double = [&](const evaluate::Invocations& moved) -> Result<verify::NamedValues> {
-        GOBO_TRY(auto outputs, evaluate::run<double>(program, moved));
-        return std::move(outputs.values);
-    };
-    std::vector<evaluate::Port> ports = program.inputs;
-    ports.insert(ports.end(), program.uniforms.begin(), program.uniforms.end());
-    const auto exact = in_double(points);
+    const auto exact = verify::in_double(program, points);
     const auto in_float = evaluate::run<float>(program, points);
     Losses losses;
     EXPECT_TRUE(exact && in_float);
@@ -38,7 +32,7 @@ Losses losses_of(const evaluate::Program& program, const std::string& output,
     constexpr double kUlp = 2 * verify::kRoundingStep;
     for (const std::uint64_t seed :
          {1, 11, 21, 31, 41, 51, 61, 71}) {  // either side of the right angle is met
-        const auto widest = verify::spread(ports, points, *exact, kUlp, seed, in_double).value();
+        const auto widest = verify::spread(program, points, *exact, kUlp, seed).value();
         for (std::size_t i = 0; i < points.count; ++i)
             losses.explained = std::max(losses.explained, widest.at(output)[i]);
     }

@@ -1,6 +1,5 @@
 // A sum of many lights: 4096 terms through each piece that sums lights, by itself, on every machine that GLSL
 // allows.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>

@@ -13,18 +13,20 @@
 namespace gobo {
 namespace {
 
-class LitCase : public testing::TestWithParam<Case> {};
+class TestedCase : public testing::TestWithParam<Case> {};
 
-TEST_P(LitCase, GivesWhatIsDemanded) {
+TEST_P(TestedCase, GivesWhatIsDemanded) {
     EXPECT_THAT(faults_of(GetParam()), testing::IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(HardCases, LitCase, testing::ValuesIn(lit_cases()),
-                         [](const auto& tested) { return tested.param.name; });
+constexpr auto by_name = [](const auto& tested) { return tested.param.name; };
 
-class LitGuard : public testing::TestWithParam<Guard> {};
+INSTANTIATE_TEST_SUITE_P(Lit, TestedCase, testing::ValuesIn(lit_cases()), by_name);
+INSTANTIATE_TEST_SUITE_P(Pbr, TestedCase, testing::ValuesIn(pbr_cases()), by_name);
 
-TEST_P(LitGuard, IsNeeded) {
+class TestedGuard : public testing::TestWithParam<Guard> {};
+
+TEST_P(TestedGuard, IsNeeded) {
     const Guard& guard = GetParam();
     const Case* tested = case_named(guard.needed_by);
     ASSERT_NE(tested, nullptr) << guard.needed_by;
@@ -32,30 +34,8 @@ TEST_P(LitGuard, IsNeeded) {
                 testing::Not(testing::IsEmpty()));
 }
 
-INSTANTIATE_TEST_SUITE_P(HardCases, LitGuard, testing::ValuesIn(lit_guards()),
-                         [](const auto& tested) { return tested.param.name; });
-
-class PbrCase : public testing::TestWithParam<Case> {};
-
-TEST_P(PbrCase, GivesWhatIsDemanded) {
-    EXPECT_THAT(faults_of(GetParam()), testing::IsEmpty());
-}
-
-INSTANTIATE_TEST_SUITE_P(HardCases, PbrCase, testing::ValuesIn(pbr_cases()),
-                         [](const auto& tested) { return tested.param.name; });
-
-class PbrGuard : public testing::TestWithParam<Guard> {};
-
-TEST_P(PbrGuard, IsNeeded) {
-    const Guard& guard = GetParam();
-    const Case* tested = case_named(guard.needed_by);
-    ASSERT_NE(tested, nullptr) << guard.needed_by;
-    EXPECT_THAT(faults_of(*tested, {{guard.piece, without_guard(guard)}}, 1),
-                testing::Not(testing::IsEmpty()));
-}
-
-INSTANTIATE_TEST_SUITE_P(HardCases, PbrGuard, testing::ValuesIn(pbr_guards()),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Lit, TestedGuard, testing::ValuesIn(lit_guards()), by_name);
+INSTANTIATE_TEST_SUITE_P(Pbr, TestedGuard, testing::ValuesIn(pbr_guards()), by_name);
 
 /// Nobody adds a guard without showing that it is needed.
 TEST(LitGuards, EachMarkedLineHasARow) {

@@ -1,5 +1,4 @@
 // The hard cases of model matrices.
-#include <array>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

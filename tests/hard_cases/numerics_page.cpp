@@ -180,9 +180,9 @@ std::string source_text(const std::string& path) {
 
 std::string trap_rows() {
     std::string rows;
-    for (const std::string& path : shaders_in("plain")) {
+    for (const std::string& path : shader_files("hard_cases/plain")) {
         const std::string subject = subject_of(source_text(path));
-        for (const sanitize::SharedFinding& shared : report_of(path).findings) {
+        for (const sanitize::SharedFinding& shared : sanitized_file(path, {}).findings) {
             const sanitize::Finding& finding = shared.finding;
             rows += fmt::format("| {} | `{}:{}` | {} | {} |\n", cell(subject), file_name(path),
                                 finding.place.line, cell(finding.message), code(finding.operation));
@@ -197,7 +197,7 @@ std::string trap_rows() {
 /// Errors are those of single precision; formulas that are wrong are wrong in any.
 std::string wrong_rows() {
     std::string rows;
-    for (const std::string& path : shaders_in("plain")) {
+    for (const std::string& path : shader_files("hard_cases/plain")) {
         const std::string source = source_text(path);
         for (const WrongMark& mark : wrong_marks(source))
             rows += fmt::format("| {} | `{}:{}` | `{}` | {} | {} | {} |\n", cell(subject_of(source)),
@@ -211,7 +211,7 @@ std::string wrong_rows() {
 /// "normalize_zero.frag, ..." of the plain shaders that name the case.
 std::string plain_files_of(const HardCase& hard) {
     std::vector<std::string> names;
-    for (const std::string& path : shaders_in("plain")) {
+    for (const std::string& path : shader_files("hard_cases/plain")) {
         if (shows(source_text(path), hard)) names.push_back(fmt::format("`{}`", file_name(path)));
     }
     return fmt::format("{}", fmt::join(names, ", "));

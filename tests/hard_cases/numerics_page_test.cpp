@@ -40,7 +40,7 @@ bool has_case(const HardCase& hard) {
 }
 
 bool has_plain_shader(const HardCase& hard) {
-    const std::vector<std::string> paths = shaders_in("plain");
+    const std::vector<std::string> paths = shader_files("hard_cases/plain");
     return std::any_of(paths.begin(), paths.end(),
                        [&](const std::string& path) { return shows(*DiskFileSystem().read(path), hard); });
 }

@@ -3,42 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compose/compose.hpp"
-#include "compose/search_path.hpp"
-#include "core/file_system.hpp"
-#include "core/text.hpp"
 #include "lab/evaluate/images.hpp"
-#include "validate/validate.hpp"
 
 namespace gobo {
 namespace {
-
-/// A file as a family of its own, with its SPIR-V.
-struct Loaded {
-    Family family;
-    Composition composition;
-    Validated validated;
-};
-
-Loaded load(const std::string& path) {
-    const DiskFileSystem disk;
-    SearchPath search;
-    const Result<Family> family = family_of_files({path}, disk, search);
-    EXPECT_TRUE(family) << path;
-    const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
-    EXPECT_TRUE(composition) << path;
-    ValidateOptions options;
-    options.keep_spirv = true;
-    options.debug_information = true;
-    Loaded loaded{*family, *composition, validate(*family, *composition, options)};
-    EXPECT_EQ(exit_status(loaded.validated.diagnostics), 0) << path;
-    return loaded;
-}
 
 std::vector<std::string> split_at(std::string_view text, std::string_view separator) {
     std::vector<std::string> parts;
@@ -98,15 +70,6 @@ WrongMark mark_of(int line, bool is_inexact, std::string_view text) {
 
 }  // namespace
 
-Lines marked_lines(const std::string& source) {
-    Lines lines;
-    for_each_mark(source, "// trap: ", [&](int number, std::string_view text) {
-        for (const std::string& message : split_at(text, "; "))
-            lines.insert(fmt::format("{}: {}", number, message));
-    });
-    return lines;
-}
-
 Lines following_lines(const std::string& source) {
     Lines lines;
     for_each_mark(source, "// so: ", [&](int number, std::string_view text) {
@@ -129,51 +92,19 @@ std::string number_text(double number) {
 }
 
 double result_of(const std::string& path, const Inputs& inputs, bool is_double) {
-    const Loaded loaded = load(path);
-    const Result<evaluate::Program> program = evaluate::decode(loaded.validated.stages.front().spirv);
-    EXPECT_TRUE(program) << path;
-    if (!program) return 0;
+    const evaluate::Program program = program_of_file(path);
     evaluate::Invocations invocations;
     for (const auto& [name, numbers] : inputs) invocations.values[name] = as_floats(numbers);
-    for (const evaluate::ImagePort& image : program->images)
+    for (const evaluate::ImagePort& image : program.images)
         if (const auto found = inputs.find(image.name); found != inputs.end())
             invocations.images[image.name] = [color = found->second](const evaluate::ImageRequest& request) {
                 return evaluate::answer({color[0], color[1], color[2], color[3]}, request);
             };
     for (const auto& [name, image] : invocations.images) invocations.values.erase(name);
-    const Result<evaluate::Outputs> outputs = is_double ? evaluate::run<double>(*program, invocations)
-                                                        : evaluate::run<float>(*program, invocations);
+    const Result<evaluate::Outputs> outputs =
+        is_double ? evaluate::run<double>(program, invocations) : evaluate::run<float>(program, invocations);
     EXPECT_TRUE(outputs) << path;
-    return outputs ? outputs->values.at(program->outputs.front().name).front() : 0;
-}
-
-sanitize::SanitizeReport report_of(const std::string& path) {
-    const Loaded loaded = load(path);
-    return sanitize::sanitize(loaded.family, loaded.composition, loaded.validated, {});
-}
-
-std::vector<std::string> shaders_in(const std::string& folder) {
-    std::vector<std::string> paths;
-    const std::string whole = std::string(GOBO_SOURCE_DIR "/tests/hard_cases/") + folder;
-    for (const auto& entry : std::filesystem::directory_iterator(whole))
-        paths.push_back(entry.path().string());
-    std::sort(paths.begin(), paths.end());
-    return paths;
-}
-
-Lines found_lines(const sanitize::SanitizeReport& report) {
-    Lines lines;
-    for (const sanitize::SharedFinding& shared : report.findings)
-        lines.insert(fmt::format("{}: {}", shared.finding.place.line, shared.finding.message));
-    return lines;
-}
-
-Lines consequences(const sanitize::SanitizeReport& report) {
-    Lines lines;
-    for (const sanitize::SharedFinding& shared : report.findings)
-        for (const sanitize::Consequence& one : shared.finding.consequences)
-            lines.insert(fmt::format("{}: {}", one.place.line, one.message));
-    return lines;
+    return outputs ? outputs->values.at(program.outputs.front().name).front() : 0;
 }
 
 std::string subject_of(const std::string& source) {

@@ -3,22 +3,15 @@
 // happens, but the first number comes out instead of the second.
 #pragma once
 
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "../sanitize/sanitize_support.hpp"
 #include "hard_case_index.hpp"
-#include "lab/sanitize/sanitize.hpp"
 #include "lit_under_test.hpp"
 
 namespace gobo {
 
-/// "7: division by zero".
-using Lines = std::set<std::string>;
-
-/// The lines that the source marks as traps; several messages of one line stand apart by "; ".
-[[nodiscard]] Lines marked_lines(const std::string& source);
 /// Of the lines that end in "// so: message": what follows from those.
 [[nodiscard]] Lines following_lines(const std::string& source);
 
@@ -40,14 +33,6 @@ struct WrongMark {
 /// The first output's first component of the stage in that file, in fp32 or double; failing to run it fails
 /// the test.
 [[nodiscard]] double result_of(const std::string& path, const Inputs& inputs, bool is_double);
-
-/// The paths of the files in tests/hard_cases/FOLDER, sorted.
-[[nodiscard]] std::vector<std::string> shaders_in(const std::string& folder);
-/// What the sanitizer finds in a file; failing to run it fails the test.
-[[nodiscard]] sanitize::SanitizeReport report_of(const std::string& path);
-/// The lines that a report names.
-[[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
-[[nodiscard]] Lines consequences(const sanitize::SanitizeReport& report);
 
 /// The comment on a plain shader's second line: "tiny cone: a cone of 1e-4 radians ...", the hard cases that
 /// it shows first.

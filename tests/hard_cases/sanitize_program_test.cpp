@@ -33,7 +33,7 @@ Ran sanitize_file(const std::string& path) {
 class SanitizedFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(SanitizedFile, IsFlaggedExactlyAtItsMarks) {
-    const Lines marked = marked_lines(*DiskFileSystem().read(GetParam()));
+    const Lines marked = marked_lines(GetParam());
     const Ran ran = sanitize_file(GetParam());
     EXPECT_EQ(ran.status, marked.empty() ? 0 : 1) << ran.output;
     for (const std::string& line : marked) {  // "7: division by zero"
@@ -47,17 +47,13 @@ TEST_P(SanitizedFile, IsFlaggedExactlyAtItsMarks) {
 }
 
 std::vector<std::string> all_shaders() {
-    std::vector<std::string> paths = shaders_in("plain");
-    const std::vector<std::string> harmless = shaders_in("harmless");
+    std::vector<std::string> paths = shader_files("hard_cases/plain");
+    const std::vector<std::string> harmless = shader_files("hard_cases/harmless");
     paths.insert(paths.end(), harmless.begin(), harmless.end());
     return paths;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, SanitizedFile, testing::ValuesIn(all_shaders()), [](const auto& file) {
-    std::string name = std::filesystem::path(file.param).filename().string();
-    std::replace(name.begin(), name.end(), '.', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, SanitizedFile, testing::ValuesIn(all_shaders()), file_test_name);
 
 }  // namespace
 }  // namespace gobo

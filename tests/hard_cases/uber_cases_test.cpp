@@ -9,7 +9,6 @@
 #include "compose/compose.hpp"
 #include "compose/search_path.hpp"
 #include "core/file_system.hpp"
-#include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/evaluate/images.hpp"
 #include "lab/oracle/model.hpp"

@@ -49,12 +49,6 @@ Validated validate_lit(const Composition& composition) {
     return validate(lit_family(), composition, options);
 }
 
-std::string all_texts(const Diagnostics& diagnostics) {
-    std::string texts;
-    for (const Diagnostic& diagnostic : diagnostics) texts += to_text(diagnostic);
-    return texts;
-}
-
 Selection cover_of_three() {
     Selection selection;
     selection.cover = 3;
@@ -67,7 +61,7 @@ TEST_P(LitMatrix, EveryCombinationOfThreeIsValidAndDeclaresNothingInVain) {
     const Composition composition = compose_lit(cover_of_three(), GetParam());
     EXPECT_GT(composition.permutations.size(), 80u) << "two counts of 9 values alone need 81";
     const Validated validated = validate_lit(composition);
-    EXPECT_EQ(all_texts(validated.diagnostics), "");
+    EXPECT_EQ(to_text(validated.diagnostics), "");
     for (std::size_t i = 0; i < composition.stages.size(); ++i) {
         ASSERT_FALSE(validated.stages[i].spirv.empty());
         EXPECT_THAT(unused_variables(validated.stages[i].spirv).value(), IsEmpty())
@@ -82,7 +76,7 @@ TEST_P(LitMatrix, TheMostLightsOfEachKindAreValid) {
     selection.where = "directional == 8 && point == 8 && spot == 8 && directional_or_point == 8";
     const Composition composition = compose_lit(selection, GetParam());
     EXPECT_GE(composition.permutations.size(), 4u * 4u) << "fogs by depths, of which every dialect has some";
-    EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");
+    EXPECT_EQ(to_text(validate_lit(composition).diagnostics), "");
 }
 
 TEST_P(LitMatrix, TheMostShadowsOfEachKindAreValid) {
@@ -95,7 +89,7 @@ TEST_P(LitMatrix, TheMostShadowsOfEachKindAreValid) {
         "== 12 && (shading == fragment || shading == vertex)";
     const Composition composition = compose_lit(selection, GetParam());
     EXPECT_EQ(composition.permutations.size() % 6, 0U) << "2 shadings, 3 filters";
-    EXPECT_EQ(all_texts(validate_lit(composition).diagnostics), "");
+    EXPECT_EQ(to_text(validate_lit(composition).diagnostics), "");
 }
 
 /// Where texts are shipped: in SPIR-V keys that differ in counts share their stages.

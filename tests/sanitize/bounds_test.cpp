@@ -116,11 +116,7 @@ TEST_P(FaultyLit, LeavesItsBounds) {
     EXPECT_THAT(messages_of(faulty), testing::Contains(testing::HasSubstr(GetParam().found)));
 }
 
-std::string fault_name(const testing::TestParamInfo<Fault>& info) {
-    return info.param.name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Pieces, FaultyLit, testing::ValuesIn(kFaults), fault_name);
+INSTANTIATE_TEST_SUITE_P(Pieces, FaultyLit, testing::ValuesIn(kFaults), row_name);
 
 /// GLSL allows exp() three roundings even at 0: an exponential above 1 takes away more fog than there is.
 TEST(ModelBounds, HoldOnTheLeastAccurateMachines) {

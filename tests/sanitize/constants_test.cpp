@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/sanitize/constant_faults.hpp"
 #include "sanitize_support.hpp"
 
 namespace gobo {
@@ -103,10 +102,6 @@ class Folded : public testing::TestWithParam<Row> {};
 TEST_P(Folded, IsFoundAtItsLine) {
     const sanitize::SanitizeReport report = sanitized_text("folded.frag", shader_with(GetParam()), {});
     EXPECT_EQ(found_lines(report), GetParam().found);
-}
-
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, Folded, testing::ValuesIn(kRows), row_name);

@@ -160,10 +160,6 @@ TEST(DomainOfAMatrix, HoldsForItsSpecialForms) {
               Lines{});
 }
 
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Rows, Contract, testing::ValuesIn(kRows), row_name);
 
 }  // namespace

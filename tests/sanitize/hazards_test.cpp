@@ -49,10 +49,6 @@ TEST_P(Hazards, IsFoundUnlessGuarded) {
     EXPECT_EQ(messages_of(GetParam(), GetParam().guarded), std::set<std::string>());
 }
 
-std::string row_name(const testing::TestParamInfo<Hazard>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Texture, Hazards, testing::ValuesIn(texture_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(UndefinedValue, Hazards, testing::ValuesIn(undefined_value_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(Constant, Hazards, testing::ValuesIn(constant_hazards()), row_name);

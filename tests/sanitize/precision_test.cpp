@@ -64,10 +64,6 @@ TEST_P(Precision, IsLostWhereTheTableSays) {
     EXPECT_GT(loss.contributions.front().change, loss.all_contributions / 2);
 }
 
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Rows, Precision, testing::ValuesIn(kRows), row_name);
 
 TEST(PrecisionOfExactArithmetic, IsWhole) {

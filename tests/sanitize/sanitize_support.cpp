@@ -60,8 +60,9 @@ Lines marked_lines(const std::string& path) {
     for (int number = 1; number <= count; ++number) {
         const std::string_view line = line_of(*source, number);
         const auto mark = line.find(kMark);
-        if (mark != std::string_view::npos)
-            lines.insert(fmt::format("{}: {}", number, line.substr(mark + kMark.size())));
+        if (mark == std::string_view::npos) continue;
+        for (const std::string& message : split(line.substr(mark + kMark.size()), ';'))
+            lines.insert(fmt::format("{}: {}", number, message));
     }
     return lines;
 }
@@ -149,11 +150,22 @@ Domain domain(const std::string& name, double low, double high) {
     return of;
 }
 
-evaluate::Program program_of(const std::string& name, const std::string& text) {
-    const Loaded loaded = load(name, MemoryFileSystem(OneFile{{name, text}}));
+namespace {
+
+evaluate::Program decoded(const Loaded& loaded) {
     Result<evaluate::Program> program = evaluate::decode(loaded.validated.stages.front().spirv);
     EXPECT_TRUE(program);
     return std::move(*program);
+}
+
+}  // namespace
+
+evaluate::Program program_of(const std::string& name, const std::string& text) {
+    return decoded(load(name, MemoryFileSystem(OneFile{{name, text}})));
+}
+
+evaluate::Program program_of_file(const std::string& path) {
+    return decoded(load(path, DiskFileSystem()));
 }
 
 }  // namespace gobo

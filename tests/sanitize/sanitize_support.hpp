@@ -14,13 +14,16 @@ namespace gobo {
 /// "7: division by zero".
 using Lines = std::set<std::string>;
 
-/// Of the lines that end in "// trap: message".
+/// Of the lines that end in "// trap: message"; several messages of one line stand apart by "; ".
 [[nodiscard]] Lines marked_lines(const std::string& path);
 /// Of the report's findings.
 [[nodiscard]] Lines found_lines(const sanitize::SanitizeReport& report);
 
 /// Of what follows from them.
 [[nodiscard]] Lines consequences(const sanitize::SanitizeReport& report);
+
+/// What tests are called whose rows have names.
+inline constexpr auto row_name = [](const auto& info) { return info.param.name; };
 
 /// The files of a folder of tests/, sorted; failing to read it fails the test.
 [[nodiscard]] std::vector<std::string> shader_files(const std::string& folder);
@@ -41,7 +44,8 @@ using Lines = std::set<std::string>;
 /// The range of that name.
 [[nodiscard]] Domain domain(const std::string& name, double low, double high);
 
-/// The stage of that text, decoded.
+/// The stage of that text, or of a file, decoded.
 [[nodiscard]] evaluate::Program program_of(const std::string& name, const std::string& text);
+[[nodiscard]] evaluate::Program program_of_file(const std::string& path);
 
 }  // namespace gobo

@@ -135,10 +135,6 @@ TEST_P(Texture, IsWatched) {
     EXPECT_EQ(not_replayed("texture.frag", text, report), Lines{});
 }
 
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Rows, Texture, testing::ValuesIn(kRows), row_name);
 
 /// What does not matter to a finding is the same in all pixels of the quad that it is saved with.

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/file_system.hpp"
 #include "sanitize_support.hpp"
 
 namespace gobo {
@@ -142,10 +141,6 @@ TEST_P(Trap, IsFlaggedAtItsLine) {
 TEST_P(Trap, IsNotSeenWhereItCannotHappen) {
     const sanitize::SanitizeReport report = sanitized_text("trap.frag", shader_with(GetParam().harmless), {});
     EXPECT_EQ(found_lines(report), Lines{});
-}
-
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, Trap, testing::ValuesIn(kRows), row_name);

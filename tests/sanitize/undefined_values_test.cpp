@@ -129,10 +129,6 @@ TEST_P(Undefined, IsFoundWhereItMatters) {
     EXPECT_EQ(not_replayed("undefined.frag", text, report), Lines{});
 }
 
-std::string row_name(const testing::TestParamInfo<Row>& info) {
-    return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Rows, Undefined, testing::ValuesIn(kRows), row_name);
 
 /// A stage whose main() does nothing has no operation to be watched.

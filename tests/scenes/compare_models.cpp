@@ -33,7 +33,7 @@ int run(const std::vector<std::string>& arguments) {
     const ShippedFamily pbr("pbr");
     const auto studio = Studio::make();
     if (!studio) {
-        fmt::print(stderr, "{}", text_of(studio.error()));
+        fmt::print(stderr, "{}", to_text(studio.error()));
         return 3;
     }
     int status = 0;
@@ -43,7 +43,7 @@ int run(const std::vector<std::string>& arguments) {
                                  ? write_pictures(fmt::format("{}/{}", arguments[0], i - 2), *comparison)
                                  : Result<void>(tl::unexpected(comparison.error()));
         if (!written) {
-            fmt::print(stderr, "{}", text_of(written.error()));
+            fmt::print(stderr, "{}", to_text(written.error()));
             status = 1;
             continue;
         }

@@ -9,7 +9,6 @@
 #include "oracle_colors.hpp"
 #include "scene/read_scene.hpp"
 #include "software_scene.hpp"
-#include "software_textures.hpp"
 
 namespace gobo::scene {
 namespace {

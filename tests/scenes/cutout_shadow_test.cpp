@@ -55,17 +55,17 @@ Image drawn(const nlohmann::json& json) {
     EXPECT_TRUE(files.write(folder + "/quad.bin", quad_buffer()));
     const auto scene = read_scene(files, folder + "/quad.gltf", Reading::physical);
     std::filesystem::remove_all(folder);
-    EXPECT_TRUE(scene) << text_of(scene.error());
+    EXPECT_TRUE(scene) << to_text(scene.error());
     const auto shaders =
         shaders_for_draws(pbr.family, pbr.search, required_effects(*scene, {}, {}), {}, Dialect::own, 2);
-    EXPECT_TRUE(shaders) << text_of(shaders.error());
+    EXPECT_TRUE(shaders) << to_text(shaders.error());
     const auto context = open_context(Backend::osmesa);
-    EXPECT_TRUE(context) << text_of(context.error());
+    EXPECT_TRUE(context) << to_text(context.error());
     const DepthPass depth_pass = shipped_depth_pass(1024);
     const auto picture = draw_scene(*context, *scene, *shaders, pbr.family.render,
                                     *view_of_camera(*scene, 0, kSide, kSide), {&depth_pass, {}});
-    EXPECT_TRUE(picture) << text_of(picture.error());
-    EXPECT_EQ(text_of(picture->warnings), "");
+    EXPECT_TRUE(picture) << to_text(picture.error());
+    EXPECT_EQ(to_text(picture->warnings), "");
     return picture->color;
 }
 

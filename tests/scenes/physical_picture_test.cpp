@@ -14,10 +14,10 @@ namespace {
 TEST(PhysicalScenes, AreTheOraclesPicture) {
     const ShippedFamily pbr("pbr");
     const auto studio = Studio::make();
-    ASSERT_TRUE(studio) << text_of(studio.error());
+    ASSERT_TRUE(studio) << to_text(studio.error());
     const auto comparison = compare_scene(
         pbr, *studio, std::string(GOBO_SOURCE_DIR) + "/examples/still_life/still_life.gltf", 120, 50);
-    ASSERT_TRUE(comparison) << text_of(comparison.error());
+    ASSERT_TRUE(comparison) << to_text(comparison.error());
     EXPECT_GT(comparison->asked, 4000U);
     EXPECT_LT(comparison->largest, 1e-7);  // of colours, where highlights' terms are a hundred times larger
     EXPECT_GT(comparison->inside, 3000);
@@ -54,10 +54,10 @@ TEST_P(SmallScenes, AreTheOraclesPictures) {
     ASSERT_TRUE(files.write(folder + "/quad.bin", quad_buffer()));
     const ShippedFamily pbr("pbr");
     const auto studio = Studio::make();
-    ASSERT_TRUE(studio) << text_of(studio.error());
+    ASSERT_TRUE(studio) << to_text(studio.error());
     const auto comparison = compare_scene(pbr, *studio, folder + "/quad.gltf", 48, 48);
     std::filesystem::remove_all(folder);
-    ASSERT_TRUE(comparison) << text_of(comparison.error());
+    ASSERT_TRUE(comparison) << to_text(comparison.error());
     EXPECT_LT(comparison->largest, 1e-7);
     EXPECT_GT(comparison->inside, 400);
     EXPECT_EQ(comparison->different, 0);

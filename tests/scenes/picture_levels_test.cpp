@@ -87,16 +87,16 @@ Result<Scene> scene_of(const TextureImage& picture) {
 TEST_P(PictureLevels, AreDrawn) {
     const ShippedFamily pbr("pbr");
     const auto scene = scene_of(GetParam().picture);
-    ASSERT_TRUE(scene) << text_of(scene.error());
+    ASSERT_TRUE(scene) << to_text(scene.error());
     const auto shaders = shaders_for_draws(
         pbr.family, pbr.search, required_effects(*scene, eye_of_cameras(*scene), {}), {}, Dialect::own, 1);
-    ASSERT_TRUE(shaders) << text_of(shaders.error());
+    ASSERT_TRUE(shaders) << to_text(shaders.error());
     for (const Backend backend : {Backend::osmesa, Backend::egl}) {
         const auto context = open_context(backend);
-        ASSERT_TRUE(context) << text_of(context.error());
+        ASSERT_TRUE(context) << to_text(context.error());
         const auto picture =
             draw_scene(*context, *scene, *shaders, pbr.family.render, *view_of_camera(*scene, 0, 1, 1));
-        ASSERT_TRUE(picture) << text_of(picture.error());
+        ASSERT_TRUE(picture) << to_text(picture.error());
         EXPECT_NEAR(picture->color.at(0, 0, 0), linear_of_srgb(GetParam().smallest_srgb / 255.0), 1.0 / 255);
     }
 }

@@ -20,12 +20,6 @@ std::string scene_folder() {
 
 }  // namespace
 
-std::string text_of(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
-    return text;
-}
-
 ShippedFamily::ShippedFamily(const std::string& name) {
     const std::string own_folder = name == "uber" ? "tests/ubershader" : "templates";
     const std::string path = source + "/" + own_folder + "/" + name + ".toml";
@@ -38,7 +32,7 @@ ShippedFamily::ShippedFamily(const std::string& name) {
     Result<std::string> text = files.read(path);
     EXPECT_TRUE(text) << path;
     Result<Family> read = read_family(*text, path, find_base);
-    EXPECT_TRUE(read) << text_of(read.error());
+    EXPECT_TRUE(read) << to_text(read.error());
     family = std::move(*read);
     for (const std::string& folder : {own_folder, std::string("shader_lib"), std::string("templates")})
         search.add(files, source + "/" + folder, folder + "/", false);
@@ -48,7 +42,7 @@ DepthPass shipped_depth_pass(int side) {
     const ShippedFamily depth("depth");
     const auto shaders = shaders_of(depth.family, depth.search, std::vector<Draw>(1),
                                     {default_key(depth.family)}, Dialect::own, 1);
-    EXPECT_TRUE(shaders) << text_of(shaders.error());
+    EXPECT_TRUE(shaders) << to_text(shaders.error());
     const Composition& composition = shaders->composition;
     DepthPass pass;
     pass.stages = {stage_text(composition, composition.permutations[0].stages[StageKind::vertex]),
@@ -62,7 +56,7 @@ DepthPass shipped_depth_pass(int side) {
 Scene shipped_scene(const std::string& file) {
     const DiskFileSystem files;
     Result<Scene> scene = read_scene(files, scene_folder() + "/" + file);
-    EXPECT_TRUE(scene) << text_of(scene.error());
+    EXPECT_TRUE(scene) << to_text(scene.error());
     return scene ? std::move(*scene) : Scene();
 }
 

@@ -23,8 +23,6 @@ struct ShippedFamily {
 /// What shadow maps of that size are drawn with: the family `depth`.
 [[nodiscard]] DepthPass shipped_depth_pass(int side);
 
-[[nodiscard]] std::string text_of(const Diagnostics& diagnostics);
-
 /// A scene of tests/assets/scenes/, which must be in order.
 [[nodiscard]] Scene shipped_scene(const std::string& file);
 

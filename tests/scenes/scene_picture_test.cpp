@@ -26,23 +26,23 @@ class Scenes : public testing::TestWithParam<Row> {};
 
 Image drawn(const Scene& scene, const SceneShaders& shaders, const Family& family, const SceneView& view) {
     const auto context = open_context(Backend::osmesa);
-    EXPECT_TRUE(context) << text_of(context.error());
+    EXPECT_TRUE(context) << to_text(context.error());
     const DepthPass depth_pass = shipped_depth_pass(map_side);
     const auto picture = draw_scene(*context, scene, shaders, family.render, view, {&depth_pass, {}});
-    EXPECT_TRUE(picture) << text_of(picture.error());
-    EXPECT_EQ(text_of(picture->warnings), "");
+    EXPECT_TRUE(picture) << to_text(picture.error());
+    EXPECT_EQ(to_text(picture->warnings), "");
     return picture->color;
 }
 
 SoftwarePicture evaluated(const Scene& scene, const SceneShaders& shaders, const Family& family,
                           const SceneView& view) {
     const auto programs = software_programs(shaders);
-    EXPECT_TRUE(programs) << text_of(programs.error());
+    EXPECT_TRUE(programs) << to_text(programs.error());
     const std::vector<Object> objects = objects_of(scene, shaders);
     auto picture =
         draw_in_software(shaders, *programs, objects, values_beside_scene(family.render), view, false,
                          software_images(images_of(scene, shaders.draws), objects, map_side));
-    EXPECT_TRUE(picture) << text_of(picture.error());
+    EXPECT_TRUE(picture) << to_text(picture.error());
     return std::move(*picture);
 }
 
@@ -69,7 +69,7 @@ TEST_P(Scenes, LookTheSameDrawnAndEvaluated) {
     const auto shaders =
         shaders_for_draws(lit.family, lit.search, required_effects(scene, eye_of_cameras(scene), {}),
                           *buckets, Dialect::own, 1);
-    ASSERT_TRUE(shaders) << text_of(shaders.error());
+    ASSERT_TRUE(shaders) << to_text(shaders.error());
     const auto view = view_of_camera(scene, 0, width, height);
     ASSERT_TRUE(view);
     const Image picture = drawn(scene, *shaders, lit.family, *view);
@@ -119,7 +119,7 @@ TEST(Scenes, WithLightsToSpareAreTheSameToTheBit) {
         const auto shaders =
             shaders_for_draws(lit.family, lit.search, required_effects(scene, eye_of_cameras(scene), {}),
                               *parse_buckets(buckets), Dialect::own, 1);
-        ASSERT_TRUE(shaders) << text_of(shaders.error());
+        ASSERT_TRUE(shaders) << to_text(shaders.error());
         pictures.push_back(evaluated(scene, *shaders, lit.family, *view).color);
     }
     EXPECT_EQ(pictures[0], pictures[1]);

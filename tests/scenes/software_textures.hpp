@@ -1,8 +1,6 @@
 // Textures of scenes for the evaluator, by the rules of OpenGL: smaller levels, wrapping, sRGB.
 #pragma once
 
-#include <vector>
-
 #include "lab/evaluate/evaluate.hpp"
 #include "lab/render/image.hpp"
 #include "lab/scene_picture/scene_objects.hpp"

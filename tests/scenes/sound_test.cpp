@@ -1,9 +1,7 @@
 // Nothing needed is missing: pictures by the permutations that a scene's draws need are those of the
 // ubershader with everything on.
-#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
-#include "family/key.hpp"
 #include "hung_scene.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "scene_library.hpp"
@@ -111,14 +109,14 @@ TEST_P(Sound, ChosenPermutationsDrawWhatTheUbershaderDraws) {
     const auto from = vantages(scene, views, width, height);
     const std::vector<Draw> draws = required_effects(scene, eyes_of(from), {});
     const auto chosen = shaders_for_draws(lit.family, lit.search, draws, {}, Dialect::own, 1);
-    ASSERT_TRUE(chosen) << text_of(chosen.error());
+    ASSERT_TRUE(chosen) << to_text(chosen.error());
 
     std::vector<Draw> full;
     for (const Draw& draw : draws) full.push_back(draw.excluded.empty() ? everything_on(scene, draw) : draw);
     const auto full_keys = keys_for_draws(lit.family, full, {}, "450");
-    ASSERT_TRUE(full_keys) << text_of(full_keys.error());
+    ASSERT_TRUE(full_keys) << to_text(full_keys.error());
     auto everything = everything_by_uber(lit, uber, scene, full, *full_keys);
-    ASSERT_TRUE(everything) << text_of(everything.error());
+    ASSERT_TRUE(everything) << to_text(everything.error());
 
     const auto chosen_programs = software_programs(*chosen);
     const auto uber_programs = software_programs(everything->shaders);

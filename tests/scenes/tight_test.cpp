@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "family/key.hpp"
 #include "hung_scene.hpp"
 #include "lab/scene_picture/draw_scene.hpp"
 #include "scene_library.hpp"
@@ -58,7 +57,7 @@ Variants variants_of(const ShippedFamily& lit, const Scene& scene, const std::ve
     for (const Removal& removal : removals) all.push_back(removal.without);
     Variants variants;
     auto shaders = shaders_for_draws(lit.family, lit.search, all, {}, Dialect::own, 1);
-    EXPECT_TRUE(shaders) << text_of(shaders.error());
+    EXPECT_TRUE(shaders) << to_text(shaders.error());
     variants.shaders = std::move(*shaders);
     variants.programs = *software_programs(variants.shaders);
     variants.objects = objects_of(scene, variants.shaders);
@@ -75,7 +74,7 @@ SoftwarePicture picture(const Variants& variants, const std::vector<std::size_t>
         shaders.permutation[number] = variants.shaders.permutation[number];
     auto drawn =
         draw_in_software(shaders, variants.programs, variants.objects, values, view, false, variants.images);
-    EXPECT_TRUE(drawn) << text_of(drawn.error());
+    EXPECT_TRUE(drawn) << to_text(drawn.error());
     return std::move(*drawn);
 }
 

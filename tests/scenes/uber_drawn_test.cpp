@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "../unit/image_comparison.hpp"
-#include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "lab/render/render.hpp"
 #include "lab/render/shadow_maps.hpp"
@@ -20,7 +19,7 @@ struct Drawable {
 
 Drawable drawable(const ShippedFamily& shipped, const Key& key) {
     auto shaders = shaders_of(shipped.family, shipped.search, std::vector<Draw>(1), {key}, Dialect::own, 1);
-    EXPECT_TRUE(shaders) << text_of(shaders.error());
+    EXPECT_TRUE(shaders) << to_text(shaders.error());
     const Permutation& permutation = shaders->composition.permutations.front();
     return {{stage_text(shaders->composition, permutation.stages[StageKind::vertex]),
              stage_text(shaders->composition, permutation.stages[StageKind::fragment])},

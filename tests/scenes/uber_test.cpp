@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "../unit/image_comparison.hpp"
-#include "compose/dialect.hpp"
 #include "family/key.hpp"
 #include "family/selection.hpp"
 #include "lab/render/render.hpp"
@@ -40,11 +39,11 @@ class Painter {
         const std::vector<std::optional<Key>> wanted(keys.begin(), keys.end());
         auto shaders = shaders_of(shipped.family, shipped.search, std::vector<Draw>(keys.size()), wanted,
                                   Dialect::own, 1);
-        EXPECT_TRUE(shaders) << text_of(shaders.error());
+        EXPECT_TRUE(shaders) << to_text(shaders.error());
         shaders_ = std::move(*shaders);
         permutations_ = shaders_.permutation;
         auto programs = software_programs(shaders_);
-        EXPECT_TRUE(programs) << text_of(programs.error());
+        EXPECT_TRUE(programs) << to_text(programs.error());
         programs_ = std::move(*programs);
     }
 
@@ -53,7 +52,7 @@ class Painter {
         shaders_.permutation.assign(stage_.objects.size(), permutations_[number]);
         shaders_.draws.resize(stage_.objects.size());
         const auto drawn = draw_in_software(shaders_, programs_, stage_.objects, values, stage_.view);
-        EXPECT_TRUE(drawn) << text_of(drawn.error());
+        EXPECT_TRUE(drawn) << to_text(drawn.error());
         return drawn->color;
     }
 
@@ -81,7 +80,7 @@ std::vector<Key> switched_cover(const ShippedFamily& lit, const ShippedFamily& u
     }
     selection.where = fmt::format("directional + point + spot + directional_or_point <= {}", kSwitchedLights);
     const auto keys = select(lit.family, selection, "450");
-    EXPECT_TRUE(keys) << text_of(keys.error());
+    EXPECT_TRUE(keys) << to_text(keys.error());
     return *keys;
 }
 

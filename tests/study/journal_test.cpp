@@ -4,18 +4,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "study_support.hpp"
+
 namespace gobo::study {
 namespace {
-
-/// As append_to_disk(), in memory.
-Append append_to(MemoryFileSystem& files) {
-    return [&files](const std::string& path, std::string_view text) -> Result<void> {
-        const std::string before = files.is_file(path) ? files.read(path).value() : "";
-        if (auto written = files.write(path, before + std::string(text)); !written)
-            return tl::unexpected(written.error());
-        return {};
-    };
-}
 
 const std::string kPath = "study/measurements.jsonl";
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "family/key.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/study/rows.hpp"
 #include "study_support.hpp"

@@ -1,8 +1,6 @@
 // The shipped family, its study and the files that both need, for tests.
 #pragma once
 
-#include <map>
-
 #include "lab/study/study.hpp"
 
 namespace gobo::study {

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "lab/verify/inputs.hpp"
-
 namespace gobo::uber {
 namespace {
 

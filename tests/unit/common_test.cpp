@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bytes.hpp"
 #include "core/diagnostic.hpp"
 #include "core/file_system.hpp"
 #include "core/parallel.hpp"
@@ -109,6 +110,43 @@ TEST(Text, FolderOfAPath) {
     EXPECT_EQ(folder_of("some/folder/tiny.toml"), "some/folder");
     EXPECT_EQ(folder_of("tiny.toml"), "");
     EXPECT_EQ(folder_of("/tiny.toml"), "/");
+}
+
+TEST(Text, NumbersAreTheWholeText) {
+    EXPECT_EQ(number_from<int>("-12"), -12);
+    EXPECT_EQ(number_from<double>("2.5e1"), 25.0);
+    for (const char* text : {"", "-", " 1", "1 ", "+1", "1.5", "0x1", "99999999999"})
+        EXPECT_FALSE(number_from<int>(text)) << text;
+    EXPECT_FALSE(number_from<std::size_t>("-1"));
+    EXPECT_EQ(pair_from("640x480", 'x'), std::pair(std::size_t{640}, std::size_t{480}));
+    for (const char* text : {"", "x", "640", "640x", "x480", "640x480x2", "640/480", "-1x2"})
+        EXPECT_FALSE(pair_from(text, 'x')) << text;
+}
+
+TEST(Text, SubscriptsOfANameAreEmptied) {
+    EXPECT_EQ(without_subscripts("lights[12].rows[0][1]"), "lights[].rows[][]");
+    EXPECT_EQ(without_subscripts("lights"), "lights");
+}
+
+TEST(Bytes, HoldWhatIsThereAndWhatIsMissing) {
+    using Value = std::pair<std::optional<int>, Result<std::string>>;
+    Diagnostics errors(2);
+    errors[1].message = "no file";
+    const Result<std::string> missing = tl::unexpected(errors);
+    for (const Value& value : {Value{3, "a"}, Value{std::nullopt, ""}, Value{std::nullopt, missing}}) {
+        const auto read = from_bytes<Value>(to_bytes(value));
+        ASSERT_TRUE(read);
+        EXPECT_EQ(read->first, value.first);
+        ASSERT_EQ(read->second.has_value(), value.second.has_value());
+        if (value.second)
+            EXPECT_EQ(*read->second, *value.second);
+        else
+            EXPECT_EQ(to_text(read->second.error()), to_text(errors));
+        const std::string bytes = to_bytes(value);
+        for (std::size_t size = 0; size < bytes.size(); ++size)
+            EXPECT_FALSE(from_bytes<Value>(bytes.substr(0, size))) << size;
+        EXPECT_FALSE(from_bytes<Value>(bytes + 'x'));
+    }
 }
 
 TEST(ParallelFor, CallsEachIndexOnce) {

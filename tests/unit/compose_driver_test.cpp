@@ -1,5 +1,4 @@
 // That what glslang checks is what a driver gets: both take, or refuse, every text that composing makes.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"

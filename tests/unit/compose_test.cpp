@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "family/key.hpp"
-#include "family/selection.hpp"
 #include "small_families.hpp"
 
 namespace gobo {

@@ -1,7 +1,6 @@
 // What the evaluator says that a fragment writes to storage blocks and images, against what a driver writes.
 #include <array>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "evaluate_support.hpp"

@@ -1,7 +1,6 @@
 // Modules that cannot be decoded: each is a diagnostic, none a crash.
 #include <random>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "evaluate_support.hpp"

@@ -16,12 +16,6 @@ layout(std140) uniform Lights { int count; Light lights[2]; mat2 turn; bool on; 
 layout(binding = 3) uniform sampler2D tex;
 )";
 
-std::string all_of(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
-    return text;
-}
-
 struct Case {
     const char* name;
     const char* file;
@@ -68,12 +62,12 @@ TEST_P(EvalFile, HasItsFaultsNamed) {
         fragment_of("r = a + b + c + texture(tex, a.xy) * lights[1].power;", kDeclarations);
     const Result<EvalInputs> inputs = read_eval_inputs(GetParam().file, "point.toml");
     if (!inputs) {
-        EXPECT_EQ(all_of(inputs.error()), GetParam().expected);
+        EXPECT_EQ(to_text(inputs.error()), GetParam().expected);
         return;
     }
     const Result<Invocations> invocations = invocations_of(*inputs, program);
     ASSERT_FALSE(invocations);
-    EXPECT_EQ(all_of(invocations.error()), GetParam().expected);
+    EXPECT_EQ(to_text(invocations.error()), GetParam().expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, EvalFile, ::testing::ValuesIn(kCases),
@@ -93,11 +87,11 @@ tex = [0.25, 0.5]
 
 EvalReport report_of(const Program& program, bool with_trace) {
     const Result<EvalInputs> inputs = read_eval_inputs(kFile, "point.toml");
-    EXPECT_TRUE(inputs) << all_of(inputs.error());
+    EXPECT_TRUE(inputs) << to_text(inputs.error());
     const Result<Invocations> invocations = invocations_of(*inputs, program);
-    EXPECT_TRUE(invocations) << all_of(invocations.error());
+    EXPECT_TRUE(invocations) << to_text(invocations.error());
     Result<EvalReport> report = evaluate_once(program, *invocations, {with_trace, {}, 0});
-    EXPECT_TRUE(report) << all_of(report.error());
+    EXPECT_TRUE(report) << to_text(report.error());
     return *report;
 }
 
@@ -143,7 +137,7 @@ TEST(EvalReport, InputsLeftOutAreNoted) {
     const Program program = fragment_of("r = a + b;", kDeclarations);
     const Result<EvalInputs> inputs = read_eval_inputs("[inputs]\na = [1, 2, 3, 4]\n", "point.toml");
     ASSERT_TRUE(inputs);
-    EXPECT_EQ(all_of(inputs_left_out(*inputs, program)),
+    EXPECT_EQ(to_text(inputs_left_out(*inputs, program)),
               "gobo: note: the input 'b' (vec4) is not given and is 0\n"
               "gobo: note: the input 'c' (vec4) is not given and is 0\n");
 }

@@ -1,11 +1,9 @@
 // Every function of GLSL.std.450 and every operator of reals, against the C++ library and GLM in double.
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include <glm/glm.hpp>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "evaluate_support.hpp"

@@ -1,7 +1,6 @@
 // Numbers of 8, 16 and 64 bits.
 #include <cstring>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "evaluate_support.hpp"

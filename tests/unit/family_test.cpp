@@ -4,7 +4,6 @@
 
 #include "family/key.hpp"
 #include "family/read_family.hpp"
-#include "small_families.hpp"
 
 namespace gobo {
 namespace {

@@ -2,7 +2,6 @@
 // changed.
 #include "validate/known_results.hpp"
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"
-#include "family/read_family.hpp"
 #include "family/selection.hpp"
 #include "small_families.hpp"
 
@@ -39,8 +37,7 @@ class Damaged final : public ResultCache {
 
 /// Everything that validating says, as text.
 std::string text_of(const Validated& validated, const Composition& composition) {
-    std::string text;
-    for (const Diagnostic& diagnostic : validated.diagnostics) text += to_text(diagnostic);
+    std::string text = to_text(validated.diagnostics);
     for (std::size_t i = 0; i < validated.stages.size(); ++i) {
         BatchResult result;
         result.stages.push_back({0, true, {}, validated.stages[i]});

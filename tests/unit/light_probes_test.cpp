@@ -1,8 +1,6 @@
 // The probes that applications get are those of data/, and what is said of their energy is right.
 #include "gobo/light_probes.hpp"
 
-#include <map>
-
 #include <gtest/gtest.h>
 
 #include "core/file_system.hpp"

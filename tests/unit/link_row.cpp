@@ -48,12 +48,10 @@ void expect_verdicts(const LinkRow& row) {
     const std::string vertex = head + row.vertex;
     const std::string fragment = head + (is_es ? "precision highp float;\n" : "") + row.fragment;
     const Diagnostics found = checked(vertex, fragment);
-    std::string all;
-    for (const Diagnostic& diagnostic : found) all += to_text(diagnostic);
-    ASSERT_EQ(found.size(), row.messages.size()) << all;
+    ASSERT_EQ(found.size(), row.messages.size()) << to_text(found);
     for (std::size_t i = 0; i < found.size(); ++i)
-        EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << all;
-    EXPECT_EQ(exit_status(found), row.mesa == Mesa::links ? 0 : 1) << all;
+        EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << to_text(found);
+    EXPECT_EQ(exit_status(found), row.mesa == Mesa::links ? 0 : 1) << to_text(found);
 
     const Result<Context> context = open_context(Backend::osmesa);
     ASSERT_TRUE(context.has_value());

@@ -1,5 +1,4 @@
 // What a family puts in front of its stages and into their text: version, prologue, macros, substituted text.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "compose/compose.hpp"

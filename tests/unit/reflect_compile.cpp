@@ -3,6 +3,9 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <gtest/gtest.h>
+
+#include "reflect/reflect.hpp"
 
 namespace gobo::testing {
 namespace {
@@ -46,6 +49,12 @@ Compiled compile(Stage stage, const std::string& source) {
     compiled.types = types_of(program);
     glslang::GlslangToSpv(*program.getIntermediate(language), compiled.spirv);
     return compiled;
+}
+
+Interface interface_of_stage(Stage stage, const std::string& source) {
+    const Compiled compiled = compile(stage, source);
+    EXPECT_EQ(compiled.log, "");
+    return restore_bools(reflect_stage(compiled.spirv).value_or(Interface{}), compiled.types);
 }
 
 }  // namespace gobo::testing

@@ -21,4 +21,7 @@ struct Compiled {
 /// Compiles with OpenGL semantics. What has no location or binding is given one.
 [[nodiscard]] Compiled compile(Stage stage, const std::string& source);
 
+/// The interface of a stage that compiles, with its booleans; failing to compile it fails the test.
+[[nodiscard]] Interface interface_of_stage(Stage stage, const std::string& source);
+
 }  // namespace gobo::testing

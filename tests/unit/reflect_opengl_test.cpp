@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "program_interface.hpp"
-#include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 #include "reflect_shaders.hpp"
 
@@ -14,12 +13,6 @@ using ::testing::IsEmpty;
 using testing::Stage;
 
 constexpr const char* plain_vertex = "#version 450\nvoid main() { gl_Position = vec4(1.0); }\n";
-
-Interface reflected(Stage stage, const std::string& source) {
-    const testing::Compiled compiled = testing::compile(stage, source);
-    EXPECT_EQ(compiled.log, "");
-    return restore_bools(reflect_stage(compiled.spirv).value_or(Interface{}), compiled.types);
-}
 
 /// Where OpenGL's account of the linked program differs from `interface`.
 std::vector<std::string> differences_from_opengl(const Interface& interface, const std::string& vertex,
@@ -37,8 +30,8 @@ class BlockLayout : public ::testing::TestWithParam<testing::Shader> {};
 
 TEST_P(BlockLayout, AgreesWithOpenGl) {
     const std::string source = source_of(GetParam());
-    Interface interface =
-        merge({reflected(Stage::vertex, plain_vertex), reflected(GetParam().stage, source)});
+    Interface interface = merge(
+        {interface_of_stage(Stage::vertex, plain_vertex), interface_of_stage(GetParam().stage, source)});
     EXPECT_FALSE(interface.blocks.empty());
     for (Block& block : interface.blocks) {
         block.stages.clear();  // OpenGL lists the stages that read a block, and none does
@@ -89,7 +82,7 @@ void main() {
 }
 )";
     const Interface interface =
-        merge({reflected(Stage::vertex, vertex), reflected(Stage::fragment, fragment)});
+        merge({interface_of_stage(Stage::vertex, vertex), interface_of_stage(Stage::fragment, fragment)});
     EXPECT_THAT(differences_from_opengl(interface, vertex, fragment), IsEmpty());
 }
 

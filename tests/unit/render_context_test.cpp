@@ -20,19 +20,13 @@ out vec4 color;
 void main() { color = vec4(2.5, -1.0, 0.25, 1.0); }
 )";
 
-std::string text_of(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
-    return text;
-}
-
 /// Covers the lower left half of an 8 x 8 picture with one colour at depth 0.75.
 void draw_triangle(const Context& context, Image& color, Image& depth) {
     const auto framebuffer = make_framebuffer(context, 8, 8);
-    ASSERT_TRUE(framebuffer) << text_of(framebuffer.error());
+    ASSERT_TRUE(framebuffer) << to_text(framebuffer.error());
     const auto program = link_program(context, {stage_text(StageKind::vertex, "a.vert", vertex_source),
                                                 stage_text(StageKind::fragment, "a.frag", fragment_source)});
-    ASSERT_TRUE(program) << text_of(program.error());
+    ASSERT_TRUE(program) << to_text(program.error());
     const GladGLContext& gl = context.gl();
     framebuffer->bind();
     gl.ClearColor(0, 0, 0, 0);
@@ -75,8 +69,8 @@ class Backends : public testing::TestWithParam<Backend> {};
 TEST_P(Backends, DrawUnclampedFloats) {
     const auto context = open_context(GetParam());
     // EGL is optional: OSMesa alone must draw, so only its absence is a failure.
-    if (!context && GetParam() == Backend::egl) GTEST_SKIP() << text_of(context.error());
-    ASSERT_TRUE(context) << text_of(context.error());
+    if (!context && GetParam() == Backend::egl) GTEST_SKIP() << to_text(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     EXPECT_EQ(context->backend(), GetParam());
     EXPECT_GE(context->version(), 45);
     EXPECT_THAT(context->renderer(), testing::HasSubstr("llvmpipe"));
@@ -89,8 +83,8 @@ TEST_P(Backends, DrawUnclampedFloats) {
 TEST_P(Backends, GiveOpenGl33) {
     const auto context = open_context(GetParam(), 33);
     // As above: EGL is optional.
-    if (!context && GetParam() == Backend::egl) GTEST_SKIP() << text_of(context.error());
-    ASSERT_TRUE(context) << text_of(context.error());
+    if (!context && GetParam() == Backend::egl) GTEST_SKIP() << to_text(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     EXPECT_GE(context->version(), 33);
 }
 
@@ -99,10 +93,10 @@ INSTANTIATE_TEST_SUITE_P(Render, Backends, testing::Values(Backend::osmesa, Back
 
 TEST(Context, TwoBackendsTakeTurnsInOneThread) {
     const auto osmesa = open_context(Backend::osmesa);
-    ASSERT_TRUE(osmesa) << text_of(osmesa.error());
+    ASSERT_TRUE(osmesa) << to_text(osmesa.error());
     const auto egl = open_context(Backend::egl);
     // As above: EGL is optional.
-    if (!egl) GTEST_SKIP() << text_of(egl.error());
+    if (!egl) GTEST_SKIP() << to_text(egl.error());
     for (int round = 0; round < 2; ++round) {
         for (const Context& context : {*osmesa, *egl}) {
             Image color;
@@ -116,13 +110,13 @@ TEST(Context, TwoBackendsTakeTurnsInOneThread) {
 TEST(Context, UnknownBackend) {
     const auto backend = backend_of("elg");
     ASSERT_FALSE(backend);
-    EXPECT_EQ(text_of(backend.error()), "gobo: error: unknown backend 'elg'\n  help: did you mean 'egl'?\n");
+    EXPECT_EQ(to_text(backend.error()), "gobo: error: unknown backend 'elg'\n  help: did you mean 'egl'?\n");
 }
 
 TEST(Context, NoSuchVersion) {
     const auto context = open_context(Backend::osmesa, 49);
     ASSERT_FALSE(context);
-    EXPECT_EQ(text_of(context.error()), "gobo: error: OSMesa gives no OpenGL 4.9 core profile\n");
+    EXPECT_EQ(to_text(context.error()), "gobo: error: OSMesa gives no OpenGL 4.9 core profile\n");
 }
 
 TEST(Framebuffer, SizeMustBePossible) {
@@ -130,7 +124,7 @@ TEST(Framebuffer, SizeMustBePossible) {
     ASSERT_TRUE(context);
     const auto framebuffer = make_framebuffer(*context, 0, 8);
     ASSERT_FALSE(framebuffer);
-    EXPECT_EQ(text_of(framebuffer.error()),
+    EXPECT_EQ(to_text(framebuffer.error()),
               "gobo: error: cannot draw a picture of 0 x 8 pixels\n  help: choose both from 1 to 16384\n");
 }
 
@@ -147,7 +141,7 @@ TEST(Program, DriverErrorsNameThePieceAndItsOwnLine) {
     const auto program =
         link_program(*context, {stage_text(StageKind::vertex, "a.vert", vertex_source), fragment});
     ASSERT_FALSE(program);
-    EXPECT_EQ(text_of(program.error()),
+    EXPECT_EQ(to_text(program.error()),
               "lib/fog/linear.glsl:2: error: no function with name 'mxi'\n"
               "        return mxi(d, 1.0, 0.5);\n"
               "lib/fog/linear.glsl:2: error: could not implicitly convert return value to float, in function "
@@ -168,7 +162,7 @@ TEST(Program, LinkErrorsAreReported) {
                                            "#version 330\nin vec3 normal;\nout vec4 color;\n"
                                            "void main() { color = vec4(normal, 1.0); }\n")});
     ASSERT_FALSE(program);
-    EXPECT_EQ(text_of(program.error()),
+    EXPECT_EQ(to_text(program.error()),
               "gobo: error: vertex shader output `normal' declared as type `vec4', but fragment shader input "
               "declared as type `vec3'\n");
 }
@@ -186,7 +180,7 @@ TEST_P(DriverLogs, AreMappedToPieces) {
     stage.pieces.push_back({"first", "first.glsl", "one\ntwo\n", true});
     stage.pieces.push_back({"empty", "empty.glsl", "", true});
     stage.pieces.push_back({"last", "last.glsl", "three\nfour", true});
-    EXPECT_EQ(text_of(diagnostics_of_log(GetParam().log, stage)), GetParam().text);
+    EXPECT_EQ(to_text(diagnostics_of_log(GetParam().log, stage)), GetParam().text);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "lab/render/render.hpp"
-#include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 
 namespace gobo {
@@ -64,22 +62,8 @@ std::vector<StageText> stages(const char* vertex, const char* fragment) {
 }
 
 Interface interface_of(const char* vertex, const char* fragment) {
-    std::vector<Interface> interfaces;
-    for (const auto& [stage, source] :
-         {std::pair(testing::Stage::vertex, vertex), std::pair(testing::Stage::fragment, fragment)}) {
-        const testing::Compiled compiled = testing::compile(stage, source);
-        EXPECT_EQ(compiled.log, "");
-        const auto interface = reflect_stage(compiled.spirv);
-        EXPECT_TRUE(interface);
-        interfaces.push_back(restore_bools(interface.value_or(Interface()), compiled.types));
-    }
-    return merge(interfaces);
-}
-
-std::string text_of(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
-    return text;
+    return merge({testing::interface_of_stage(testing::Stage::vertex, vertex),
+                  testing::interface_of_stage(testing::Stage::fragment, fragment)});
 }
 
 class Pictures : public ::testing::TestWithParam<Backend> {
@@ -87,8 +71,8 @@ class Pictures : public ::testing::TestWithParam<Backend> {
     void SetUp() override {
         auto context = open_context(GetParam());
         // EGL is optional: OSMesa alone must draw, so only its absence is a failure.
-        if (!context && GetParam() == Backend::egl) GTEST_SKIP() << text_of(context.error());
-        ASSERT_TRUE(context) << text_of(context.error());
+        if (!context && GetParam() == Backend::egl) GTEST_SKIP() << to_text(context.error());
+        ASSERT_TRUE(context) << to_text(context.error());
         context_.emplace(std::move(*context));
     }
     std::optional<Context> context_;
@@ -101,8 +85,8 @@ TEST_P(Pictures, SphereIsLitAsTheEquationSays) {
     const auto picture = render_permutation(*context_, stages(vertex_source, fragment_source),
                                             interface_of(vertex_source, fragment_source),
                                             {{make_sphere(128, 64), glm::dmat4(1), {}}}, lights, view);
-    ASSERT_TRUE(picture) << text_of(picture.error());
-    EXPECT_EQ(text_of(picture->warnings), "");
+    ASSERT_TRUE(picture) << to_text(picture.error());
+    EXPECT_EQ(to_text(picture->warnings), "");
     // The middle pixel sees the point of the sphere that faces the camera.
     const glm::dvec3 point = glm::normalize(view.camera.position);
     const double first = glm::dot(point, glm::normalize(glm::dvec3(4, 5, 3) - point));
@@ -122,7 +106,7 @@ TEST_P(Pictures, SphereIsLitAsTheEquationSays) {
 TEST_P(Pictures, TeapotOnAPlane) {
     const DiskFileSystem files;
     const auto teapot = read_obj(files, GOBO_SOURCE_DIR "/data/meshes/teapot.obj");
-    ASSERT_TRUE(teapot) << text_of(teapot.error());
+    ASSERT_TRUE(teapot) << to_text(teapot.error());
     View view;
     view.width = 320;
     view.height = 240;
@@ -139,7 +123,7 @@ TEST_P(Pictures, TeapotOnAPlane) {
     const auto picture =
         render_permutation(*context_, stages(vertex_source, fragment_source),
                            interface_of(vertex_source, fragment_source), objects, values, view);
-    ASSERT_TRUE(picture) << text_of(picture.error());
+    ASSERT_TRUE(picture) << to_text(picture.error());
     // The teapot's middle is red, the plane before it grey, the sky black.
     EXPECT_GT(picture->color.at(160, 130, 0), 2 * picture->color.at(160, 130, 1));
     EXPECT_NEAR(picture->color.at(160, 230, 0), picture->color.at(160, 230, 1), 0.1);
@@ -153,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Render, Pictures, ::testing::Values(Backend::osmesa, Ba
 /// GLSL 330 states no bindings and has plain uniforms; every kind of them is set and shown as a channel.
 TEST(Picture, PlainUniformsAndSamplersOf330) {
     const auto context = open_context(Backend::osmesa, 33);
-    ASSERT_TRUE(context) << text_of(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     const char* const vertex = R"(#version 330
 in vec3 position;
 uniform mat4 u_mvp;
@@ -203,8 +187,8 @@ void main() {
     for (Variable& input : interface.inputs) input.location = -1;
     const auto picture = render_permutation(*context, stages(vertex, fragment), interface,
                                             {{make_sphere(16, 8), glm::dmat4(1), {}}}, values, view);
-    ASSERT_TRUE(picture) << text_of(picture.error());
-    EXPECT_EQ(text_of(picture->warnings), "");
+    ASSERT_TRUE(picture) << to_text(picture.error());
+    EXPECT_EQ(to_text(picture->warnings), "");
     EXPECT_EQ(picture->color.at(4, 4, 0), 1.0F);
     EXPECT_EQ(picture->color.at(4, 4, 1), 11.5F);
     EXPECT_NEAR(picture->color.at(4, 4, 2), 0.5 + 0.75 + 0.5 * 4 + 2,
@@ -214,7 +198,7 @@ void main() {
 
 TEST(Picture, WhatHasNoValueIsWarnedOf) {
     const auto context = open_context(Backend::osmesa);
-    ASSERT_TRUE(context) << text_of(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     const char* const vertex = R"(#version 450
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 wind;
@@ -232,15 +216,15 @@ void main() { color = vec4(lights[1].color, texture(table, lights[0].range).r); 
         render_permutation(*context, stages(vertex, fragment), interface_of(vertex, fragment),
                            {{make_plane(1, 1), glm::dmat4(1), {}}, {make_plane(2, 1), glm::dmat4(1), {}}},
                            {{"Lights.lights[1].color", "", {1, 1, 1}, {}}}, View());
-    ASSERT_TRUE(picture) << text_of(picture.error());
-    EXPECT_EQ(text_of(picture->warnings),
+    ASSERT_TRUE(picture) << to_text(picture.error());
+    EXPECT_EQ(to_text(picture->warnings),
               "gobo: warning: the renderer has no texture for 'table' of type sampler1D\n"
               "  help: it reads as black\n"
               "gobo: warning: 'Lights.lights[].range' has no value and stays 0\n"
               "  help: give it one under [render] in the family file\n"
               "gobo: warning: the attribute 'wind' has no value and stays 0\n"
               "  help: give it one under [render] in the family file\n");
-    EXPECT_EQ(text_of(picture->background_alone),  // planes seen along themselves
+    EXPECT_EQ(to_text(picture->background_alone),  // planes seen along themselves
               "gobo: warning: the picture is the background alone: nothing of the objects is drawn\n"
               "  help: see what gl_Position is, and which fragments are discarded\n");
 }
@@ -256,7 +240,7 @@ class Colors : public ::testing::TestWithParam<ColorRow> {};
 
 TEST_P(Colors, AreDrawnOrWarnedOf) {
     const auto context = open_context(Backend::osmesa);
-    ASSERT_TRUE(context) << text_of(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     const bool is_old = std::string_view(GetParam().version) < "130";
     const std::string head = fmt::format("#version {}\n", GetParam().version);
     const std::string vertex = head + (is_old ? "attribute" : "in") +
@@ -273,11 +257,11 @@ TEST_P(Colors, AreDrawnOrWarnedOf) {
     view.width = view.height = 9;
     const auto picture = render_permutation(*context, stages(vertex.c_str(), fragment.c_str()), interface,
                                             {{make_sphere(16, 8), glm::dmat4(1), {}}}, {}, view);
-    ASSERT_TRUE(picture) << text_of(picture.error());
+    ASSERT_TRUE(picture) << to_text(picture.error());
     const std::string warning = GetParam().warning;
     EXPECT_EQ(picture->color.at(4, 4, 1), warning.empty() ? 1.0F : 0.0F);
-    EXPECT_EQ(text_of(picture->warnings), "");
-    EXPECT_EQ(text_of(picture->background_alone),
+    EXPECT_EQ(to_text(picture->warnings), "");
+    EXPECT_EQ(to_text(picture->background_alone),
               warning.empty() ? "" : "gobo: warning: the picture is the background alone: " + warning);
 }
 
@@ -309,11 +293,11 @@ TEST_P(BadValues, AreErrorsAtTheirPlace) {
     value.place = {"demo.toml", 7, 3};
     const Interface interface = interface_of(vertex_source, fragment_source);
     const auto context = open_context(Backend::osmesa);
-    ASSERT_TRUE(context) << text_of(context.error());
+    ASSERT_TRUE(context) << to_text(context.error());
     const auto picture = render_permutation(*context, stages(vertex_source, fragment_source), interface,
                                             {{make_plane(1, 1), glm::dmat4(1), {}}}, {value}, View());
     ASSERT_FALSE(picture);
-    EXPECT_EQ(text_of(picture.error()), GetParam().text);
+    EXPECT_EQ(to_text(picture.error()), GetParam().text);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -15,15 +15,9 @@
 namespace gobo {
 namespace {
 
-std::string text_of(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic);
-    return text;
-}
-
 template <class Value>
 Value value_of(Result<Value> result) {
-    EXPECT_TRUE(result) << text_of(result.error());
+    EXPECT_TRUE(result) << to_text(result.error());
     return std::move(result.value());
 }
 
@@ -45,7 +39,7 @@ RenderedSelection render(const Source& source, const Selection& selection, Diale
     const auto keys = value_of(select(family, selection, name_of(dialect)));
     const Composition composition = value_of(compose(family, keys, search, dialect));
     const Validated validated = validate(family, composition, {});
-    EXPECT_EQ(text_of(validated.diagnostics), "");
+    EXPECT_EQ(to_text(validated.diagnostics), "");
     std::vector<Interface> interfaces;
     for (const Permutation& permutation : composition.permutations)
         interfaces.push_back(interface_of(validated, permutation));
@@ -92,8 +86,8 @@ TEST_P(Lit, RendersAsIn450OnOsmesa) {
     MemoryFileSystem actual;
     const RenderedSelection reference = render(lit, selection, Dialect::glsl450, Backend::osmesa, expected);
     const RenderedSelection rendered = render(lit, selection, GetParam().dialect, GetParam().backend, actual);
-    EXPECT_EQ(text_of(reference.diagnostics), "");
-    EXPECT_EQ(text_of(rendered.diagnostics), "");
+    EXPECT_EQ(to_text(reference.diagnostics), "");
+    EXPECT_EQ(to_text(rendered.diagnostics), "");
     EXPECT_GT(reference.files.size(), 10U);
     ASSERT_EQ(rendered.files, reference.files);
     for (const std::string& file : reference.files) EXPECT_EQ(actual.read(file), expected.read(file)) << file;
@@ -144,7 +138,7 @@ TEST(RenderSelection, WhatFailsStopsNoOtherKey) {
     const RenderedSelection rendered =
         render({files, "f", "own.toml"}, selection, Dialect::own, Backend::osmesa, pictures);
     EXPECT_EQ(rendered.files, (std::vector<std::string>{"out/default.pfm", "out/half-on.pfm"}));
-    EXPECT_EQ(text_of(rendered.diagnostics),
+    EXPECT_EQ(to_text(rendered.diagnostics),
               "f/own.toml:11:10: error: 'tint' is given 2 numbers [tint=on, and 1 more key]\n"
               "  help: it is of type vec3: give 3\n");
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "program_interface.hpp"
-#include "reflect/reflect.hpp"
 #include "reflect_compile.hpp"
 
 namespace gobo {
@@ -88,16 +87,8 @@ constexpr Row rows[] = {
 
 /// Both stages through glslang, and their interface.
 Interface reflect(const Row& row) {
-    std::vector<Interface> stages;
-    for (const auto& [stage, source] : {std::pair(testing::Stage::vertex, std::string(vertex_source)),
-                                        std::pair(testing::Stage::fragment, fragment_source(row))}) {
-        const testing::Compiled compiled = testing::compile(stage, source);
-        EXPECT_EQ(compiled.log, "");
-        const auto interface = reflect_stage(compiled.spirv);
-        EXPECT_TRUE(interface);
-        stages.push_back(restore_bools(interface.value_or(Interface()), compiled.types));
-    }
-    return merge(stages);
+    return merge({testing::interface_of_stage(testing::Stage::vertex, vertex_source),
+                  testing::interface_of_stage(testing::Stage::fragment, fragment_source(row))});
 }
 
 class Witness : public ::testing::TestWithParam<Row> {};

@@ -36,10 +36,6 @@ TEST_P(Effects, AreJudged) {
     EXPECT_EQ(verdict(read_patched(GetParam().patch), GetParam().effect), GetParam().verdict);
 }
 
-std::string put(std::string_view path, std::string_view value) {
-    return R"([{"op": "add", "path": ")" + std::string(path) + R"(", "value": )" + std::string(value) + "}]";
-}
-
 /// The light of the scene, replaced; its node, replaced likewise where `node` is not empty.
 std::string light(std::string_view members, std::string_view node = "") {
     std::string patch = fmt::format(

@@ -13,10 +13,7 @@ namespace {
 using Content = std::map<std::string, std::string, std::less<>>;
 
 std::string error_of(const Result<Scene>& scene) {
-    if (scene) return "no error";
-    std::string text;
-    for (const Diagnostic& diagnostic : scene.error()) text += to_text(diagnostic);
-    return text;
+    return scene ? "no error" : to_text(scene.error());
 }
 
 struct Broken {
@@ -34,13 +31,6 @@ TEST_P(BrokenScenes, HaveOneClearError) {
     EXPECT_EQ(exit_status(scene.error()), 1);
 }
 
-std::string put(std::string_view path, std::string_view value) {
-    return R"([{"op": "add", "path": ")" + std::string(path) + R"(", "value": )" + std::string(value) + "}]";
-}
-std::string take(std::string_view path) {
-    return R"([{"op": "remove", "path": ")" + std::string(path) + R"("}])";
-}
-
 /// A masked material whose base colour is that image.
 std::string masked(std::string_view image) {
     return fmt::format(
@@ -49,11 +39,6 @@ std::string masked(std::string_view image) {
             {{"op": "add", "path": "/materials/0/alphaMode", "value": "MASK"}},
             {{"op": "add", "path": "/materials/0/pbrMetallicRoughness/baseColorTexture", "value": {{"index": 0}}}}])",
         image);
-}
-
-std::string instanced(std::string_view attributes) {
-    return put("/nodes/0/extensions",
-               fmt::format(R"({{"EXT_mesh_gpu_instancing": {{"attributes": {}}}}})", attributes));
 }
 
 INSTANTIATE_TEST_SUITE_P(

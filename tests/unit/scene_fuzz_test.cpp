@@ -1,6 +1,5 @@
 // Broken files of every kind: whatever is changed in a scene, it is read or refused with one clear error,
 // soon.
-#include <ctime>
 #include <random>
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
 // Scenes read for metallic-roughness materials: factors, pictures, tangents, the light that stands in.
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

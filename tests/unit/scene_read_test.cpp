@@ -42,15 +42,6 @@ TEST_P(Bounds, HoldThePrimitive) {
     EXPECT_EQ(bounds_of(read_patched(GetParam().patch)), GetParam().bounds);
 }
 
-std::string put(std::string_view path, std::string_view value) {
-    return R"([{"op": "add", "path": ")" + std::string(path) + R"(", "value": )" + std::string(value) + "}]";
-}
-
-std::string instanced(std::string_view attributes) {
-    return put("/nodes/0/extensions",
-               fmt::format(R"({{"EXT_mesh_gpu_instancing": {{"attributes": {}}}}})", attributes));
-}
-
 std::string animated(std::string_view path, int output, std::string_view more = "") {
     return put("/animations/-", fmt::format(R"({{"samplers": [{{"input": 2, "output": {}{}}}],
         "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "{}"}}}}]}})",
@@ -202,11 +193,7 @@ TEST(SceneReading, BufferFilesAreNamedRelativeToTheScene) {
 
 TEST(SceneReading, WarnsOfConesThatTheSpecificationForbids) {
     const auto warnings_of = [](const std::string& light) {
-        std::string text;
-        for (const Diagnostic& warning :
-             read_patched(put("/extensions/KHR_lights_punctual/lights/0", light)).warnings)
-            text += to_text(warning);
-        return text;
+        return to_text(read_patched(put("/extensions/KHR_lights_punctual/lights/0", light)).warnings);
     };
     EXPECT_EQ(warnings_of(R"({"type": "spot"})"),
               "quad.gltf: warning: extensions.KHR_lights_punctual.lights[0] is a spot light without 'spot'\n"

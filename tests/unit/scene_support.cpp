@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scene/read_scene.hpp"
@@ -75,6 +76,19 @@ std::string quad_buffer() {
 
 nlohmann::json quad_scene() {
     return nlohmann::json::parse(quad_text);
+}
+
+std::string put(std::string_view path, std::string_view value) {
+    return R"([{"op": "add", "path": ")" + std::string(path) + R"(", "value": )" + std::string(value) + "}]";
+}
+
+std::string take(std::string_view path) {
+    return R"([{"op": "remove", "path": ")" + std::string(path) + R"("}])";
+}
+
+std::string instanced(std::string_view attributes) {
+    return put("/nodes/0/extensions",
+               fmt::format(R"({{"EXT_mesh_gpu_instancing": {{"attributes": {}}}}})", attributes));
 }
 
 nlohmann::json patched_scene(std::string_view patch) {

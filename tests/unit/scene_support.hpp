@@ -20,6 +20,12 @@ namespace gobo::scene {
 /// nodes "quad" (mesh 0), "lamp" (point light at 0, 0, 2), "camera" (at 0, 0, 5).
 [[nodiscard]] nlohmann::json quad_scene();
 
+/// The RFC 6902 patches that add the value at a place and take away what is there, and one that gives the
+/// quad instances.
+[[nodiscard]] std::string put(std::string_view path, std::string_view value);
+[[nodiscard]] std::string take(std::string_view path);
+[[nodiscard]] std::string instanced(std::string_view attributes);
+
 /// `quad_scene()` after an RFC 6902 patch.
 [[nodiscard]] nlohmann::json patched_scene(std::string_view patch);
 

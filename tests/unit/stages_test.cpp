@@ -55,12 +55,10 @@ TEST_P(Stages, AreCheckedAsMesaDoes) {
     ASSERT_TRUE(family) << first_text(family.error());
     const Composition composition = compose(*family, {{}}, search, Dialect::own).value();
     const Diagnostics found = validate(*family, composition, {}).diagnostics;
-    std::string all;
-    for (const Diagnostic& diagnostic : found) all += to_text(diagnostic);
-    ASSERT_EQ(found.size(), row.messages.size()) << all;
+    ASSERT_EQ(found.size(), row.messages.size()) << to_text(found);
     for (std::size_t i = 0; i < found.size(); ++i)
-        EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << all;
-    EXPECT_EQ(exit_status(found) == 0, row.is_right) << all;
+        EXPECT_THAT(to_text(found[i]), HasSubstr(row.messages[i])) << to_text(found);
+    EXPECT_EQ(exit_status(found) == 0, row.is_right) << to_text(found);
 
     if (row.ends_mesa) return;
     const Result<Context> context = open_context(Backend::osmesa);

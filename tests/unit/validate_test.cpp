@@ -78,12 +78,7 @@ TEST_F(Validate, SaysTheSameWhateverTheNumberOfThreads) {
         "#if POINTS == 1\nvec2 wrong() { return normal; }\n#endif\nvoid main() { seen(normal); }\n";
     files["fog/none.glsl"] = "void seen(vec3 v) {}\n";
     files["fog/linear.glsl"] = "void seen(vec2 v) {}\n";
-    const auto texts = [&](int jobs) {
-        std::string all_texts;
-        for (const Diagnostic& diagnostic : all(Dialect::own, jobs).diagnostics)
-            all_texts += to_text(diagnostic);
-        return all_texts;
-    };
+    const auto texts = [&](int jobs) { return to_text(all(Dialect::own, jobs).diagnostics); };
     const std::string alone = texts(1);
     EXPECT_THAT(alone, HasSubstr("error"));
     for (int i = 0; i < 10; ++i) ASSERT_EQ(texts(4), alone);

@@ -1,6 +1,5 @@
 // The dialects that ship SPIR-V: where Vulkan binds what a stage declares, and counts as specialisation
 // constants.
-#include <algorithm>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

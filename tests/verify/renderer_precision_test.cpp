@@ -2,10 +2,8 @@
 // interpolation and its filtering are from exact. Each row prints what it found, and holds the limit between
 // that and four times that.
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "lab/evaluate/images.hpp"

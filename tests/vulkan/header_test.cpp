@@ -1,7 +1,6 @@
 // A generated header for Vulkan: its tables, and the structs that <gobo/vulkan.hpp> makes of them.
 #include <array>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vulkan/vulkan_core.h>
 // clang-format off: behind Vulkan's own

@@ -16,7 +16,7 @@ namespace gobo {
 namespace {
 
 double number_in(const std::string& cell) {
-    return number_in_cell(cell).value_or(std::numeric_limits<double>::infinity());
+    return number_from<double>(cell).value_or(std::numeric_limits<double>::infinity());
 }
 
 bool is_within(const StudiedKey& key, const Budget& budget) {

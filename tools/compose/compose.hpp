@@ -1,7 +1,6 @@
 // From a family and keys to the distinct pieces, the stages as lists of them, and the permutations.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <set>
 #include <string>

@@ -1,7 +1,5 @@
 #include "compose/piece_library.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "compose/conditions.hpp"
@@ -150,10 +148,9 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
                                            std::string(line_of(piece, uniform.line))});
     }
     composition_.stated_bindings.merge(scanned.bindings);
-    Diagnostics& warnings = composition_.warnings;
     if (!is_spirv(composition_.dialect))  // in SPIR-V every offset is stated
-        warnings.insert(warnings.end(), scanned.unstated_layouts.begin(), scanned.unstated_layouts.end());
-    warnings.insert(warnings.end(), scanned.warnings.begin(), scanned.warnings.end());
+        append(composition_.warnings, scanned.unstated_layouts);
+    append(composition_.warnings, scanned.warnings);
     Source& source = sources_.emplace_back();
     source.name = piece.name;
     source.folder = std::move(folder);

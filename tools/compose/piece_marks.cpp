@@ -1,6 +1,5 @@
 #include "compose/piece_marks.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "core/text.hpp"

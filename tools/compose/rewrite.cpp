@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <optional>
 #include <regex>
 
 #include <fmt/format.h>
@@ -88,19 +87,10 @@ const std::vector<std::string>& legacy_names() {
             "attribute",         "varying",       "texture1D",    "texture2D",      "texture3D",
             "textureCube",       "texture2DProj", "texture2DLod", "textureCubeLod", "texture2DLodEXT",
             "textureCubeLodEXT", "shadow2D",      "shadow2DProj", "ftransform"};
-        for (const char* name : {"ModelViewMatrix",
-                                 "ModelViewMatrixInverse",
-                                 "ModelViewMatrixTranspose",
-                                 "ModelViewMatrixInverseTranspose",
-                                 "ProjectionMatrix",
-                                 "ProjectionMatrixInverse",
-                                 "ProjectionMatrixTranspose",
-                                 "ProjectionMatrixInverseTranspose",
-                                 "ModelViewProjectionMatrix",
-                                 "ModelViewProjectionMatrixInverse",
-                                 "ModelViewProjectionMatrixTranspose",
-                                 "ModelViewProjectionMatrixInverseTranspose",
-                                 "NormalMatrix",
+        for (const char* matrix : {"ModelViewMatrix", "ProjectionMatrix", "ModelViewProjectionMatrix"})
+            for (const char* kind : {"", "Inverse", "Transpose", "InverseTranspose"})
+                all.push_back(fmt::format("{}{}{}", kLegacy, matrix, kind));
+        for (const char* name : {"NormalMatrix",
                                  "TextureMatrix",
                                  "Vertex",
                                  "Normal",

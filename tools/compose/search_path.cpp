@@ -1,6 +1,5 @@
 #include "compose/search_path.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>

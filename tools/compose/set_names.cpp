@@ -109,15 +109,14 @@ Diagnostics unknown_set_names(const Family& family, const SearchPath& search,
         std::vector<std::string> known(candidates.begin(), candidates.end());
         std::ranges::stable_partition(known, [&](const std::string& one) { return one[0] == name[0]; });
         const auto near = nearest(name, known);
-        const Diagnostics error =
-            fail(place, "",
-                 fmt::format("'{}' under [[descriptor_sets]] is {}", name,
-                             identifiers.contains(name) ? "no block, sampler or image, which alone have a set"
-                                                        : "in none of the shaders"),
-                 near ? fmt::format("did you mean '{}'?", *near)
-                      : "gobo reflect lists the names that there are")
-                .value();
-        errors.insert(errors.end(), error.begin(), error.end());
+        append(errors, fail(place, "",
+                            fmt::format("'{}' under [[descriptor_sets]] is {}", name,
+                                        identifiers.contains(name)
+                                            ? "no block, sampler or image, which alone have a set"
+                                            : "in none of the shaders"),
+                            near ? fmt::format("did you mean '{}'?", *near)
+                                 : "gobo reflect lists the names that there are")
+                           .value());
     }
     return errors;
 }

@@ -1,7 +1,7 @@
 // Values as bytes, for child processes and for the cache: of this computer and this build alone.
 //
-// What a struct holds is said by a function fields() beside it, which names each field, so that one that is
-// added to the struct does not compile until it is added there.
+// What a struct holds is said by GOBO_FIELDS beside it, which names each field, so that one that is added to
+// the struct does not compile until it is added there.
 #pragma once
 
 #include <concepts>
@@ -21,14 +21,15 @@ namespace gobo {
 template <class T, class... Others>
 concept OneOf = (std::same_as<std::remove_const_t<T>, Others> || ...);
 
-void fields(auto& archive, OneOf<Place> auto& value) {
-    auto& [file, line, column] = value;
-    archive(file, line, column);
-}
-void fields(auto& archive, OneOf<Diagnostic> auto& value) {
-    auto& [severity, fault, place, message, quoted_line, help, subject] = value;
-    archive(severity, fault, place, message, quoted_line, help, subject);
-}
+/// fields() of a struct of this namespace, which writer and reader call.
+#define GOBO_FIELDS(Struct, ...)                            \
+    void fields(auto& archive, OneOf<Struct> auto& value) { \
+        auto& [__VA_ARGS__] = value;                        \
+        archive(__VA_ARGS__);                               \
+    }
+
+GOBO_FIELDS(Place, file, line, column)
+GOBO_FIELDS(Diagnostic, severity, fault, place, message, quoted_line, help, subject)
 
 namespace detail {
 
@@ -44,6 +45,22 @@ concept List = requires(T& value) {
 template <class T>
 concept Map = requires {
     typename T::mapped_type;
+};
+
+/// std::optional, and Result, which holds errors where there is no value.
+template <class T>
+concept Maybe = requires(T& value) {
+    value.has_value();
+};
+template <class T>
+concept ValueOrErrors = requires(T& value) {
+    value.error();
+};
+
+template <class T>
+concept Pair = requires(T& value) {
+    value.first;
+    value.second;
 };
 
 class ByteWriter {
@@ -72,6 +89,12 @@ class ByteWriter {
         } else if constexpr (Map<T>) {
             put(std::uint64_t{value.size()});
             for (const auto& [key, element] : value) (*this)(key, element);
+        } else if constexpr (Pair<T>) {
+            (*this)(value.first, value.second);
+        } else if constexpr (Maybe<T>) {
+            put(value.has_value());
+            if (value) return put(*value);
+            if constexpr (ValueOrErrors<T>) put(value.error());
         } else {
             fields(*this, value);
         }
@@ -119,6 +142,18 @@ class ByteReader {
                 typename T::key_type key{};
                 take(key);
                 take(value[key]);
+            }
+        } else if constexpr (Pair<T>) {
+            (*this)(value.first, value.second);
+        } else if constexpr (Maybe<T>) {
+            bool has_value = false;
+            take(has_value);
+            if (has_value) {
+                if (!value) value.emplace();
+                take(*value);
+            } else if constexpr (ValueOrErrors<T>) {
+                value = tl::unexpected(Diagnostics{});
+                take(value.error());
             }
         } else {
             fields(*this, value);

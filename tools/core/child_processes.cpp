@@ -6,13 +6,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <memory>
 #include <new>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include <fcntl.h>

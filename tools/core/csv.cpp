@@ -1,7 +1,6 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace gobo {
 namespace {
@@ -68,20 +67,6 @@ std::string csv_text(const CsvTable& table) {
     std::string text = line_of_cells(table.columns);
     for (const std::vector<std::string>& row : table.rows) text += line_of_cells(row);
     return text;
-}
-
-std::optional<double> number_in_cell(std::string_view cell) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
-    return number;
-}
-
-std::optional<std::uint64_t> whole_number_in_cell(std::string_view cell) {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
-    return number;
 }
 
 tl::unexpected<Diagnostics> fail_at_row(const std::string& path, std::size_t row, std::string message,

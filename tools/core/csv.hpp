@@ -1,7 +1,6 @@
 // Tables of text: RFC 4180, a header line, '\n'.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,12 +23,6 @@ struct CsvTable {
 
 /// The table as read_csv() reads it.
 [[nodiscard]] std::string csv_text(const CsvTable& table);
-
-/// The number that a cell is as a whole.
-[[nodiscard]] std::optional<double> number_in_cell(std::string_view cell);
-
-/// The same of a number without sign, point and exponent.
-[[nodiscard]] std::optional<std::uint64_t> whole_number_in_cell(std::string_view cell);
 
 /// An error at a row of the table at `path`.
 [[nodiscard]] tl::unexpected<Diagnostics> fail_at_row(const std::string& path, std::size_t row,

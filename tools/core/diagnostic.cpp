@@ -101,6 +101,16 @@ std::string to_text(const Diagnostic& diagnostic, bool color) {
     return text;
 }
 
+std::string to_text(const Diagnostics& diagnostics, bool color) {
+    std::string text;
+    for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic, color);
+    return text;
+}
+
+void append(Diagnostics& diagnostics, const Diagnostics& more) {
+    diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+}
+
 int exit_status(const Diagnostics& diagnostics) {
     int status = 0;
     for (const Diagnostic& diagnostic : diagnostics)

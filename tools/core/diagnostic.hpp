@@ -71,6 +71,11 @@ using Result = tl::expected<T, Diagnostics>;
 /// `file:line:column: error: message [subject]`, the quoted line with a caret, the help.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic, bool color = false);
 
+/// All of them, one after the other.
+[[nodiscard]] std::string to_text(const Diagnostics& diagnostics, bool color = false);
+
+void append(Diagnostics& diagnostics, const Diagnostics& more);
+
 /// 0 where there is no error, otherwise the status of the gravest fault: internal (4), file (3), usage (2),
 /// input (1).
 [[nodiscard]] int exit_status(const Diagnostics& diagnostics);

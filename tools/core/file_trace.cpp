@@ -18,10 +18,7 @@ Digest answer(bool is_file) {
 }
 
 Digest answer(const Result<std::string>& content) {
-    if (content) return digest_of(*content);
-    std::string text = "error\n";
-    for (const Diagnostic& error : content.error()) text += to_text(error);
-    return digest_of(text);
+    return digest_of(content ? *content : "error\n" + to_text(content.error()));
 }
 
 Digest answer(const std::vector<std::string>& paths) {

@@ -106,6 +106,14 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
     return fmt::format("known: {}", fmt::join(candidates, ", "));
 }
 
+std::optional<std::pair<std::size_t, std::size_t>> pair_from(std::string_view text, char separator) {
+    const auto at = text.find(separator);
+    if (at == std::string_view::npos) return std::nullopt;
+    const auto first = number_from<std::size_t>(text.substr(0, at));
+    const auto second = number_from<std::size_t>(text.substr(at + 1));
+    return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
+}
+
 bool is_identifier_start(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
            character == '_';
@@ -118,6 +126,17 @@ bool is_identifier_part(char character) {
 bool is_identifier(std::string_view text) {
     return !text.empty() && is_identifier_start(text.front()) &&
            std::all_of(text.begin(), text.end(), is_identifier_part);
+}
+
+std::string without_subscripts(std::string_view name) {
+    std::string text;
+    bool is_inside = false;
+    for (const char character : name) {
+        if (character == ']') is_inside = false;
+        if (!is_inside) text += character;
+        if (character == '[') is_inside = true;
+    }
+    return text;
 }
 
 std::string folder_of(std::string_view path) {

@@ -1,9 +1,11 @@
 // Small text functions that every stage may use.
 #pragma once
 
+#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gobo {
@@ -28,10 +30,24 @@ namespace gobo {
 /// "did you mean 'X'?" for the nearest candidate; otherwise "known: A, B, C".
 [[nodiscard]] std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
+/// The number that the whole text is, in decimal; nothing where it is none, or none that the type holds.
+template <class Number>
+[[nodiscard]] std::optional<Number> number_from(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+/// Two whole numbers with `separator` between them, as "640x480" or "2/4"; nothing where it is not that.
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> pair_from(std::string_view text,
+                                                                           char separator);
+
 /// [A-Za-z_][A-Za-z0-9_]*
 [[nodiscard]] bool is_identifier(std::string_view text);
 [[nodiscard]] bool is_identifier_start(char character);
 [[nodiscard]] bool is_identifier_part(char character);
+
+/// The name with every subscript emptied: "PointLights.lights[].position".
+[[nodiscard]] std::string without_subscripts(std::string_view name);
 
 /// The folder of a path, without the slash at its end ("/" alone keeps it); empty where it names none.
 [[nodiscard]] std::string folder_of(std::string_view path);

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
-
 namespace gobo {
 namespace {
 

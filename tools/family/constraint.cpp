@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "core/text.hpp"
@@ -21,10 +20,8 @@ constexpr std::array kForms = {
     Form{"inverse_transpose_of", Constraint::Kind::inverse_transpose, 2}};
 
 std::optional<double> number_in(std::string_view text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
-    return number;
+    const auto number = number_from<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 bool is_name(std::string_view text) {

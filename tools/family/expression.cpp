@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
@@ -150,9 +149,7 @@ class Parser {
             stop(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
                  text.size());
         }
-        int number = 0;
-        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (failure == std::errc{} && end == text.data() + text.size()) return number;
+        if (const auto number = number_from<int>(text)) return *number;
         stop(fmt::format("'{}' is not a whole number", text), "counts compare with whole numbers",
              text.size());
     }

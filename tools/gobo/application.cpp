@@ -1,6 +1,5 @@
 #include "gobo/application.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -112,8 +111,7 @@ int report(const Diagnostics& diagnostics, const Messages& messages, const std::
     std::string text;
     if (messages.format == MessageFormat::json) text = json_of(diagnostics, status);
     if (messages.format == MessageFormat::sarif) text = sarif_of(diagnostics, status, program);
-    if (messages.format == MessageFormat::text)
-        for (const Diagnostic& diagnostic : diagnostics) text += to_text(diagnostic, messages.color);
+    if (messages.format == MessageFormat::text) text = to_text(diagnostics, messages.color);
     std::fputs(text.c_str(), stderr);
     return status;
 }

@@ -1,5 +1,4 @@
 // gobo check: composes and validates a selection; says nothing when all is well.
-#include "compose/compose.hpp"
 #include "gobo/commands.hpp"
 
 namespace gobo {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/diagnostic.hpp"
+#include "core/bytes.hpp"
 
 namespace gobo {
 
@@ -63,6 +63,7 @@ struct OutputFile {
     std::string path;
     std::string content;
 };
+GOBO_FIELDS(OutputFile, path, content)
 
 /// What a command leaves: its data for standard output, and messages for standard error.
 struct Outcome {
@@ -72,6 +73,7 @@ struct Outcome {
     std::vector<OutputFile> files = {};  ///< to be written together, the one that others go by last
     int compiled = -1;  ///< how many stages had to be compiled, where a cache was asked first
 };
+GOBO_FIELDS(Outcome, output, diagnostics, summary, files, compiled)
 
 struct Command {
     Title title;

@@ -1,6 +1,5 @@
 // Reads the command line: the only file that knows CLI11, which takes seconds to compile.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <type_traits>
@@ -24,13 +23,9 @@ std::string range_text(const OptionRule& rule) {
 /// What is wrong with the text of a number; empty where it is one of the type and within its range.
 template <class Number>
 std::string number_fault(const OptionRule& rule, const std::string& text) {
-    Number value{};
-    const char* const end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, value);
-    const auto number = static_cast<double>(value);
-    if (error == std::errc() && at == end && std::isfinite(number) && number >= rule.least &&
-        number <= rule.most)
-        return {};
+    const auto value = number_from<Number>(text);
+    const double number = value ? static_cast<double>(*value) : std::nan("");
+    if (std::isfinite(number) && number >= rule.least && number <= rule.most) return {};
     const std::string range = range_text(rule);
     const char* const before = range.empty() || range == "above 0" ? " "
                                : std::isfinite(rule.most)          ? " from "
@@ -211,9 +206,8 @@ Result<CommandLine> read_command_line(const Application& application,
     } catch (const CLI::ParseError& error) {
         return refuse(app, error, arguments);
     }
-    const auto chosen =
-        std::find_if(application.commands.begin(), application.commands.end(),
-                     [&](const Command& command) { return app.got_subcommand(command.title.name); });
+    const auto chosen = std::ranges::find_if(
+        application.commands, [&](const Command& command) { return app.got_subcommand(command.title.name); });
     return CommandLine{&*chosen, {}};
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <limits>
 
 #include <fmt/format.h>
@@ -43,13 +42,6 @@ std::optional<std::string_view> take_subscript(std::string_view& text) {
     return inside;
 }
 
-std::optional<int> number(std::string_view text) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 /// Why a name is not the declared one.
 enum class Difference : std::uint8_t { none, other_name, beyond_the_array, element };
 
@@ -75,9 +67,9 @@ Match match(std::string_view name, std::string_view declared, const NameRules& r
             const auto subscript = take_subscript(name);
             if (!subscript) return kOtherName;
             if (subscript->empty()) continue;
-            const auto index = number(*subscript);
+            const auto index = number_from<int>(*subscript);
             if (!index || *index < 0) return kOtherName;
-            const int size = number(*extent).value_or(0);
+            const int size = number_from<int>(*extent).value_or(0);
             if (size > 0 && *index >= size)
                 match = {Difference::beyond_the_array, size, *index};
             else if (!rules.elements && match.difference == Difference::none)
@@ -88,12 +80,7 @@ Match match(std::string_view name, std::string_view declared, const NameRules& r
 
 /// "Lights.lights[4].color" as the table writes it: with [] for each extent, or of an array its name.
 std::string as_written(std::string_view declared, const NameRules& rules) {
-    std::string text;
-    for (bool is_inside = false; const char character : declared) {
-        if (character == ']') is_inside = false;
-        if (!is_inside) text += character;
-        if (character == '[') is_inside = true;
-    }
+    std::string text = without_subscripts(declared);
     if (rules.is_array) text.resize(std::min(text.find('['), text.size()));
     return text;
 }
@@ -123,7 +110,7 @@ std::string with_shown_extents(std::string_view path) {
     std::string text;
     while (!path.empty()) {
         if (const auto index = take_subscript(path)) {
-            text += fmt::format("[{}]", number(*index).value_or(0) + 1);
+            text += fmt::format("[{}]", number_from<int>(*index).value_or(0) + 1);
             continue;
         }
         text += path.front();

@@ -1,7 +1,5 @@
 #include "gobo/input.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -116,13 +114,8 @@ Result<T> without_subjects(Result<T> result) {
 /// The I-th of every N keys, for "I/N". The parts of all I together hold each key once.
 Result<std::vector<Key>> shard_of(std::vector<Key> keys, const std::string& text) {
     if (text.empty()) return keys;
-    std::size_t number = 0;
-    std::size_t count = 0;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, number);
-    const bool is_pair = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-    const auto second = is_pair ? std::from_chars(first.ptr + 1, end, count) : first;
-    if (!is_pair || second.ec != std::errc() || second.ptr != end || number < 1 || number > count)
+    const auto [number, count] = pair_from(text, '/').value_or(std::pair<std::size_t, std::size_t>());
+    if (number < 1 || number > count)
         return fail(Fault::usage, fmt::format("'{}' is not a valid shard", text),
                     "write its number and how many there are, such as 2/4");
     std::vector<Key> part;
@@ -388,10 +381,10 @@ Diagnostics keep_stopped(const World& world, const std::string& family, const Va
             fmt::format("{}/{}.{}.{}", world.options.stopped, family, i + 1, names_of(stage.kind).infix);
         const Result<bool> written = world.disk.write(path, stage.text);
         if (!written) return written.error();
-        Diagnostic& note = notes.emplace_back();
-        note.severity = Severity::note;
-        note.place = {path};
-        note.message = fmt::format("the text of the {} stage that stopped glslang", name_of(stage.kind));
+        notes.push_back(
+            {.severity = Severity::note,
+             .place = {path},
+             .message = fmt::format("the text of the {} stage that stopped glslang", name_of(stage.kind))});
     }
     return notes;
 }
@@ -577,10 +570,6 @@ Result<std::string> read_input(const World& world, const std::string& path) {
 Result<InputFile> read_or_shipped(const World& world, const std::string& path, const std::string& shipped) {
     GOBO_TRY(std::string text, path.empty() ? world.shipped.read(shipped) : read_input(world, path));
     return InputFile{path.empty() ? shipped : path, std::move(text)};
-}
-
-void append(Diagnostics& diagnostics, const Diagnostics& more) {
-    diagnostics.insert(diagnostics.end(), more.begin(), more.end());
 }
 
 std::string stem_of(const std::string& path) {

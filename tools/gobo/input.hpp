@@ -201,8 +201,6 @@ struct InputFile {
 [[nodiscard]] Result<InputFile> read_or_shipped(const World& world, const std::string& path,
                                                 const std::string& shipped);
 
-void append(Diagnostics& diagnostics, const Diagnostics& more);
-
 /// "studio" of "maps/studio.exr".
 [[nodiscard]] std::string stem_of(const std::string& path);
 

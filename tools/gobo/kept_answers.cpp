@@ -5,39 +5,22 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/bytes.hpp"
 #include "core/file_trace.hpp"
 #include "gobo/redis_cache.hpp"
 
 namespace gobo {
-
-static void fields(auto& archive, OneOf<OutputFile> auto& value) {
-    auto& [path, content] = value;
-    archive(path, content);
-}
-static void fields(auto& archive, OneOf<Outcome> auto& value) {
-    auto& [output, diagnostics, summary, files, compiled] = value;
-    archive(output, diagnostics, summary, files, compiled);
-}
-
 namespace {
 
 /// Raised where Answer changes.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 /// Bytes. What is longer takes more room than it saves time.
 constexpr std::size_t kLongestAnswer = std::size_t{64} << 20;
 
 struct Answer {
     std::vector<FileQuestion> questions;  ///< of the files, with their answers
-    bool has_outcome = false;
-    Outcome outcome;     ///< where there is one
-    Diagnostics errors;  ///< where there is none
+    Result<Outcome> outcome;
 };
-
-void fields(auto& archive, OneOf<Answer> auto& value) {
-    auto& [questions, has_outcome, outcome, errors] = value;
-    archive(questions, has_outcome, outcome, errors);
-}
+GOBO_FIELDS(Answer, questions, outcome)
 
 Digest key_of(const std::string& program, const std::vector<std::string>& arguments) {
     std::error_code error;
@@ -63,12 +46,8 @@ std::optional<Answer> kept_answer(ResultCache& cache, const Digest& key, const F
 
 void keep(ResultCache& cache, const Digest& key, const TracedFiles& files, const Result<Outcome>& outcome) {
     if (!files.is_repeatable() || may_change(outcome ? outcome->diagnostics : outcome.error())) return;
-    Answer answer{files.questions(), outcome.has_value(), {}, {}};
-    if (outcome)
-        answer.outcome = *outcome;
-    else
-        answer.errors = outcome.error();
-    if (answer.outcome.compiled > 0) answer.outcome.compiled = 0;
+    Answer answer{files.questions(), outcome};
+    if (outcome && outcome->compiled > 0) answer.outcome->compiled = 0;
     const std::string bytes = to_bytes(answer);
     if (bytes.size() <= kLongestAnswer) cache.keep(key, bytes);
 }
@@ -93,10 +72,8 @@ Result<Outcome> run_with_cache(const Command& command, const World& world, const
     ResultCache& cache = *opened;
     const Digest key = key_of(program, arguments);
     if (command.is_repeatable)
-        if (std::optional<Answer> answer = kept_answer(cache, key, world.disk)) {
-            if (answer->has_outcome) return std::move(answer->outcome);
-            return tl::unexpected(std::move(answer->errors));
-        }
+        if (std::optional<Answer> answer = kept_answer(cache, key, world.disk))
+            return std::move(answer->outcome);
     TracedFiles traced(world.disk);
     FileSystem& disk = command.is_repeatable ? static_cast<FileSystem&>(traced) : world.disk;
     Result<Outcome> outcome =

@@ -145,12 +145,10 @@ Diagnostics unknown_names(const LoadedFamily& family, const Composition& composi
     }
     std::ranges::stable_sort(names, {}, [](const Named& named) { return named.place.line; });
     for (const Named& named : names) {
-        const Diagnostics error =
-            fail(named.place, "",
-                 fmt::format("'{}' under {} is in none of the shaders", named.name, named.table),
-                 declared.help_for(named.part, named.rules))
-                .value();
-        errors.insert(errors.end(), error.begin(), error.end());
+        append(errors, fail(named.place, "",
+                            fmt::format("'{}' under {} is in none of the shaders", named.name, named.table),
+                            declared.help_for(named.part, named.rules))
+                           .value());
     }
     return errors;
 }

@@ -108,8 +108,7 @@ Validated validate_with_counts(const LoadedFamily& family, Composition& composit
         compose(family.family, keys, family.search, family.dialect, family.comments, literal);
     if (!literal_there) return validated;
     composition = *std::move(literal_there);
-    const Diagnostics notes = notes_of(validated.diagnostics, family.family, literal);
-    composition.notes.insert(composition.notes.end(), notes.begin(), notes.end());
+    append(composition.notes, notes_of(validated.diagnostics, family.family, literal));
     return validate(family.family, composition, options);
 }
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/csv.hpp"
-#include "core/text.hpp"
 #include "gobo/commands.hpp"
 
 namespace gobo {

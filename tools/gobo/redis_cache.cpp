@@ -1,11 +1,11 @@
 #include "gobo/redis_cache.hpp"
 
-#include <charconv>
-
 #include <fmt/format.h>
 #ifdef GOBO_HAS_HIREDIS
 #include <fcntl.h>
 #include <hiredis/hiredis.h>
+
+#include "core/text.hpp"
 #endif
 
 namespace gobo {
@@ -39,14 +39,9 @@ Result<std::unique_ptr<RedisCache>> RedisCache::open(const std::string& name) {
     const std::string place = name.substr(kScheme.size());
     const std::size_t colon = place.rfind(':');
     const std::string host = place.substr(0, colon);
-    int port = kUsualPort;
-    bool is_port = true;
-    if (colon != std::string::npos) {
-        const char* const end = place.data() + place.size();
-        const auto [at, error] = std::from_chars(place.data() + colon + 1, end, port);
-        is_port = error == std::errc() && at == end && port > 0 && port < 65536;
-    }
-    if (host.empty() || !is_port || host.find('/') != std::string::npos)
+    const int port =
+        colon == std::string::npos ? kUsualPort : number_from<int>(place.substr(colon + 1)).value_or(0);
+    if (host.empty() || port <= 0 || port >= 65536 || host.find('/') != std::string::npos)
         return fail(Fault::usage, fmt::format("'{}' names no Redis", name),
                     "write redis://HOST or redis://HOST:PORT");
     std::unique_ptr<RedisCache> cache(new RedisCache(name));

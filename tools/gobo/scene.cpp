@@ -1,5 +1,4 @@
 // gobo scene: what each draw of a scene needs, the keys, and how few they are.
-#include <charconv>
 #include <set>
 
 #include <fmt/format.h>
@@ -138,11 +137,8 @@ std::string scene_json(const SceneReport& report) {
 Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& camera) {
     if (camera == "all") return scene::eye_of_cameras(scene);
     if (camera == "none") return scene::EyePlace();
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(camera.data(), camera.data() + camera.size(), number);
-    if (error == std::errc() && end == camera.data() + camera.size()) {
-        if (const auto eye = scene::eye_of_cameras(scene, number)) return eye;
-    }
+    if (const auto number = number_from<std::size_t>(camera))
+        if (const auto eye = scene::eye_of_cameras(scene, *number)) return eye;
     return fail(Fault::usage,
                 fmt::format("--camera: no node of '{}' holds a camera '{}'", scene.path, camera),
                 fmt::format("the file has {} cameras, numbered from 0; 'all' and 'none' are known too",

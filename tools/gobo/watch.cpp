@@ -90,9 +90,7 @@ class Watcher {
         Result<Outcome> outcome =
             built ? with_files_written(built->outcome) : tl::unexpected(std::move(built).error());
         if (!outcome) {
-            std::string errors;
-            for (const Diagnostic& error : outcome.error()) errors += to_text(error);
-            if (server_) server_->offer_errors(errors);
+            if (server_) server_->offer_errors(to_text(outcome.error()));
             world_.tell(
                 {{}, std::move(outcome).error(), fmt::format("{}: waiting for a change", options_.family)});
             return {};

@@ -4,7 +4,6 @@
 // told with its path in the file, and no index or extent may be trusted.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -11,9 +11,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnostic.hpp"

@@ -1,7 +1,6 @@
 // What a scene says of the uniforms of its draws.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "family/family.hpp"

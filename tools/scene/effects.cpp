@@ -249,6 +249,21 @@ Effect judge_vertex_color(const Primitive& primitive, const Material& material, 
                   is_seen ? "its vertices have colours" : "its vertices are not opaque");
 }
 
+Effect judge_sides(const Material& material) {
+    return decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
+                  "its material is marked doubleSided");
+}
+
+Effect judge_cutout(const Subject& subject) {
+    const Material& material = subject.material;
+    const double lowest = alpha_range(subject.scene, subject.primitive, material).low;
+    return decide("cutout", "cutout", "threshold",
+                  {{material.alpha_mode != AlphaMode::mask, "alphaMode is not MASK"},
+                   {lowest >= material.alpha_cutoff,
+                    fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
+                  fmt::format("its alpha falls to {:.3g}, below {:.3g}", lowest, material.alpha_cutoff));
+}
+
 /// What the material and the overrides decide, once the lights are judged.
 void judge_surface(const Subject& subject, const EyePlace& eye, double fog_threshold,
                    std::vector<Effect>& effects) {
@@ -258,37 +273,28 @@ void judge_surface(const Subject& subject, const EyePlace& eye, double fog_thres
     const std::string specular = overrides.specular.value_or("blinn");
     const std::string probe = overrides.probe ? overrides.probe->kind : "none";
     const double reflection = overrides.reflection.value_or(0);
-    const double lowest = alpha_range(subject.scene, subject.primitive, material).low;
     const Objection unlit{!subject.is_lit, "no light is in"};
     const Objection dull{is_black(material.specular) || material.strength == 0,
                          "its material has no highlight"};
-    effects.insert(
-        effects.end(),
-        {decide("toon", "diffuse", "toon", {{levels == 0, "not asked for"}, unlit},
-                fmt::format("{} levels", levels)),
-         decide("specular", "specular", specular,
-                {{specular == "none", "not asked for"},
-                 dull,
-                 unlit,
-                 {levels != 0, "toon shading has no highlights"}},
-                fmt::format("{}, shininess {:.3g}", specular, material.shininess)),
-         judge_fog(subject, eye, fog_threshold),
-         decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
-                "its material is marked doubleSided"),
-         decide("cutout", "cutout", "threshold",
-                {{material.alpha_mode != AlphaMode::mask, "alphaMode is not MASK"},
-                 {lowest >= material.alpha_cutoff,
-                  fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
-                fmt::format("its alpha falls to {:.3g}, below {:.3g}", lowest, material.alpha_cutoff)),
-         judge_vertex_color(subject.primitive, material, material.diffuse + material.ambient),
-         decide("texture", "texture", "on", {{!material.is_textured, "it has none"}},
-                "its material has textures"),
-         decide("probe", "ambient", probe,
-                {{probe == "none", "not asked for"},
-                 {is_black(material.ambient), "its material gives back no ambient light"}},
-                probe),
-         decide("reflection", "reflection", "image", {{reflection == 0, "not asked for"}, dull},
-                fmt::format("a share of {:.3g}", reflection))});
+    effects.insert(effects.end(),
+                   {decide("toon", "diffuse", "toon", {{levels == 0, "not asked for"}, unlit},
+                           fmt::format("{} levels", levels)),
+                    decide("specular", "specular", specular,
+                           {{specular == "none", "not asked for"},
+                            dull,
+                            unlit,
+                            {levels != 0, "toon shading has no highlights"}},
+                           fmt::format("{}, shininess {:.3g}", specular, material.shininess)),
+                    judge_fog(subject, eye, fog_threshold), judge_sides(material), judge_cutout(subject),
+                    judge_vertex_color(subject.primitive, material, material.diffuse + material.ambient),
+                    decide("texture", "texture", "on", {{!material.is_textured, "it has none"}},
+                           "its material has textures"),
+                    decide("probe", "ambient", probe,
+                           {{probe == "none", "not asked for"},
+                            {is_black(material.ambient), "its material gives back no ambient light"}},
+                           probe),
+                    decide("reflection", "reflection", "image", {{reflection == 0, "not asked for"}, dull},
+                           fmt::format("a share of {:.3g}", reflection))});
     for (const auto& [feature, value] : overrides.quality)
         effects.push_back({feature, feature, value, true, "asked for"});
 }
@@ -409,7 +415,6 @@ void judge_physical_surface(const Subject& subject, const std::vector<PlacedLigh
         effects.push_back(judge_map(subject, static_cast<MapKind>(map)));
         is_placed = is_placed || (effects.back().is_in && physical.maps[map]->is_placed());
     }
-    const Interval alpha = alpha_range(subject.scene, subject.primitive, material);
     const bool reflects =
         physical.metallic > 0 || physical.dielectric_edge > 0 || !is_black(physical.dielectric);
     effects.insert(
@@ -418,13 +423,7 @@ void judge_physical_surface(const Subject& subject, const std::vector<PlacedLigh
                 {{!is_placed, "all pictures lie by the first texture coordinates"}},
                 "a picture is transformed, or lies by the second texture coordinates"),
          judge_light_range(subject, lights, effects), judge_fog(subject, eye, fog_threshold),
-         decide("sides", "sides", "two", {{!material.double_sided, "not marked"}},
-                "its material is marked doubleSided"),
-         decide("cutout", "cutout", "threshold",
-                {{material.alpha_mode != AlphaMode::mask, "alphaMode is not MASK"},
-                 {alpha.low >= material.alpha_cutoff,
-                  fmt::format("its alpha is nowhere below {:.3g}", material.alpha_cutoff)}},
-                fmt::format("its alpha falls to {:.3g}, below {:.3g}", alpha.low, material.alpha_cutoff)),
+         judge_sides(material), judge_cutout(subject),
          judge_vertex_color(subject.primitive, material, glm::dvec3(physical.base_color)),
          decide("probe", "ambient", probe, {{probe == "none", "not asked for"}, unlit},
                 subject.scene.has_no_light ? "the scene states no light: the studio stands in" : probe),

@@ -1,7 +1,6 @@
 // Nodes, and what moves them: skins, and animations as bounds, since no time is ever chosen.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include <fmt/format.h>

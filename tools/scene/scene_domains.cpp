@@ -1,27 +1,19 @@
 #include "scene/scene_domains.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+
 namespace gobo::scene {
 namespace {
 
-/// "PointLights.lights[].color" of "PointLights.lights[2].color".
-std::string of_every_element(std::string name) {
-    for (auto open = name.find('['); open != std::string::npos; open = name.find('[', open + 1))
-        name.erase(open + 1, name.find(']', open) - open - 1);
-    return name;
-}
-
 /// The shortest decimal that is the same float: 0.1, not 0.10000000149.
 double as_float_reads(double number) {
-    const std::string text = fmt::format("{}", static_cast<float>(number));
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    return number;
+    return number_from<double>(fmt::format("{}", static_cast<float>(number))).value_or(number);
 }
 
 /// The numbers that the draws have for one name.
@@ -49,7 +41,7 @@ std::vector<Domain> domains_of_scene(const Scene& scene, const std::vector<Draw>
         const Material& material = material_of(scene, draw);
         for (const RenderValue& value : values_of_draw(scene, draw)) {
             if (!value.source.empty()) continue;
-            const std::string name = of_every_element(value.name);
+            const std::string name = without_subscripts(value.name);
             Held& held = all[name];
             for (const double number : value.numbers)
                 (does_nothing(name, material) ? held.beside : held.numbers).push_back(as_float_reads(number));

@@ -1,7 +1,6 @@
 #include "scene/scene_keys.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
@@ -76,12 +75,9 @@ std::vector<std::string> with_runs(const std::vector<std::string>& names) {
     std::map<std::string, std::set<int>> numbers;  // by the words before them; none: the name is no such
     for (const std::string& name : names) {
         const std::size_t space = name.rfind(' ');
-        int number = 0;
-        const char* const end = name.data() + name.size();
-        const auto read = std::from_chars(name.data() + std::min(space + 1, name.size()), end, number);
-        const bool is_numbered = space != std::string::npos && read.ec == std::errc() && read.ptr == end;
-        if (is_numbered)
-            numbers[name.substr(0, space)].insert(number);
+        const auto number = number_from<int>(name.substr(space + 1));
+        if (space != std::string::npos && number)
+            numbers[name.substr(0, space)].insert(*number);
         else
             numbers[name];
     }
@@ -138,12 +134,9 @@ Result<Buckets> parse_buckets(std::string_view text) {
              "write it like 0,1,2,4,8");
     if (!text.empty() && has_empty_part(text, ',')) return refused;
     for (const std::string& part : split(text, ',')) {
-        int count = -1;
-        const char* const end = part.data() + part.size();
-        const auto read = std::from_chars(part.data(), end, count);
+        const int count = number_from<int>(part).value_or(-1);
         const bool rises = buckets.empty() || count > buckets.back();
-        if (read.ec != std::errc() || read.ptr != end || count < 0 || count > kLargestBucket || !rises)
-            return refused;
+        if (count < 0 || count > kLargestBucket || !rises) return refused;
         buckets.push_back(count);
     }
     return buckets;

@@ -2,7 +2,6 @@
 // light-count buckets cost.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,7 +1,6 @@
 #define SPV_ENABLE_UTILITY_CODE  // HasResultAndType()
 #include "spirv/module.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <initializer_list>

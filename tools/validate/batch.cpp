@@ -16,10 +16,6 @@ constexpr std::size_t kMostPrograms = 32;
 /// How many batches each thread gets at least, where there are so many pairs: one may take longer.
 constexpr std::size_t kBatchesPerJob = 8;
 
-void append(Diagnostics& all, const Diagnostics& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
 /// The module as it is shipped. What the optimizer makes is asked about, too.
 Result<SpirvModule> shipped(SpirvModule module, const ValidateOptions& options, spv_target_env environment) {
     if (options.optimize) {

@@ -102,13 +102,11 @@ Declaration use_of(std::string_view name, const std::vector<const Piece*>& piece
 
 Diagnostic diagnostic_at(const Declaration& declaration, Severity severity, std::string message,
                          std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.severity = severity;
-    diagnostic.place = declaration.place;
-    diagnostic.message = std::move(message);
-    diagnostic.quoted_line = declaration.quoted_line;
-    diagnostic.help = std::move(help);
-    return diagnostic;
+    return {.severity = severity,
+            .place = declaration.place,
+            .message = std::move(message),
+            .quoted_line = declaration.quoted_line,
+            .help = std::move(help)};
 }
 
 }  // namespace gobo

@@ -25,10 +25,6 @@
 namespace gobo {
 namespace {
 
-void append(Diagnostics& all, const Diagnostics& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
 /// What is known of a stage beside its ValidatedStage.
 struct OfStage {
     bool is_fine = false;

@@ -1,21 +1,13 @@
 // An application that fills arrays of a block, with GLM's own layout or its aligned one.
-#include <cstdio>
 #include <cstring>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "arrays.hpp"
+#include "expectations.hpp"
 
 namespace {
-
-int failures = 0;
-
-void expect(bool holds, const char* what) {
-    if (holds) return;
-    std::printf("failed: %s\n", what);
-    ++failures;
-}
 
 template <class Number, class Block>
 Number at(const Block& block, std::size_t offset) {

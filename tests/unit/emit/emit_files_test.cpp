@@ -88,9 +88,7 @@ TEST(Depfile, EscapesWhatMakeWouldRead) {
 
 TEST(Depfile, WarnsOfNamesThatItCannotHold) {
     const auto texts = [](const std::string& output, const std::set<std::string>& files) {
-        std::string text;
-        for (const Diagnostic& warning : check_depfile_names(output, files)) text += to_text(warning);
-        return text;
+        return to_text(check_depfile_names(output, files));
     };
     const std::string help =
         "  help: rename the file or its folder: letters, digits, blanks and . _ - + , @ are safe\n";

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "expectations.hpp"
 #include "lit.hpp"
 
 namespace pretended {
@@ -115,23 +116,24 @@ void UniformBlockBinding(unsigned, unsigned block, unsigned binding) {
 
 // A loader: pointers in variables, macros with OpenGL's names.
 #define GL_VERSION_2_0 1
-#define LOADER_FUNCTIONS(DO)                                                                                 \
-    DO(CreateShader)                                                                                         \
-    DO(ShaderSource)                                                                                         \
-    DO(CompileShader)                                                                                        \
-    DO(GetShaderiv)                                                                                          \
-    DO(GetShaderInfoLog)                                                                                     \
-    DO(DeleteShader)                                                                                         \
-    DO(CreateProgram)                                                                                        \
-    DO(AttachShader)                                                                                         \
-    DO(BindAttribLocation)                                                                                   \
-    DO(LinkProgram)                                                                                          \
-    DO(GetProgramiv)                                                                                         \
-    DO(GetProgramInfoLog)                                                                                    \
-    DO(DeleteProgram)                                                                                        \
-    DO(UseProgram)                                                                                           \
-    DO(GetIntegerv) DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding)   \
-        DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer) \
+#define LOADER_FUNCTIONS(DO)                                                                              \
+    DO(CreateShader)                                                                                      \
+    DO(ShaderSource)                                                                                      \
+    DO(CompileShader)                                                                                     \
+    DO(GetShaderiv)                                                                                       \
+    DO(GetShaderInfoLog)                                                                                  \
+    DO(DeleteShader)                                                                                      \
+    DO(CreateProgram)                                                                                     \
+    DO(AttachShader)                                                                                      \
+    DO(BindAttribLocation)                                                                                \
+    DO(LinkProgram)                                                                                       \
+    DO(GetProgramiv)                                                                                      \
+    DO(GetProgramInfoLog)                                                                                 \
+    DO(DeleteProgram)                                                                                     \
+    DO(UseProgram)                                                                                        \
+    DO(GetIntegerv)                                                                                       \
+    DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding) DO(Uniform1fv) \
+        DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer)             \
             DO(VertexAttribIPointer)
 #define LOADER_POINTER(name) static decltype(&pretended::name) loader_gl##name = &pretended::name;
 LOADER_FUNCTIONS(LOADER_POINTER)
@@ -166,14 +168,6 @@ LOADER_FUNCTIONS(LOADER_POINTER)
 #include <gobo/gl_vertices.hpp>
 
 namespace {
-
-int failures = 0;
-
-void expect_text(const std::string& actual, const std::string& expected) {
-    if (actual == expected) return;
-    std::printf("failed: expected \"%s\"\n             got \"%s\"\n", expected.c_str(), actual.c_str());
-    ++failures;
-}
 
 /// The same functions as members of a struct, as in GladGLContext.
 struct Table {

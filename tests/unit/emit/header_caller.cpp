@@ -1,7 +1,6 @@
 // An application of three generated headers. emit_compile_test.cpp generates them, compiles this file as
 // C++17 and C++20 with every warning an error, and runs it: it prints what fails.
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -10,24 +9,11 @@
 #include <vector>
 
 #include "bare.hpp"
+#include "expectations.hpp"
 #include "lit.hpp"
 #include "nasty.hpp"
 
 namespace {
-
-int failures = 0;
-
-void expect(bool holds, const char* what) {
-    if (holds) return;
-    std::printf("failed: %s\n", what);
-    ++failures;
-}
-
-void expect_text(const std::string& actual, const std::string& expected) {
-    if (actual == expected) return;
-    std::printf("failed: expected \"%s\"\n             got \"%s\"\n", expected.c_str(), actual.c_str());
-    ++failures;
-}
 
 template <class Stage>
 std::string text_of(const Stage& stage) {

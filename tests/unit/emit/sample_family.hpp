@@ -1,7 +1,6 @@
 // Families and interfaces made by hand for the tests of what gobo emits.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 

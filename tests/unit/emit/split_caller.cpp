@@ -1,18 +1,10 @@
 // A header whose tables lie in a source file beside the header that has all: both answer the same.
-#include <cstdio>
 
+#include "expectations.hpp"
 #include "lit.hpp"
 #include "split.hpp"
 
 namespace {
-
-int failures = 0;
-
-void expect(bool holds, const std::string& what) {
-    if (holds) return;
-    std::printf("not the same: %s\n", what.c_str());
-    ++failures;
-}
 
 split::Key key_of(const lit::Permutation& permutation) {
     return split::permutations[permutation.position].key();

@@ -1,6 +1,5 @@
 // An application that asks for permutations by the state of its own scene, and records what it asked for.
 // emit_compile_test.cpp compiles and runs it; it prints what fails. Its argument is a folder to write to.
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -8,18 +7,11 @@
 #include <gobo/record.hpp>
 
 #include "bare.hpp"
+#include "expectations.hpp"
 #include "lit.hpp"
 #include "nasty.hpp"
 
 namespace {
-
-int failures = 0;
-
-void expect_text(const std::string& actual, const std::string& expected) {
-    if (actual == expected) return;
-    std::printf("failed: expected \"%s\"\n             got \"%s\"\n", expected.c_str(), actual.c_str());
-    ++failures;
-}
 
 /// An application's own idea of a draw: members named after features are taken.
 struct OwnState {

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "compose/dialect.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"

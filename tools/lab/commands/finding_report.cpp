@@ -49,12 +49,10 @@ Diagnostics report_finding(const World& world, const FindingOptions& options, co
         what += fmt::format(" '{}'", error.subject);
     }
     if (!options.dialect.empty()) what += " --dialect " + options.dialect;
-    for (const sanitize::Consequence& one : finding.consequences) {
-        Diagnostic& note = diagnostics.emplace_back();
-        note.severity = Severity::note;
-        note.place = one.place;
-        note.message = fmt::format("so: {}: {}", one.message, one.operation);
-    }
+    for (const sanitize::Consequence& one : finding.consequences)
+        diagnostics.push_back({.severity = Severity::note,
+                               .place = one.place,
+                               .message = fmt::format("so: {}: {}", one.message, one.operation)});
     if (finding.is_of_constants) {
         error.help =
             "compilers fold it, each to a value of its own: guard the operation, or change a constant";

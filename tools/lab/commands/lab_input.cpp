@@ -1,7 +1,6 @@
 #include "lab/commands/lab_input.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <iterator>
 #include <limits>
@@ -15,7 +14,6 @@
 #include "lab/probe/environment.hpp"
 #include "lab/render/shadow_maps.hpp"
 #include "lab/render/texture.hpp"
-#include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/sanitize.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/study/worst_case.hpp"
@@ -60,7 +58,7 @@ Result<CubeImages> environment_from_panorama(const World& world, const std::stri
 }
 
 bool looks_up_environment(const Interface& interface) {
-    return std::any_of(interface.samplers.begin(), interface.samplers.end(), [](const Sampler& sampler) {
+    return std::ranges::any_of(interface.samplers, [](const Sampler& sampler) {
         return sampler.name == "diffuseMap" || sampler.name == "specularMap";
     });
 }
@@ -77,18 +75,12 @@ Result<Mesh> load_mesh(const World& world, const std::string& name) {
                 suggestion(name, {"plane", "sphere", "teapot", "torus"}) + "; or name an .obj file");
 }
 
-Result<std::pair<int, int>> read_pair(const std::string& text, char separator, int most,
-                                      const std::string& what, const std::string& help) {
-    std::pair<int, int> pair;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, pair.first);
-    if (first.ec == std::errc() && first.ptr != end && *first.ptr == separator) {
-        const auto second = std::from_chars(first.ptr + 1, end, pair.second);
-        if (second.ec == std::errc() && second.ptr == end && std::min(pair.first, pair.second) > 0 &&
-            std::max(pair.first, pair.second) <= most)
-            return pair;
-    }
-    return fail(Fault::usage, fmt::format("'{}' is not a valid {}", text, what), help);
+Result<std::pair<int, int>> read_size(const std::string& text) {
+    const auto [width, height] = pair_from(text, 'x').value_or(std::pair<std::size_t, std::size_t>());
+    if (std::min(width, height) > 0 && std::max(width, height) <= kLargestSide)
+        return std::pair(static_cast<int>(width), static_cast<int>(height));
+    return fail(Fault::usage, fmt::format("'{}' is not a valid size", text),
+                "write width x height, such as 640x480, each at most 16384");
 }
 
 Result<CubeImages> load_environment(const World& world, const std::string& path,
@@ -111,12 +103,10 @@ Result<CubeImages> load_environment(const World& world, const std::string& path,
 
 Diagnostics warnings_of_environment(const std::string& path, const std::vector<Interface>& interfaces) {
     if (is_panorama(path) || !mirrors_by_roughness(interfaces)) return {};
-    Diagnostic warning;
-    warning.severity = Severity::warning;
-    warning.place.file = path + "/specular.exr";
-    warning.message = "it is mirrored equally sharp by surfaces of every roughness";
-    warning.help = "give --environment the latitude-longitude map that it was made from, FILE.exr";
-    return {warning};
+    return {{.severity = Severity::warning,
+             .place = {path + "/specular.exr"},
+             .message = "it is mirrored equally sharp by surfaces of every roughness",
+             .help = "give --environment the latitude-longitude map that it was made from, FILE.exr"}};
 }
 
 std::vector<Interface> interfaces_of(const Composition& composition, const Validated& validated) {
@@ -131,8 +121,7 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
     const auto has_shadows = [&](const Permutation& permutation) {
         return !shadow_lights(family, permutation.key).empty();
     };
-    if (std::none_of(composition.permutations.begin(), composition.permutations.end(), has_shadows))
-        return std::nullopt;
+    if (std::ranges::none_of(composition.permutations, has_shadows)) return std::nullopt;
     const bool is_vulkan = composition.dialect == Dialect::vulkan;
     GOBO_TRY(LoadedFamily depth, load_family(world, "depth", is_vulkan ? "vulkan" : ""));
     GOBO_TRY(Composition stages, compose_selection(world, depth, {}));
@@ -149,7 +138,7 @@ Result<std::optional<verify::ShadowPass>> load_shadow_pass(const World& world, c
 
 Result<std::string> dialect_for(const std::string& backend, const std::string& dialect) {
     const std::vector<std::string> known = split(kBackends, '|');
-    if (std::ranges::find(known, backend) == known.end())
+    if (std::ranges::count(known, backend) == 0)
         return fail(Fault::usage, fmt::format("unknown backend '{}'", backend), suggestion(backend, known));
     if (backend != kVulkanBackend) {
         if (dialect == "vulkan" || dialect == "gl_spirv")
@@ -249,11 +238,7 @@ Result<std::vector<double>> worst_errors(const World& world, const LoadedFamily&
 }
 
 Diagnostic note_in(const std::string& file, std::string message) {
-    Diagnostic note;
-    note.severity = Severity::note;
-    note.place.file = file;
-    note.message = std::move(message);
-    return note;
+    return {.severity = Severity::note, .place = {file}, .message = std::move(message)};
 }
 
 std::string shell_word(std::string_view text) {
@@ -353,8 +338,7 @@ Diagnostics with_kept_stages(const World& world, const std::string& folder, cons
 }
 
 std::string quoted_line(const Composition& composition, const Place& place) {
-    const auto piece = std::find_if(composition.pieces.begin(), composition.pieces.end(),
-                                    [&](const Piece& other) { return other.path == place.file; });
+    const auto piece = std::ranges::find(composition.pieces, place.file, &Piece::path);
     return piece == composition.pieces.end() ? "" : std::string(line_of(*piece, place.line));
 }
 

@@ -22,15 +22,10 @@ struct ChipCost;
 /// A mesh of that name, or of an .obj file.
 [[nodiscard]] Result<Mesh> load_mesh(const World& world, const std::string& name);
 
-/// Two whole numbers from 1 to `most`, as "640x480" or "2/4"; `what` they are, for the error, and an example.
-[[nodiscard]] Result<std::pair<int, int>> read_pair(const std::string& text, char separator, int most,
-                                                    const std::string& what, const std::string& help);
 /// Pixels along a side: what OpenGL's renderers in software draw.
 inline constexpr int kLargestSide = 16384;
-inline Result<std::pair<int, int>> read_size(const std::string& text) {
-    return read_pair(text, 'x', kLargestSide, "size",
-                     "write width x height, such as 640x480, each at most 16384");
-}
+/// "640x480".
+[[nodiscard]] Result<std::pair<int, int>> read_size(const std::string& text);
 
 /// Cube maps by the name of their sampler, level by level.
 using CubeImages = std::map<std::string, std::vector<Image>>;

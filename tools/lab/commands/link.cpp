@@ -45,10 +45,7 @@ struct Answer {
     std::string refused;  ///< why the driver does not link it; empty where it does
 };
 
-void fields(auto& archive, OneOf<Answer> auto& value) {
-    auto& [renderer, refused] = value;
-    archive(renderer, refused);
-}
+GOBO_FIELDS(Answer, renderer, refused)
 
 /// The composition of one key.
 Composition only(const Composition& all, const Permutation& permutation) {

@@ -1,13 +1,6 @@
 // gobo prove: which traps of the sanitizer no input of the domain can reach.
 #include "lab/prove/prove.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "core/text.hpp"
-#include "family/key.hpp"
-#include "family/read_family.hpp"
 #include "lab/commands/finding_report.hpp"
 #include "lab/sanitize/sanitize.hpp"
 

@@ -2,15 +2,9 @@
 // watched.
 #include "lab/sanitize/sanitize.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "core/text.hpp"
-#include "family/key.hpp"
-#include "family/read_family.hpp"
 #include "lab/commands/finding_report.hpp"
-#include "lab/sanitize/constraints.hpp"
 #include "lab/sanitize/precision.hpp"
 
 namespace gobo {

@@ -261,7 +261,7 @@ Result<PromisesToTry> read_promises(const StudyCommandOptions& options, const Wo
     if (!quality || !error)
         return fail({path, 1, 0}, "", "a table of promises has the columns 'quality' and 'error'");
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
-        const auto number = number_in_cell(table.rows[row][*error]);
+        const auto number = number_from<double>(table.rows[row][*error]);
         if (!number) return fail_at_row(path, row, "'error' is not a number", "write what is promised: 0.01");
         all.promises.push_back({table.rows[row][*quality], *number});
     }

@@ -238,10 +238,9 @@ std::string totals_text(const raster::PictureReport& totals, std::size_t drawn, 
 Diagnostics warnings_of(const raster::PictureReport& picture) {
     Diagnostics warnings = picture.warnings;
     if (picture.drawn > 0 || !picture.diagnostics.empty()) return warnings;
-    Diagnostic nothing;
-    nothing.message = "no pixel is drawn, so nothing was compared";
-    nothing.help = "give what gl_Position is computed from its values under [render] in the family file";
-    warnings.push_back(std::move(nothing));
+    warnings.push_back(
+        {.message = "no pixel is drawn, so nothing was compared",
+         .help = "give what gl_Position is computed from its values under [render] in the family file"});
     return warnings;
 }
 

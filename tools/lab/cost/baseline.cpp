@@ -56,7 +56,7 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
         const auto read = [&](std::string_view name, std::uint64_t& value) -> Result<void> {
             const auto column = table.column(name);
             if (!column) return missing(name);
-            const auto number = whole_number_in_cell(cells[*column]);
+            const auto number = number_from<std::uint64_t>(cells[*column]);
             if (!number)
                 return fail_at_row(
                     path, i, fmt::format("'{}' is no whole number of {}", cells[*column], name), kUpdate);

@@ -10,90 +10,42 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/bytes.hpp"
 #include "core/text.hpp"
 
 namespace gobo::cost {
+
+GOBO_FIELDS(Descriptor, kind, count)
+GOBO_FIELDS(VertexInput, location, scalar, components)
+GOBO_FIELDS(PipelineStage, kind, words, loop_varies)
+GOBO_FIELDS(Pipeline, stages, descriptors, inputs, outputs, constants, push_bytes)
+GOBO_FIELDS(CompiledStage, stage, invocations, statistics, assembly)
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using nlohmann::json;
 
-/// Messages are CBOR after their length.
+/// Messages stand after their length.
 using Length = std::uint64_t;
 
-std::string message_of(const json& content) {
-    const std::vector<std::uint8_t> bytes = json::to_cbor(content);
-    const Length length = bytes.size();
-    std::string message(reinterpret_cast<const char*>(&length), sizeof length);
-    message.append(bytes.begin(), bytes.end());
-    return message;
+std::string message_of(const std::string& content) {
+    return to_bytes(Length{content.size()}) + content;
 }
 
 /// The first whole message of `received`, taken out of it; nothing where none is whole.
-std::optional<json> take_message(std::string& received) {
-    Length length = 0;
-    if (received.size() < sizeof length) return std::nullopt;
-    std::memcpy(&length, received.data(), sizeof length);
-    if (received.size() - sizeof length < length) return std::nullopt;
-    const auto begin = received.begin() + sizeof length;
-    json content = json::from_cbor(begin, begin + static_cast<std::ptrdiff_t>(length), true, false);
-    received.erase(0, sizeof length + length);
+std::optional<std::string> take_message(std::string& received) {
+    const std::size_t head = std::min(sizeof(Length), received.size());
+    const auto length = from_bytes<Length>(std::string_view(received).substr(0, head));
+    if (!length || received.size() - head < *length) return std::nullopt;
+    std::string content = received.substr(head, *length);
+    received.erase(0, head + *length);
     return content;
-}
-
-json to_json(const Words& words) {
-    std::vector<std::uint8_t> bytes(words.size() * sizeof(words[0]));
-    std::memcpy(bytes.data(), words.data(), bytes.size());
-    return json::binary(std::move(bytes));
-}
-
-Words words_in(const json& content) {
-    const auto& bytes = content.get_binary();
-    Words words(bytes.size() / sizeof(Words::value_type));
-    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(words[0]));
-    return words;
-}
-
-json to_json(const Pipeline& pipeline) {
-    json content = {{"stages", json::array()},    {"descriptors", json::array()},
-                    {"inputs", json::array()},    {"outputs", json::array()},
-                    {"constants", json::array()}, {"push_bytes", pipeline.push_bytes}};
-    for (const PipelineStage& stage : pipeline.stages)
-        content["stages"].push_back({static_cast<int>(stage.kind), to_json(stage.words)});
-    for (const auto& [id, value] : pipeline.constants) content["constants"].push_back({id, value});
-    for (const Descriptor& descriptor : pipeline.descriptors)
-        content["descriptors"].push_back({static_cast<int>(descriptor.kind), descriptor.count});
-    for (const VertexInput& input : pipeline.inputs)
-        content["inputs"].push_back({input.location, static_cast<int>(input.scalar), input.components});
-    for (const auto& output : pipeline.outputs)
-        content["outputs"].push_back(output ? static_cast<int>(*output) : -1);
-    return content;
-}
-
-Pipeline pipeline_in(const json& content) {
-    Pipeline pipeline;
-    for (const json& stage : content["stages"])
-        pipeline.stages.push_back({static_cast<StageKind>(stage[0].get<int>()), words_in(stage[1])});
-    for (const json& descriptor : content["descriptors"])
-        pipeline.descriptors.push_back(
-            {static_cast<Descriptor::Kind>(descriptor[0].get<int>()), descriptor[1]});
-    for (const json& input : content["inputs"])
-        pipeline.inputs.push_back({input[0], static_cast<Scalar>(input[1].get<int>()), input[2]});
-    for (const json& output : content["outputs"]) {
-        const int scalar = output.get<int>();
-        pipeline.outputs.push_back(scalar < 0 ? std::nullopt : std::optional(static_cast<Scalar>(scalar)));
-    }
-    for (const json& constant : content["constants"])
-        pipeline.constants.emplace_back(constant[0], constant[1]);
-    pipeline.push_bytes = content["push_bytes"];
-    return pipeline;
 }
 
 // The process that is asked.
@@ -104,26 +56,6 @@ void write_all(int file, std::string_view bytes) {
         if (written < 0 && errno != EINTR) ::_exit(1);
         bytes.remove_prefix(static_cast<std::size_t>(std::max<::ssize_t>(written, 0)));
     }
-}
-
-json error_in(const Diagnostics& errors) {
-    return {{"error", errors.front().message},
-            {"help", errors.front().help},
-            {"is_missing", errors.front().fault == Fault::file}};
-}
-
-json compiled(const Driver& driver, const Pipeline& pipeline) {
-    const auto stages = driver.compile(pipeline);
-    if (!stages) return error_in(stages.error());
-    json told = {{"stages", json::array()}};
-    for (const CompiledStage& stage : *stages)
-        // Texts as bytes: what a driver writes need not be UTF-8.
-        told["stages"].push_back(
-            {{"stage", stage.stage},
-             {"invocations", stage.invocations},
-             {"statistics", stage.statistics},
-             {"assembly", json::binary({stage.assembly.begin(), stage.assembly.end()})}});
-    return told;
 }
 
 // The process that asks.
@@ -211,19 +143,20 @@ void serve_pipelines(const std::string& library) {
     const int out = ::dup(STDOUT_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     const Result<Driver> driver = Driver::open(library);
-    write_all(out, message_of(driver ? json{{"driver", driver->name()}} : error_in(driver.error())));
+    write_all(out, message_of(to_bytes(driver ? Result<std::string>(driver->name())
+                                              : tl::unexpected(driver.error()))));
     if (!driver) return;
     std::string received;
     while (read_some(STDIN_FILENO, received))
         while (const auto request = take_message(received))
-            write_all(out, message_of(compiled(*driver, pipeline_in(*request))));
+            write_all(out, message_of(to_bytes(driver->compile(from_bytes<Pipeline>(*request).value()))));
     // Without the driver's own clean-up, which may crash.
     ::_exit(0);
 }
 
 /// What a process answered, or how it ended.
 struct DriverProcess::Answer {
-    std::optional<json> content;
+    std::optional<std::string> content;
     std::string ending;
 };
 
@@ -265,12 +198,11 @@ Result<std::string> DriverProcess::open(const DriverPlace& place, const Chip& ch
                     is_unknown ? install_newer(chip)
                                : "'gobo cost --gpu list' says of which chips this driver has figures");
     }
-    if (answer.content->contains("error")) {
-        const auto help = (*answer.content)["help"].get<std::string>();
-        return lose((*answer.content)["error"], help.empty() ? install_driver(chip.maker) : help,
-                    (*answer.content)["is_missing"] ? Fault::file : Fault::input);
-    }
-    return (*answer.content)["driver"].get<std::string>();
+    const auto name = from_bytes<Result<std::string>>(*answer.content).value();
+    if (name) return *name;
+    const Diagnostic& error = name.error().front();
+    return lose(error.message, error.help.empty() ? install_driver(chip.maker) : error.help,
+                error.fault == Fault::file ? Fault::file : Fault::input);
 }
 
 DriverProcess::~DriverProcess() {
@@ -283,17 +215,11 @@ DriverProcess::~DriverProcess() {
 }
 
 CompiledPipeline DriverProcess::compile(const Pipeline& pipeline) {
-    const Answer answer = exchange(message_of(to_json(pipeline)));
+    const Answer answer = exchange(message_of(to_bytes(pipeline)));
     if (!answer.content) return tl::unexpected(answer.ending);
-    const json& content = *answer.content;
-    if (content.contains("error")) return tl::unexpected(content["error"].get<std::string>());
-    std::vector<CompiledStage> stages;
-    for (const json& stage : content["stages"]) {
-        const auto& assembly = stage["assembly"].get_binary();
-        stages.push_back(
-            {stage["stage"], stage["invocations"], stage["statistics"], {assembly.begin(), assembly.end()}});
-    }
-    return stages;
+    auto stages = from_bytes<Result<std::vector<CompiledStage>>>(*answer.content).value();
+    if (!stages) return tl::unexpected(stages.error().front().message);
+    return *std::move(stages);
 }
 
 /// Writes the request and waits for a message.

@@ -70,11 +70,11 @@ CsvTable with_cycles(CsvTable study, const std::vector<ChipCost>& costs) {
             const auto key = by_key.find(row[key_at]);
             if (key == by_key.end()) continue;
             row[instructions_at] = instructions_text(*key->second);
-            const double cycles = cycles_of(*key->second, number_in_cell(row[vertices_at]).value_or(0));
+            const double cycles = cycles_of(*key->second, number_from<double>(row[vertices_at]).value_or(0));
             if (cycles == kNone) continue;
             row[cycles_at] = fmt::format("{:.1f}", cycles);
             fronts[{row[effects_at], row[scene_at]}].push_back(
-                {i, number_in_cell(row[error_at]).value_or(kNone), cycles});
+                {i, number_from<double>(row[error_at]).value_or(kNone), cycles});
         }
         for (const auto& [which, points] : fronts)
             for (const Point& point : points) {

@@ -172,11 +172,7 @@ std::span<const std::uint32_t> value_operands(const Instruction& instruction) {
 }
 
 Diagnostic error_at(const Place& place, std::string message, std::string help) {
-    Diagnostic diagnostic;
-    diagnostic.place = place;
-    diagnostic.message = std::move(message);
-    diagnostic.help = std::move(help);
-    return diagnostic;
+    return {.place = place, .message = std::move(message), .help = std::move(help)};
 }
 
 std::string opcode_name(spv::Op opcode) {

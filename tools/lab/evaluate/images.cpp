@@ -1,6 +1,5 @@
 #include "lab/evaluate/images.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>

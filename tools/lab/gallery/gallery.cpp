@@ -1,7 +1,6 @@
 #include "lab/gallery/gallery.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "core/text_template.hpp"
 #include "family/key.hpp"
 #include "lab/gallery/live_page.hpp"
@@ -21,10 +21,7 @@
 
 namespace gobo {
 
-void fields(auto& archive, OneOf<RenderValue> auto& value) {
-    auto& [name, source, numbers, place] = value;
-    archive(name, source, numbers, place);
-}
+GOBO_FIELDS(RenderValue, name, source, numbers, place)
 
 }  // namespace gobo
 
@@ -38,10 +35,7 @@ struct NamedFile {
     std::string name;
     std::string bytes;
 };
-void fields(auto& archive, OneOf<NamedFile> auto& value) {
-    auto& [name, bytes] = value;
-    archive(name, bytes);
-}
+GOBO_FIELDS(NamedFile, name, bytes)
 
 /// What a child process made of one permutation.
 struct Made {
@@ -54,10 +48,7 @@ struct Made {
     std::vector<RenderValue> values;
     std::vector<Image> shadow_maps;
 };
-void fields(auto& archive, OneOf<Made> auto& value) {
-    auto& [entry, pictures, renderer, warnings, is_evaluated, expected, values, shadow_maps] = value;
-    archive(entry, pictures, renderer, warnings, is_evaluated, expected, values, shadow_maps);
-}
+GOBO_FIELDS(Made, entry, pictures, renderer, warnings, is_evaluated, expected, values, shadow_maps)
 
 /// White in the pictures of errors: the limit that `gobo test --render` holds most pixels to is a fifth of
 /// it.
@@ -69,11 +60,8 @@ std::string value_text(const Feature& feature, int value) {
 
 /// Three digits tell costs apart; more would suggest an exactness that an average has not.
 double to_three_digits(double number) {
-    const std::string text =
-        fmt::format("{:.3g}", number);  // of the doubles nearby the one that is shown as this
-    double rounded = 0;
-    std::from_chars(text.data(), text.data() + text.size(), rounded);
-    return rounded;
+    // Of the doubles nearby the one that is shown as this.
+    return number_from<double>(fmt::format("{:.3g}", number)).value_or(0);
 }
 
 /// Each feature with those of its values that occur, in the family's order.

@@ -74,12 +74,8 @@ struct Entry {
     double fragment_cost = 0;  ///< of a fragment, on average over those of the picture; in additions
     double vertex_cost = 0;    ///< of a vertex
 };
-void fields(auto& archive, OneOf<Entry> auto& value) {
-    auto& [key, actual, expected, difference, largest_error, root_mean_square, edges, pixels, exposure,
-           fragment_cost, vertex_cost] = value;
-    archive(key, actual, expected, difference, largest_error, root_mean_square, edges, pixels, exposure,
-            fragment_cost, vertex_cost);
-}
+GOBO_FIELDS(Entry, key, actual, expected, difference, largest_error, root_mean_square, edges, pixels,
+            exposure, fragment_cost, vertex_cost)
 
 /// What all entries share.
 struct Gallery {

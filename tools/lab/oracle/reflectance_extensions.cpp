@@ -1,7 +1,6 @@
 #include "lab/oracle/reflectance_extensions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>

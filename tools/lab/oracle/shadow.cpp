@@ -2,11 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include "lab/oracle/lights.hpp"
 
 namespace gobo::oracle {

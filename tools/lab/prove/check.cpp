@@ -104,7 +104,7 @@ Diagnostics check(const evaluate::Program& program, const sanitize::InputSpace& 
                 fmt::format("the proof is wrong: proven impossible, yet met: {}", to_text(finding))));
         }
     }
-    diagnostics.insert(diagnostics.end(), watcher.diagnostics().begin(), watcher.diagnostics().end());
+    append(diagnostics, watcher.diagnostics());
     return diagnostics;
 }
 

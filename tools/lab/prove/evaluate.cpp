@@ -3,7 +3,6 @@
 // the results of all variants.
 #include <algorithm>
 
-#include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/prove/comparison.hpp"

@@ -1,6 +1,5 @@
 // What each operation on floats makes of what is known of its operands, by the errors that are allowed.
 #include <algorithm>
-#include <bit>
 
 #include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>
@@ -57,6 +56,27 @@ Range rising(const Range& range, const F& f) {
     if (range.has_no_number()) return range;
     return tidy({f(range.low), f(range.high), 0, kFinestGrid, true, range.nan});
 }
+
+/// Of numbers that are known to lie between -limit and limit.
+Range limited(Range range, double limit) {
+    range.low = std::max(range.low, -limit);
+    range.high = std::min(range.high, limit);
+    return tidy(range);
+}
+
+Range root(const Range& range) {
+    Range result = rising(range, [](double x) { return std::sqrt(x); });
+    result.least = std::sqrt(range.least);
+    result.zero = range.holds_zero();
+    return rounded(tidy(result));
+}
+
+constexpr std::pair<std::uint32_t, double (*)(double)> kRoundings[] = {
+    {extended(GLSLstd450Round), [](double x) { return std::round(x); }},
+    {extended(GLSLstd450RoundEven), [](double x) { return std::nearbyint(x); }},
+    {extended(GLSLstd450Trunc), [](double x) { return std::trunc(x); }},
+    {extended(GLSLstd450Floor), [](double x) { return std::floor(x); }},
+    {extended(GLSLstd450Ceil), [](double x) { return std::ceil(x); }}};
 
 Range power(const Range& x, const Range& y) {
     const double corners[] = {std::pow(x.low, y.low), std::pow(x.low, y.high), std::pow(x.high, y.low),
@@ -178,18 +198,11 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
         case spv::OpMatrixTimesScalar: {
             const bool is_same = expressions_.origin(operands[0]) == expressions_.origin(operands[1]);
             Range real = is_same ? square(both(r[0], r[1])) : product(r[0], r[1]);
-            if (makes_unit(&index, 1)) {
-                real.low = std::max(real.low, -1 - kUnitSlack);
-                real.high = std::min(real.high, 1 + kUnitSlack);
-                real = tidy(real);
-            }
+            if (makes_unit(&index, 1)) real = limited(real, 1 + kUnitSlack);
             if (const double limit =
                     std::min(cosine_limit(operands[0], operands[1]), cosine_limit(operands[1], operands[0]));
-                limit < real.size()) {
-                real.low = std::max(real.low, -limit);
-                real.high = std::min(real.high, limit);
-                real = tidy(real);
-            }
+                limit < real.size())
+                real = limited(real, limit);
             result = rounded(real);
             known.has_product = !expression.is_precise;
             known.product = real;
@@ -205,18 +218,9 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
                 result.high = std::max(limit, 0.0);
                 result = tidy(result);
             }
-            if (divides_by_length(operands, 1, operands[1])) {
-                result.low = std::max(result.low, -1 - kDirectionSlack);
-                result.high = std::min(result.high, 1 + kDirectionSlack);
-                result = tidy(result);
-            }
-            if (is_at_most(operands[0], operands[1])) {
-                constexpr double kMost = 1 + 0x1p-20;
-                const bool is_exact = error(exactly(1)) == exactly(1);
-                result.low = std::max(result.low, is_exact ? -1 : -kMost);
-                result.high = std::min(result.high, is_exact ? 1 : kMost);
-                result = tidy(result);
-            }
+            if (divides_by_length(operands, 1, operands[1])) result = limited(result, 1 + kDirectionSlack);
+            if (is_at_most(operands[0], operands[1]))
+                result = limited(result, error(exactly(1)) == exactly(1) ? 1 : 1 + 0x1p-20);
             break;
         case spv::OpFMod:
         case spv::OpFRem:
@@ -236,23 +240,12 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             }
             break;
         case extended(GLSLstd450Round):
-            result = rising(r[0], [](double x) { return std::round(x); });
-            result.grid = 0;
-            break;
         case extended(GLSLstd450RoundEven):
-            result = rising(r[0], [](double x) { return std::nearbyint(x); });
-            result.grid = 0;
-            break;
         case extended(GLSLstd450Trunc):
-            result = rising(r[0], [](double x) { return std::trunc(x); });
-            result.grid = 0;
-            break;
         case extended(GLSLstd450Floor):
-            result = rising(r[0], [](double x) { return std::floor(x); });
-            result.grid = 0;
-            break;
         case extended(GLSLstd450Ceil):
-            result = rising(r[0], [](double x) { return std::ceil(x); });
+            for (const auto& [code, rounds] : kRoundings)
+                if (code == expression.code) result = rising(r[0], rounds);
             result.grid = 0;
             break;
         case extended(GLSLstd450Fract):
@@ -279,12 +272,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             nan = r[0].low < 0;
             r[0].low = std::max(r[0].low, 0.0);
             r[0] = tidy(r[0]);
-            if (!r[0].has_no_number()) {
-                result = rising(r[0], [](double x) { return std::sqrt(x); });
-                result.least = std::sqrt(r[0].least);
-                result.zero = r[0].holds_zero();
-                result = error(rounded(tidy(result)));
-            }
+            if (!r[0].has_no_number()) result = error(root(r[0]));
             break;
         case extended(GLSLstd450InverseSqrt):
             if (r[0].low <= 0) {
@@ -368,14 +356,9 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             result = count == 2 ? rounded(product(r[0], r[1]))
                                 : sum_of_products(operands, operands + count / 2, count / 2);
             break;
-        case extended(GLSLstd450Length): {
-            const Range of_squares = sum_of_products(operands, operands, count);
-            result = rising(of_squares, [](double x) { return std::sqrt(x); });
-            result.least = std::sqrt(of_squares.least);
-            result.zero = of_squares.holds_zero();
-            result = error(rounded(tidy(result)));
+        case extended(GLSLstd450Length):
+            result = error(root(sum_of_products(operands, operands, count)));
             break;
-        }
         case extended(GLSLstd450Distance): {
             double square = 0;
             for (std::uint32_t i = 0; i < count / 2; ++i) {
@@ -424,11 +407,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             const double limit =
                 ray * std::sqrt(1 + 4 * normal * normal * std::max(0.0, normal * normal - 1)) +
                 0x1p-21 * ray * (1 + 2 * normal * normal) + 8 * kSmallestNormal;
-            if (limit < kInfinity) {
-                result.low = std::max(result.low, -limit);
-                result.high = std::min(result.high, limit);
-            }
-            result = rounded(tidy(result));
+            result = rounded(limited(result, limit));
             break;
         }
         case extended(GLSLstd450FaceForward): {

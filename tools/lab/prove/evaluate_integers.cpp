@@ -1,6 +1,5 @@
 // What operations on integers, and conversions to them, make of what is known of their operands.
 #include <algorithm>
-#include <bit>
 
 #include <spirv/unified1/GLSL.std.450.h>
 #include <spirv/unified1/spirv.hpp>

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "core/remembered.hpp"
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/prove/check.hpp"
 #include "lab/prove/stage_proof.hpp"
@@ -20,14 +21,8 @@
 
 namespace gobo::prove {
 
-static void fields(auto& archive, OneOf<Range> auto& value) {
-    auto& [low, high, least, grid, zero, nan] = value;
-    archive(low, high, least, grid, zero, nan);
-}
-static void fields(auto& archive, OneOf<PartLeft> auto& value) {
-    auto& [name, range] = value;
-    archive(name, range);
-}
+GOBO_FIELDS(Range, low, high, least, grid, zero, nan)
+GOBO_FIELDS(PartLeft, name, range)
 
 namespace {
 
@@ -57,14 +52,8 @@ struct KeptProof {
     std::vector<std::vector<Range>> results;
     Diagnostics diagnostics;
 };
-void fields(auto& archive, OneOf<KeptProof::KeptRule> auto& value) {
-    auto& [operation, message, is_proven, is_constant, ignores_tiny] = value;
-    archive(operation, message, is_proven, is_constant, ignores_tiny);
-}
-void fields(auto& archive, OneOf<KeptProof> auto& value) {
-    auto& [rules, left, outputs, results, diagnostics] = value;
-    archive(rules, left, outputs, results, diagnostics);
-}
+GOBO_FIELDS(KeptProof::KeptRule, operation, message, is_proven, is_constant, ignores_tiny)
+GOBO_FIELDS(KeptProof, rules, left, outputs, results, diagnostics)
 
 using PlaceAndName = std::tuple<std::string, int, std::string>;
 
@@ -250,7 +239,7 @@ void add_outputs(std::map<std::pair<StageKind, std::string>, OutputRange>& all, 
         const bool has_last = domain != nullptr && !domain->last.empty();
         const std::size_t ranged = port.components - (has_last ? 1 : 0);
         for (std::size_t c = 0; c < proven.outputs[i].size(); ++c) {
-            std::string name = verify::without_subscripts(port.name);
+            std::string name = without_subscripts(port.name);
             if (c >= ranged) name += fmt::format(".{}", "xyzw"[c % 4]);  // a quantity of its own
             OutputRange& output =
                 all.try_emplace({stage, name}, OutputRange{stage, name, kNothing}).first->second;
@@ -304,8 +293,7 @@ ProveReport prove(const Family& family, const Composition& composition, const Va
             faults[i] = check(stages[i].program, stages[i].space, stages[i].rules, stages[i].results, points,
                               options.seed + i * points);
         });
-        for (const Diagnostics& of_stage : faults)
-            report.diagnostics.insert(report.diagnostics.end(), of_stage.begin(), of_stage.end());
+        for (const Diagnostics& of_stage : faults) append(report.diagnostics, of_stage);
         report.points = points * stages.size();
     }
     std::map<PlaceAndName, SourceOperation> operations;

@@ -75,22 +75,22 @@ bool are_not_negative(View& view) {
 bool shifts_within_word(View& view) {
     return never<1>(view, below(-1)) && never<1>(view, above(32));
 }
-bool quotient_fits(View& view) {
+
+/// The operands never lie in their ranges at once.
+bool never_both(View& view, const Range& first, const Range& second) {
     return each(view, 2, [&](std::uint32_t c) {
-        return view.ranges.excludes(
-            {{view.operand(0, c), exactly(kAnyInt.low)}, {view.operand(1, c), exactly(-1)}});
+        return view.ranges.excludes({{view.operand(0, c), first}, {view.operand(1, c), second}});
     });
 }
-bool fits_int(View& view) {
-    return each(view, 1, [&](std::uint32_t c) {
-        const Range& range = view.range(0, c);
-        return !range.nan && range.low > -2147483904.0 && range.high < 2147483648.0;
-    });
+
+bool quotient_fits(View& view) {
+    return never_both(view, exactly(kAnyInt.low), exactly(-1));
 }
-bool fits_uint(View& view) {
+template <std::int64_t low, std::int64_t high>
+bool lies_between(View& view) {
     return each(view, 1, [&](std::uint32_t c) {
         const Range& range = view.range(0, c);
-        return !range.nan && range.low > -1 && range.high < 4294967296.0;
+        return !range.nan && range.low > static_cast<double>(low) && range.high < static_cast<double>(high);
     });
 }
 bool field_within_word(View& view) {
@@ -100,14 +100,10 @@ bool field_within_word(View& view) {
     return offset.low >= 0 && bits.low >= 0 && offset.high + bits.high <= 32;
 }
 bool power_is_defined_at_zero(View& view) {
-    return each(view, 2, [&](std::uint32_t c) {
-        return view.ranges.excludes({{view.operand(0, c), exactly(0)}, {view.operand(1, c), below(0)}});
-    });
+    return never_both(view, exactly(0), below(0));
 }
 bool angle_is_defined(View& view) {
-    return each(view, 2, [&](std::uint32_t c) {
-        return view.ranges.excludes({{view.operand(0, c), exactly(0)}, {view.operand(1, c), exactly(0)}});
-    });
+    return never_both(view, exactly(0), exactly(0));
 }
 bool edges_differ(View& view) {
     return each(view, 2, [&](std::uint32_t c) {
@@ -138,13 +134,18 @@ bool has_no_nan(View& view) {
     return true;
 }
 
+/// The components of a vector are never 0 at once.
+bool never_all_zero(View& view, std::size_t operand, std::uint32_t count) {
+    std::vector<Cut> all;
+    for (std::uint32_t c = 0; c < count; ++c) all.push_back({view.operand(operand, c), exactly(0)});
+    return view.ranges.excludes(all);
+}
+
 bool vector_is_not_zero(View& view) {
     const std::uint32_t count = view.info().operands[0].count;
     const Range of_squares = view.ranges.sum_of_products(view.vector(0), view.vector(0), count);
     if (!of_squares.holds_zero()) return true;
-    std::vector<Cut> all;
-    for (std::uint32_t c = 0; c < count; ++c) all.push_back({view.operand(0, c), exactly(0)});
-    return view.ranges.excludes(all);
+    return never_all_zero(view, 0, count);
 }
 
 /// The components of a vector, or of the difference of two.
@@ -183,15 +184,10 @@ bool square_does_not_overflow(View& view) {
     return square < kLargestFloat * 0.9999;
 }
 
-bool makes_no_infinity(View& view) {
+template <bool Known::*makes>
+bool makes_no(View& view) {
     for (std::uint32_t i = 0; i < view.site.results; ++i)
-        if (view.ranges[view.expressions.site_operands[view.site.first_result + i]].makes_infinity)
-            return false;
-    return true;
-}
-bool makes_no_nan(View& view) {
-    for (std::uint32_t i = 0; i < view.site.results; ++i)
-        if (view.ranges[view.expressions.site_operands[view.site.first_result + i]].makes_nan) return false;
+        if (view.ranges[view.expressions.site_operands[view.site.first_result + i]].*makes) return false;
     return true;
 }
 
@@ -285,9 +281,7 @@ bool projects_forwards(View& view) {
 }
 
 bool direction_is_not_zero(View& view) {
-    std::vector<Cut> all;
-    for (std::uint32_t axis = 0; axis < 3; ++axis) all.push_back({view.operand(1, axis), exactly(0)});
-    return view.ranges.excludes(all);
+    return never_all_zero(view, 1, 3);
 }
 
 bool fetches_inside(View& view) {
@@ -391,8 +385,8 @@ constexpr Proof kProofs[] = {
     {GOBO_STD450(Length), "length() overflows: its square is too large", square_does_not_overflow, 1},
     {GOBO_STD450(Distance), "distance() underflows: its square is too small", square_does_not_underflow, 3},
     {GOBO_STD450(Distance), "distance() overflows: its square is too large", square_does_not_overflow, 3},
-    {spv::OpConvertFToS, "conversion to int out of range", fits_int, 1},
-    {spv::OpConvertFToU, "conversion to uint out of range", fits_uint, 1},
+    {spv::OpConvertFToS, "conversion to int out of range", lies_between<-2147483904, 2147483648>, 1},
+    {spv::OpConvertFToU, "conversion to uint out of range", lies_between<-1, 4294967296>, 1},
 };
 
 const Proof* proof_of(std::uint32_t code, std::string_view message) {
@@ -431,8 +425,8 @@ std::vector<std::vector<Rule>> rules_of(const evaluate::Program& program) {
                                                                          : 4U});
         add_image_rules(program, program.operations[at], all[at]);
         if (row.kind <= Kind::matrix && program.infos[at].result.scalar == Scalar::float32) {
-            all[at].push_back({kMakesInfinity, makes_no_infinity, ~0U, true});
-            all[at].push_back({kMakesNaN, makes_no_nan, ~0U, true});
+            all[at].push_back({kMakesInfinity, makes_no<&Known::makes_infinity>, ~0U, true});
+            all[at].push_back({kMakesNaN, makes_no<&Known::makes_nan>, ~0U, true});
         }
     }
     return all;

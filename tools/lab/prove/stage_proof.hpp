@@ -1,8 +1,6 @@
 // The proof of one stage.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "lab/prove/prove.hpp"

@@ -115,9 +115,7 @@ class Unroller {
         }
         for (const auto* ports : {&program_.inputs, &program_.uniforms})
             for (const evaluate::Port& port : *ports) {
-                const auto field =
-                    std::find_if(space_.fields.begin(), space_.fields.end(),
-                                 [&](const sanitize::InputField& one) { return one.name == port.name; });
+                const auto field = std::ranges::find(space_.fields, port.name, &sanitize::InputField::name);
                 if (field == space_.fields.end()) continue;
                 for (std::uint32_t i = 0; i < port.components; ++i)
                     state.slots[port.slot + i] =

@@ -73,12 +73,8 @@ struct PictureReport {
     /// Wrong pixels, too many at edges, or an RMS error above its limit.
     [[nodiscard]] bool fails() const;
 };
-void fields(auto& archive, OneOf<PictureReport> auto& value) {
-    auto& [key, largest_error, root_mean_square, largest_ratio, pixels, drawn, edges, wrong, worst, actual,
-           expected, diagnostics, warnings] = value;
-    archive(key, largest_error, root_mean_square, largest_ratio, pixels, drawn, edges, wrong, worst, actual,
-            expected, diagnostics, warnings);
-}
+GOBO_FIELDS(PictureReport, key, largest_error, root_mean_square, largest_ratio, pixels, drawn, edges, wrong,
+            worst, actual, expected, diagnostics, warnings)
 
 inline constexpr std::size_t kWorstPixels = 3;
 

@@ -439,11 +439,9 @@ tl::unexpected<Diagnostics> unknown_source(const RenderValue& value, const std::
 }
 
 Diagnostic no_value(std::string message) {
-    Diagnostic warning;
-    warning.severity = Severity::warning;
-    warning.message = std::move(message);
-    warning.help = "give it one under [render] in the family file";
-    return warning;
+    return {.severity = Severity::warning,
+            .message = std::move(message),
+            .help = "give it one under [render] in the family file"};
 }
 
 Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std::vector<RenderValue>& values,

@@ -37,26 +37,6 @@ class DriverClock {
 /// What to do about a driver that ends without having been asked anything.
 [[nodiscard]] tl::unexpected<Diagnostics> fail_to_open(const std::string& driver, const std::string& ending);
 
-namespace detail {
-
-/// A value or errors, as one process sends them to another.
-template <class Value>
-struct Sent {
-    bool is_open = false;  ///< whether there was a driver to ask
-    Diagnostics errors;
-    Value value{};
-};
-template <class Value>
-void fields(auto& archive, Sent<Value>& sent) {
-    archive(sent.is_open, sent.errors, sent.value);
-}
-template <class Value>
-void fields(auto& archive, const Sent<Value>& sent) {
-    archive(sent.is_open, sent.errors, sent.value);
-}
-
-}  // namespace detail
-
 /// Tasks for a driver, whose results are sent as bytes (core/bytes.hpp).
 template <class Driver, class Value>
 struct DriverTasks {
@@ -75,41 +55,33 @@ struct DriverTasks {
 /// process must have no other threads.
 template <class Driver, class Value>
 [[nodiscard]] Result<void> ask_driver(const DriverTasks<Driver, Value>& tasks) {
-    using Sent = detail::Sent<Value>;
+    using Sent = std::pair<bool, Result<Value>>;  // whether there was a driver to ask
     constexpr int kOpening = -2;
     std::optional<Diagnostics> not_opened;
     const auto opened = std::make_shared<std::optional<Driver>>();  // each child has its own
     ChildWork child;
     child.work = [&](std::size_t task, Note& note) {
-        Sent sent;
-        const auto fail_with = [&](Diagnostics errors) {
-            sent.errors = std::move(errors);
-            return to_bytes(sent);
+        const auto not_open = [](Diagnostics errors) {
+            return to_bytes(Sent(false, tl::unexpected(std::move(errors))));
         };
-        if (not_opened) return fail_with(*not_opened);
+        if (not_opened) return not_open(*not_opened);
         note = kOpening;
         if (!*opened) {
             Result<Driver> driver = tasks.open();
-            if (!driver) return fail_with(std::move(driver).error());
+            if (!driver) return not_open(std::move(driver).error());
             opened->emplace(*std::move(driver));
         }
-        sent.is_open = true;
         DriverClock clock(note);
         clock.begin(0);
-        Result<Value> value = tasks.work(**opened, task, clock);
-        if (!value) return fail_with(std::move(value).error());
-        sent.value = *std::move(value);
-        return to_bytes(sent);
+        return to_bytes(Sent(true, tasks.work(**opened, task, clock)));
     };
     child.done = [&](std::size_t task, std::string_view bytes) {
         std::optional<Sent> sent = from_bytes<Sent>(bytes);
         if (!sent) return false;
-        if (!sent->is_open)
-            not_opened = std::move(sent->errors);
-        else if (sent->errors.empty())
-            tasks.done(task, std::move(sent->value), std::nullopt);
+        if (sent->first)
+            tasks.done(task, std::move(sent->second), std::nullopt);
         else
-            tasks.done(task, tl::unexpected(std::move(sent->errors)), std::nullopt);
+            not_opened = std::move(sent->second).error();
         return true;
     };
     child.died = [&](std::size_t task, int note, Death death) {

@@ -39,9 +39,7 @@ struct Image {
     }
 };
 
-void fields(auto& archive, OneOf<Image> auto& value) {
-    archive(value.width, value.height, value.channels, value.values);
-}
+GOBO_FIELDS(Image, width, height, channels, values)
 
 /// How far two values are apart. A NaN facing anything but a NaN is an infinite difference; equal infinities
 /// and two NaNs are none.

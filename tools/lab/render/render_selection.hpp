@@ -52,10 +52,7 @@ struct PictureFile {
     std::string renderer;
     Diagnostics warnings;
 };
-void fields(auto& archive, OneOf<PictureFile> auto& value) {
-    auto& [bytes, renderer, warnings] = value;
-    archive(bytes, renderer, warnings);
-}
+GOBO_FIELDS(PictureFile, bytes, renderer, warnings)
 [[nodiscard]] Result<PictureFile> picture_file(Picture picture, const PictureFiles& pictures,
                                                const std::string& renderer);
 

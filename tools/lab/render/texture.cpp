@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gobo/environment_brdf.hpp>
 
+#include "core/text.hpp"
+
 namespace gobo {
 namespace {
 
@@ -95,17 +97,6 @@ void fill_depth(const GladGLContext& gl, GLenum target, const std::vector<double
 }
 
 }  // namespace
-
-std::string without_subscripts(std::string_view name) {
-    std::string text;
-    bool inside = false;
-    for (const char character : name) {
-        if (character == ']') inside = false;
-        if (!inside) text += character;
-        if (character == '[') inside = true;
-    }
-    return text;
-}
 
 const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name) {
     for (const std::string& wanted : {std::string(name), without_subscripts(name)}) {

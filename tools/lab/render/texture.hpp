@@ -15,9 +15,6 @@ namespace gobo {
 /// Textures that are there already, by the name of their sampler; whoever made them deletes them.
 using GivenTextures = std::map<std::string, Texture>;
 
-/// The name with every subscript emptied: "PointLights.lights[].position".
-[[nodiscard]] std::string without_subscripts(std::string_view name);
-
 /// The value given last to that name, else to the elements of all arrays ("surfaces[].albedo"), or null.
 [[nodiscard]] const RenderValue* find_value(const std::vector<RenderValue>& values, std::string_view name);
 

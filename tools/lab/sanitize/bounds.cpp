@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/text.hpp"
 #include "lab/oracle/lights.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/verify/expectation.hpp"
@@ -177,7 +178,7 @@ OutputBounds::OutputBounds(const Family& family, const Key& key, StageKind stage
         // A varying's domain is what the fragment stage may be given; what a vertex stage makes of matrices
         // within theirs can be anything.
         if (stage == StageKind::fragment && domain != nullptr) interval = interval_of(*domain);
-        const std::string name = verify::without_subscripts(output.name);
+        const std::string name = without_subscripts(output.name);
         for (std::size_t i = 0; i < output.components; ++i) {
             const Domain* const own =
                 stage == StageKind::fragment ? domain_of_component(family.domains, name, i) : nullptr;

@@ -43,7 +43,7 @@ struct Part {
 /// What a constraint's name means of a field: all of it, a component, or nothing.
 std::optional<Part> part_of(const InputField& field, const std::string& stated) {
     if (field.is_texture) return std::nullopt;
-    const std::string name = verify::without_subscripts(field.name);
+    const std::string name = without_subscripts(field.name);
     if (name == stated) return Part{0, field.components};
     const auto component = component_name(stated);
     if (!component || component->of != name || !field.has_named_components() ||
@@ -59,12 +59,11 @@ class Keeper {
     void keep(const Constraint& constraint) {
         if (constraint.is_comparison()) return keep_comparison(constraint);
         for (const InputField& field : space_.fields) {
-            if (field.is_texture || verify::without_subscripts(field.name) != constraint.names.front())
-                continue;
+            if (field.is_texture || without_subscripts(field.name) != constraint.names.front()) continue;
             if (constraint.names.size() == 1) keep(constraint.kind, field, nullptr);
             for (const InputField& other : space_.fields)
                 if (constraint.names.size() > 1 && !other.is_texture &&
-                    verify::without_subscripts(other.name) == constraint.names[1] &&
+                    without_subscripts(other.name) == constraint.names[1] &&
                     is_partner(field, other, constraint.names[1]))
                     keep(constraint.kind, field, &other);
         }
@@ -268,7 +267,7 @@ const Constraint* contradiction_in(const InputSpace& space) {
     };
     for (const InputField& field : space.fields) {
         if (field.is_texture) continue;
-        add(verify::without_subscripts(field.name), field.domain, field.is_float());
+        add(without_subscripts(field.name), field.domain, field.is_float());
         for (const Constraint& constraint : space.constraints)
             for (const std::string& name : constraint.names)
                 if (const auto part = part_of(field, name); part && part->count < field.components)

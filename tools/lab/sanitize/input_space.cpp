@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/text.hpp"
 #include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/images.hpp"
 #include "lab/verify/random_points.hpp"
@@ -22,7 +23,7 @@ Domain plain_domain(const std::string& name, double low, double high) {
 /// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
 /// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
 Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
-    const std::string name = verify::without_subscripts(port.name);
+    const std::string name = without_subscripts(port.name);
     if (const Domain* declared = verify::domain_of(domains, port.name)) return *declared;
     if (port.scalar == evaluate::Scalar::boolean) return plain_domain(name, 0, 1);
     if (evaluate::is_unsigned(port.scalar)) return plain_domain(name, 0, 100);
@@ -152,7 +153,7 @@ namespace {
 std::vector<Domain> parts_of(const InputField& field, const std::vector<Domain>& domains,
                              const std::vector<Constraint>& constraints) {
     if (!field.has_named_components() || field.domain.of_length) return {};
-    const std::string name = verify::without_subscripts(field.name);
+    const std::string name = without_subscripts(field.name);
     std::vector<Domain> parts(field.ranged(), field.domain);
     bool is_stated = false;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -180,8 +181,7 @@ InputSpace input_space_of(const evaluate::Program& program, const std::vector<Do
             field.scalar = port.scalar;
             field.domain = range_of(port, domains);
             if (!field.domain.of_length)
-                narrow(field.domain, verify::without_subscripts(port.name), {}, field.is_float(),
-                       space.constraints);
+                narrow(field.domain, without_subscripts(port.name), {}, field.is_float(), space.constraints);
             field.hard = hard_numbers(field.domain);
             field.components = port.components;
             field.parts = parts_of(field, domains, space.constraints);

@@ -46,10 +46,7 @@ struct Searched {
     std::uint64_t points = 0;
     Diagnostics diagnostics;
 };
-void fields(auto& archive, OneOf<Searched> auto& value) {
-    auto& [findings, points, diagnostics] = value;
-    archive(findings, points, diagnostics);
-}
+GOBO_FIELDS(Searched, findings, points, diagnostics)
 
 /// Points are made and run in portions, so that they stay in the cache and their rows are not mapped anew
 /// each time.
@@ -319,19 +316,19 @@ Diagnostics domains_of_nothing(const std::vector<Domain>& domains, const std::ve
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
-                for (const evaluate::Port& port : *ports) names.insert(verify::without_subscripts(port.name));
+                for (const evaluate::Port& port : *ports) names.insert(without_subscripts(port.name));
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const evaluate::ImagePort& image : program->images)
                 for (const char* part : {"", ".r", ".g", ".b", ".a", ".side", ".levels"})
-                    names.insert(verify::without_subscripts(image.name + part));
+                    names.insert(without_subscripts(image.name + part));
     Names inputs;
     Vectors vectors;
     for (const ValidatedStage& stage : validated.stages)
         if (const Result<evaluate::Program> program = evaluate::decode(stage.spirv))
             for (const auto* ports : {&program->inputs, &program->uniforms, &program->outputs})
                 for (const evaluate::Port& port : *ports) {
-                    const std::string name = verify::without_subscripts(port.name);
+                    const std::string name = without_subscripts(port.name);
                     if (ports != &program->outputs) inputs.insert(name);
                     if (port.type.find("vec") != std::string::npos) vectors[name] = port.components;
                 }

@@ -1,17 +1,12 @@
 #include "lab/scene_picture/posed_mesh.hpp"
 
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "lab/render/camera.hpp"
+#include "scene/geometry.hpp"
 
 namespace gobo::scene {
 namespace {
-
-glm::vec3 unit_or_zero(const glm::dvec3& vector) {
-    const double length = glm::length(vector);
-    return length > 0 ? glm::vec3(vector / length) : glm::vec3(0);
-}
 
 /// A tangent as the matrix moves the surface; one that mirrors turns the bitangent round.
 glm::vec4 turned(const glm::vec4& tangent, const glm::dmat4& matrix) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "core/text.hpp"
 
 namespace gobo::study {
 namespace {
@@ -125,8 +126,8 @@ Result<std::vector<Weights>> read_weights(std::string_view csv, const std::strin
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const std::vector<std::string>& row = table.rows[i];
         const auto at = std::find(evaluate::kKindNames.begin(), evaluate::kKindNames.end(), row[*kind]);
-        const std::optional<double> number = number_in_cell(row[*weight]);
-        const std::optional<double> time = number_in_cell(row[*nanoseconds]);
+        const std::optional<double> number = number_from<double>(row[*weight]);
+        const std::optional<double> time = number_from<double>(row[*nanoseconds]);
         if (at == evaluate::kKindNames.end())
             return problem(i, fmt::format("there is no kind of operation '{}'", row[*kind]));
         if (!number || *number < 0 || !time)

@@ -215,7 +215,9 @@ std::string guards_section(const ReportInput& input) {
             return index ? row[*index] : "";
         };
         const auto spread = [&](const std::string& name) {
-            const auto end = [&](const char* part) { return number_in_cell(cell(name + part)).value_or(0); };
+            const auto end = [&](const char* part) {
+                return number_from<double>(cell(name + part)).value_or(0);
+            };
             return Spread{end(""), end("_low"), end("_high")};
         };
         const Spread guarded = spread("guarded_us");

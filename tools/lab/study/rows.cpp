@@ -56,10 +56,10 @@ void read_cell(const std::string& cell, std::string& text) {
     text = cell;
 }
 void read_cell(const std::string& cell, double& number) {
-    number = number_in_cell(cell).value_or(std::numeric_limits<double>::quiet_NaN());
+    number = number_from<double>(cell).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 void read_cell(const std::string& cell, std::integral auto& number) {
-    number = static_cast<std::remove_reference_t<decltype(number)>>(number_in_cell(cell).value_or(0));
+    number = static_cast<std::remove_reference_t<decltype(number)>>(number_from<double>(cell).value_or(0));
 }
 void read_cell(const std::string& cell, bool& value, const Words& words) {
     value = cell == words.yes;
@@ -284,12 +284,12 @@ ChipRow chip_row(const ChipColumns& columns, const std::vector<std::string>& cel
     const auto cell = [&](const std::optional<std::size_t>& at) { return at ? cells[*at] : ""; };
     ChipRow chip{columns.gpu,
                  cell(columns.driver),
-                 number_in_cell(cells[columns.cycles]),
+                 number_from<double>(cells[columns.cycles]),
                  cell(columns.front) == "yes",
                  {}};
     const std::vector<std::string> words = split(cell(columns.instructions), ' ');
     for (std::size_t i = 0; i + 1 < words.size(); i += 2)
-        chip.instructions[words[i]] = number_in_cell(words[i + 1]).value_or(0);
+        chip.instructions[words[i]] = number_from<double>(words[i + 1]).value_or(0);
     return chip;
 }
 

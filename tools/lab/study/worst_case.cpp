@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "family/key.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/study/parallel_results.hpp"
@@ -213,8 +214,7 @@ Result<void> refuse_unknown_components(const Family& family, const Variant& vari
         for (const evaluate::Port& port : *ports)
             for (const Domain& domain : family.domains) {
                 const auto part = component_name(domain.name);
-                if (part && part->of == verify::without_subscripts(port.name) &&
-                    part->component >= port.components)
+                if (part && part->of == without_subscripts(port.name) && part->component >= port.components)
                     return fail(domain.place, "",
                                 fmt::format("'{}' has {} components", part->of, port.components),
                                 fmt::format("end at .{}", "xyzw"[port.components - 1]));

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gobo/environment_brdf.hpp>
 
+#include "core/text.hpp"
 #include "lab/oracle/oracle.hpp"
 #include "lab/verify/random_points.hpp"
 
@@ -67,7 +68,7 @@ std::vector<SearchedField> searched_fields(const evaluate::Program& program,
             const Domain* domain = verify::domain_of(domains, port.name);
             fields.push_back(
                 {*field, port.name, domain == nullptr ? std::nullopt : std::optional(*domain), {}});
-            const std::string name = verify::without_subscripts(port.name);
+            const std::string name = without_subscripts(port.name);
             for (std::size_t i = 0; i < port.components; ++i)
                 if (const Domain* const own = domain_of_component(domains, name, i))
                     fields.back().parts.emplace_back(i, *own);
@@ -78,7 +79,7 @@ std::vector<SearchedField> searched_fields(const evaluate::Program& program,
 std::vector<SearchedOrder> searched_orders(const std::vector<SearchedField>& fields,
                                            const std::vector<Domain>& domains) {
     const auto is_named = [&](std::size_t field, const std::string& name) {
-        return verify::without_subscripts(fields[field].name) == name;
+        return without_subscripts(fields[field].name) == name;
     };
     std::vector<SearchedOrder> orders;
     for (const Constraint& constraint : constraints_of(domains)) {

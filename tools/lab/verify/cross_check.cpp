@@ -227,10 +227,7 @@ struct Compared {
     ShadowMapReport maps;
     std::string renderer;
 };
-void fields(auto& archive, OneOf<Compared> auto& value) {
-    auto& [picture, maps, renderer] = value;
-    archive(picture, maps, renderer);
-}
+GOBO_FIELDS(Compared, picture, maps, renderer)
 
 }  // namespace
 

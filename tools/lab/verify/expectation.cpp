@@ -267,9 +267,7 @@ std::optional<std::vector<Answer>> ask_oracle(const Family& family, const Key& k
     oracle::Decisions float_decisions;
     const std::vector<Expected> of_floats = expect(*model, stage, rounded_to_float(*sample), float_decisions);
     for (const Expected& expected : expect(*model, stage, *sample, decisions)) {
-        const bool is_there =
-            std::any_of(program.outputs.begin(), program.outputs.end(),
-                        [&](const evaluate::Port& port) { return port.name == expected.output; });
+        const bool is_there = std::ranges::count(program.outputs, expected.output, &evaluate::Port::name) > 0;
         if (!is_there) continue;
         Answer& answer = answers.emplace_back(Answer{
             expected.output, {expected.value.begin(), expected.value.begin() + expected.components}, {}});

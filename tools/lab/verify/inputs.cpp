@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "lab/evaluate/images.hpp"
 #include "lab/oracle/reflectance_extensions.hpp"
 #include "lab/verify/random_points.hpp"

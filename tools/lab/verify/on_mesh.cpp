@@ -135,9 +135,7 @@ Result<std::vector<StageReport>> check_on_mesh(const raster::Pipeline& pipeline,
         std::vector<Sample> samples = samples_at(draw, drawn);
         for (const raster::Varying& varying : pipeline.varyings) {
             const auto value = outputs.find(varying.input);
-            const auto expected =
-                std::find_if(judged.expected.begin(), judged.expected.end(),
-                             [&](const Expected& one) { return one.output == varying.input; });
+            const auto expected = std::ranges::find(judged.expected, varying.input, &Expected::output);
             if (value == outputs.end() || expected == judged.expected.end())
                 return tl::unexpected(unknown(varying.input));
             const auto interpolation =

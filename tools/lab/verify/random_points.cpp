@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
 #include "family/constraint.hpp"
 #include "lab/raster/random.hpp"
 
@@ -63,17 +64,6 @@ evaluate::Invocations moved(const std::vector<evaluate::Port>& ports, const eval
 
 }  // namespace
 
-std::string without_subscripts(const std::string& name) {
-    std::string result;
-    bool is_inside = false;
-    for (const char character : name) {
-        if (character == ']') is_inside = false;
-        if (!is_inside) result += character;
-        if (character == '[') is_inside = true;
-    }
-    return result;
-}
-
 const Domain* domain_of(const std::vector<Domain>& domains, const std::string& name) {
     const auto found = std::find_if(
         domains.begin(), domains.end(),
@@ -121,6 +111,19 @@ Result<NamedValues> spread(const std::vector<evaluate::Port>& ports, const evalu
         }
     }
     return widest;
+}
+
+Result<NamedValues> in_double(const evaluate::Program& program, const evaluate::Invocations& points) {
+    GOBO_TRY(auto outputs, evaluate::run<double>(program, points));
+    return std::move(outputs.values);
+}
+
+Result<NamedValues> spread(const evaluate::Program& program, const evaluate::Invocations& base,
+                           const NamedValues& outputs, double step, std::uint64_t seed) {
+    std::vector<evaluate::Port> ports = program.inputs;
+    ports.insert(ports.end(), program.uniforms.begin(), program.uniforms.end());
+    return spread(ports, base, outputs, step, seed,
+                  [&](const evaluate::Invocations& moved) { return in_double(program, moved); });
 }
 
 }  // namespace gobo::verify

@@ -12,9 +12,6 @@
 
 namespace gobo::verify {
 
-/// "PointLights.lights[2].color" as domains name it: "PointLights.lights[].color".
-[[nodiscard]] std::string without_subscripts(const std::string& name);
-
 /// That of a port or field; null where none is declared.
 [[nodiscard]] const Domain* domain_of(const std::vector<Domain>& domains, const std::string& name);
 
@@ -37,6 +34,12 @@ using NamedValues = std::map<std::string, std::vector<double>, std::less<>>;
     const std::vector<evaluate::Port>& ports, const evaluate::Invocations& base, const NamedValues& outputs,
     double step, std::uint64_t seed,
     const std::function<Result<NamedValues>(const evaluate::Invocations&)>& run);
+
+/// The outputs of one program in fp64, and their spread over all that it is given.
+[[nodiscard]] Result<NamedValues> in_double(const evaluate::Program& program,
+                                            const evaluate::Invocations& points);
+[[nodiscard]] Result<NamedValues> spread(const evaluate::Program& program, const evaluate::Invocations& base,
+                                         const NamedValues& outputs, double step, std::uint64_t seed);
 
 /// Of a spread measured with roundings of 2^-24, or explained by a step: moving inputs so far crosses it.
 inline constexpr double kRoundingStep = 0x1p-24;

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "lab/evaluate/evaluate.hpp"

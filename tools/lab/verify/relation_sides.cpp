@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
+#include "core/text.hpp"
 #include "lab/raster/random.hpp"
 #include "lab/verify/inputs.hpp"
 #include "lab/verify/random_points.hpp"

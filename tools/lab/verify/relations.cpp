@@ -17,7 +17,6 @@
 #include "lab/verify/relation_sides.hpp"
 #include "lab/verify/sample.hpp"
 #include "lab/verify/stage_check.hpp"
-#include "validate/validate.hpp"
 
 namespace gobo::verify {
 namespace {
@@ -150,9 +149,8 @@ Result<RelationReport> compare(const Pipeline& one, const Pipeline& other, const
     });
     report.failed = broken.size();
     if (broken.empty()) return report;
-    const auto& [index, worst] =
-        *std::max_element(broken.begin(), broken.end(),
-                          [](const auto& a, const auto& b) { return a.second.ratio < b.second.ratio; });
+    const auto& [index, worst] = *std::ranges::max_element(
+        broken, [](const auto& a, const auto& b) { return a.second.ratio < b.second.ratio; });
     report.found = fmt::format("{}[{}] is {} on one side and {} on the other, which may differ by {:.2g}",
                                worst.output, worst.component, worst.one, worst.other, worst.limit);
     BrokenPoint& point = report.worst.emplace();
@@ -266,8 +264,7 @@ int count_of(const Family& family, const Relation& relation, const Key& key) {
 
 /// The permutation of that key; null where the composition has none.
 const Permutation* find(const Composition& composition, const std::optional<Key>& key) {
-    const auto found = std::find_if(composition.permutations.begin(), composition.permutations.end(),
-                                    [&](const Permutation& permutation) { return permutation.key == key; });
+    const auto found = std::ranges::find(composition.permutations, key, &Permutation::key);
     return found == composition.permutations.end() ? nullptr : &*found;
 }
 
@@ -314,10 +311,10 @@ std::vector<Key> partners(const Family& family, const std::vector<Key>& keys, st
             if (!oracle::model_of(family, key))
                 if (auto partner = partner_of(family, relation, key, dialect))
                     found.push_back(std::move(*partner));
-    std::sort(found.begin(), found.end());
+    std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
     std::vector<Key> known = keys;
-    std::sort(known.begin(), known.end());
+    std::ranges::sort(known);
     std::erase_if(found, [&](const Key& key) { return std::binary_search(known.begin(), known.end(), key); });
     return found;
 }

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "lab/oracle/oracle.hpp"
 #include "lab/raster/random.hpp"
 
 namespace gobo::verify {

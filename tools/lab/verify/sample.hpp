@@ -7,7 +7,6 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
 
 #include "compose/composition.hpp"
 #include "lab/oracle/model.hpp"

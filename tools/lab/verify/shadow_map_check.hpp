@@ -38,10 +38,7 @@ struct ShadowMapReport {
     /// Wrong texels, or more than 1 % at edges.
     [[nodiscard]] bool fails() const;
 };
-void fields(auto& archive, OneOf<ShadowMapReport> auto& value) {
-    auto& [maps, texels, edges, wrong, largest_ratio, diagnostics] = value;
-    archive(maps, texels, edges, wrong, largest_ratio, diagnostics);
-}
+GOBO_FIELDS(ShadowMapReport, maps, texels, edges, wrong, largest_ratio, diagnostics)
 
 /// The maps of `cameras`, in their order, drawn by `pass`; row 0 of each is that at t = 0.
 [[nodiscard]] ShadowMapReport compare_shadow_maps(const std::vector<Image>& drawn, const ShadowPass& pass,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "lab/verify/inputs.hpp"
 #include "lab/verify/random_points.hpp"
@@ -143,19 +142,13 @@ Result<void> StageCheck::explain_errors(std::span<const Sample> samples) {
         chosen.insert(chosen.end(), first, first + static_cast<std::ptrdiff_t>(each));
     }
     GOBO_TRY(const auto invocations, bind_inputs(program_, chosen));
-    const auto in_double = [&](const evaluate::Invocations& moved) -> Result<NamedValues> {
-        GOBO_TRY(auto outputs, evaluate::run<double>(program_, moved));
-        return std::move(outputs.values);
-    };
-    std::vector<evaluate::Port> ports = program_.inputs;
-    ports.insert(ports.end(), program_.uniforms.begin(), program_.uniforms.end());
-    GOBO_TRY(const NamedValues exact, in_double(invocations));
+    GOBO_TRY(const NamedValues exact, in_double(program_, invocations));
     // Inputs are moved so far at once: where a slope is infinite, a step's multiple says nothing.
     constexpr double kStep = kConditionFactor * kRoundingStep;
     constexpr std::array<std::uint64_t, 5> kSeeds = {1, 11, 21, 31, 41};  // either side of an edge is met
     std::vector<NamedValues> spreads;
     for (const std::uint64_t seed : kSeeds) {
-        GOBO_TRY(NamedValues widest, spread(ports, invocations, exact, kStep, seed, in_double));
+        GOBO_TRY(NamedValues widest, spread(program_, invocations, exact, kStep, seed));
         spreads.push_back(std::move(widest));
     }
     for (std::size_t k = 0; k < large_.size(); ++k) {
@@ -256,18 +249,12 @@ Result<StageReport> check_alone(const evaluate::Program& program, StageKind stag
     StageReport report;
     report.figures.points = static_cast<std::size_t>(count);
     const evaluate::Invocations points = draw_points(program, domains, report.figures.points, seed);
-    const auto in_double = [&](const evaluate::Invocations& invocations) -> Result<NamedValues> {
-        GOBO_TRY(auto outputs, evaluate::run<double>(program, invocations));
-        return std::move(outputs.values);
-    };
-    std::vector<evaluate::Port> ports = program.inputs;
-    ports.insert(ports.end(), program.uniforms.begin(), program.uniforms.end());
     Evaluations all;
     GOBO_TRY(auto in_float, evaluate::run<float>(program, points));
     all.in_float = std::move(in_float.values);
-    GOBO_TRY(all.in_double, in_double(points));
-    GOBO_TRY(all.by_rounding, spread(ports, points, all.in_double, kRoundingStep, seed, in_double));
-    GOBO_TRY(all.by_edge, spread(ports, points, all.in_double, kEdgeStep, seed, in_double));
+    GOBO_TRY(all.in_double, in_double(program, points));
+    GOBO_TRY(all.by_rounding, spread(program, points, all.in_double, kRoundingStep, seed));
+    GOBO_TRY(all.by_edge, spread(program, points, all.in_double, kEdgeStep, seed));
     for (std::size_t i = 0; i < report.figures.points; ++i) {
         std::optional<Failure> failure;
         if (is_at_edge(all, report.figures.points, i, report.figures, failure)) ++report.figures.edges;

@@ -1,7 +1,5 @@
 #include "lab/verify/verify.hpp"
 
-#include <algorithm>
-
 #define XXH_INLINE_ALL
 #include <nlohmann/json.hpp>
 #include <xxhash.h>
