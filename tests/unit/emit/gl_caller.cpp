@@ -116,24 +116,23 @@ void UniformBlockBinding(unsigned, unsigned block, unsigned binding) {
 
 // A loader: pointers in variables, macros with OpenGL's names.
 #define GL_VERSION_2_0 1
-#define LOADER_FUNCTIONS(DO)                                                                              \
-    DO(CreateShader)                                                                                      \
-    DO(ShaderSource)                                                                                      \
-    DO(CompileShader)                                                                                     \
-    DO(GetShaderiv)                                                                                       \
-    DO(GetShaderInfoLog)                                                                                  \
-    DO(DeleteShader)                                                                                      \
-    DO(CreateProgram)                                                                                     \
-    DO(AttachShader)                                                                                      \
-    DO(BindAttribLocation)                                                                                \
-    DO(LinkProgram)                                                                                       \
-    DO(GetProgramiv)                                                                                      \
-    DO(GetProgramInfoLog)                                                                                 \
-    DO(DeleteProgram)                                                                                     \
-    DO(UseProgram)                                                                                        \
-    DO(GetIntegerv)                                                                                       \
-    DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding) DO(Uniform1fv) \
-        DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer)             \
+#define LOADER_FUNCTIONS(DO)                                                                                 \
+    DO(CreateShader)                                                                                         \
+    DO(ShaderSource)                                                                                         \
+    DO(CompileShader)                                                                                        \
+    DO(GetShaderiv)                                                                                          \
+    DO(GetShaderInfoLog)                                                                                     \
+    DO(DeleteShader)                                                                                         \
+    DO(CreateProgram)                                                                                        \
+    DO(AttachShader)                                                                                         \
+    DO(BindAttribLocation)                                                                                   \
+    DO(LinkProgram)                                                                                          \
+    DO(GetProgramiv)                                                                                         \
+    DO(GetProgramInfoLog)                                                                                    \
+    DO(DeleteProgram)                                                                                        \
+    DO(UseProgram)                                                                                           \
+    DO(GetIntegerv) DO(GetUniformLocation) DO(Uniform1iv) DO(GetUniformBlockIndex) DO(UniformBlockBinding)   \
+        DO(Uniform1fv) DO(ActiveTexture) DO(BindTexture) DO(EnableVertexAttribArray) DO(VertexAttribPointer) \
             DO(VertexAttribIPointer)
 #define LOADER_POINTER(name) static decltype(&pretended::name) loader_gl##name = &pretended::name;
 LOADER_FUNCTIONS(LOADER_POINTER)
