@@ -175,6 +175,88 @@ TEST(VulkanInterface, NamesTheSizesOfWorkGroups) {
                             SpecializationConstant{"local_size_z", "uint", 7, 1}));
 }
 
+struct ArrayRow {
+    const char* name;
+    const char* text;        ///< declares 't', the size of which is computed
+    std::uint32_t size;      ///< of 't'
+    const char* error = "";  ///< where it cannot have one
+};
+
+class ComputedArraySize : public testing::TestWithParam<ArrayRow> {};
+
+/// The elements of the variable 't'.
+std::uint32_t size_of_t(const SpirvModule& words) {
+    const spirv::Module module = spirv::read_module(words).value();
+    for (const spirv::Variable& variable : module.variables)
+        if (module.name(variable.id) == "t") return module.type(variable.type).count;
+    return 0;
+}
+
+TEST_P(ComputedArraySize, IsKnown) {
+    MemoryFileSystem files;
+    files.write("a.comp",
+                fmt::format("#version 450\n"
+                            "layout(constant_id = 1) const int A = 2;\n"
+                            "layout(constant_id = 2) const uint U = 7;\n"
+                            "layout(constant_id = 3) const bool Q = true;\n"
+                            "{}\n"
+                            "layout(std430, set = 0, binding = 0) buffer Values {{ float value; }};\n"
+                            "void main() {{ t[0] = 1.0; value = t[0] + t[A - 2]; }}\n",
+                            GetParam().text));
+    SearchPath search;
+    const Family family = family_of_files({"a.comp"}, files, search).value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const Validated validated = validate(family, composition, {.keep_spirv = true, .spirv_val = true});
+    ASSERT_EQ(first_text(validated.diagnostics), GetParam().error);
+    if (*GetParam().error == '\0') {
+        EXPECT_EQ(size_of_t(validated.stage(0).spirv), GetParam().size);
+    }
+}
+
+#define GROUP "layout(local_size_x = 4) in; "
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ComputedArraySize,
+    testing::Values(
+        ArrayRow{"work_group", "layout(local_size_x_id = 0) in; shared float t[gl_WorkGroupSize.x];", 1},
+        ArrayRow{
+            "twice_work_group_and_one",
+            "layout(local_size_x = 8, local_size_x_id = 0) in; shared float t[2 * gl_WorkGroupSize.x + 1];",
+            17},
+        ArrayRow{"product_of_a_work_group",
+                 "layout(local_size_x_id = 0, local_size_y = 8, local_size_y_id = 9) in; "
+                 "shared float t[gl_WorkGroupSize.x * gl_WorkGroupSize.y];",
+                 8},
+        ArrayRow{"height_of_a_work_group",
+                 "layout(local_size_x = 8, local_size_y_id = 9) in; shared float t[gl_WorkGroupSize.y];", 1},
+        ArrayRow{"shift_left", GROUP "shared float t[A << 1];", 4},
+        ArrayRow{"shift_right", GROUP "shared float t[U >> 1];", 3},
+        ArrayRow{"choice", GROUP "shared float t[A > 2 ? 3 : 2];", 2},
+        ArrayRow{"component", GROUP "const ivec2 D = ivec2(A, 3); shared float t[D.x];", 2},
+        ArrayRow{"swizzle", GROUP "const ivec2 D = ivec2(A, 3); const ivec3 E = D.yxx; shared float t[E.x];",
+                 3},
+        ArrayRow{"sum_of_vectors", GROUP "const ivec2 D = ivec2(A, 3); shared float t[(D + D).y];", 6},
+        ArrayRow{"of_a_bool", GROUP "shared float t[int(Q) + 1];", 2},
+        ArrayRow{"of_conditions", GROUP "shared float t[int(A == 2 && !Q || U >= 7u) + 1];", 2},
+        ArrayRow{"conversion", GROUP "shared float t[uint(A) + U];", 9},
+        ArrayRow{"bits", GROUP "shared float t[(~A & 7) + (A | 4) + (A ^ 1)];", 14},
+        ArrayRow{"remainder", GROUP "shared float t[U % 4u];", 3},
+        ArrayRow{"negation", GROUP "shared float t[-(-A)];", 2},
+        ArrayRow{
+            "of_none", GROUP "shared float t[A - 2];", 0,
+            "a.comp:5: error: the size of an array in 't' is 0 where specialisation constants stand at "
+            "their defaults [default]\n    layout(local_size_x = 4) in; shared float t[A - 2];\n"
+            "  help: state defaults that make it at least 1, divide by none that is 0, and shift by fewer "
+            "bits than there are\n"},
+        ArrayRow{
+            "division_by_zero", GROUP "shared float t[A / (A - 2)];", 0,
+            "a.comp:5: error: the size of an array in 't' has no value where specialisation constants "
+            "stand at their defaults [default]\n    layout(local_size_x = 4) in; shared float t[A / (A - "
+            "2)];\n"
+            "  help: state defaults that make it at least 1, divide by none that is 0, and shift by fewer "
+            "bits than there are\n"}),
+    [](const auto& row) { return std::string(row.param.name); });
+#undef GROUP
+
 const std::string kLamps = "[features.lamp]\ncount = [0, 6]\nconstant = \"LAMPS\"\nspecialize = true\n";
 const std::string kLampFragment =
     "#include <lamp>\n"
@@ -215,6 +297,26 @@ TEST_P(SpecializedCount, LeavesArraysAtTheirLargest) {
     EXPECT_THAT(specialized.specialization_constants, IsEmpty());
     EXPECT_EQ(specialized.blocks, largest.blocks) << "6 lamps, however many are asked for";
     EXPECT_THAT(specialized.blocks[0].members[0].array, ElementsAre(6));
+}
+
+TEST_P(SpecializedCount, LeavesComputedArraysAtTheirLargest) {
+    // The largest need not be that of the largest count.
+    for (const auto& [size, largest] : {std::pair{"LAMPS > 2 ? 4 : 2", 4U},
+                                        {"LAMPS > 2 ? 2 : 5", 5U},
+                                        {"8 - LAMPS", 7U},
+                                        {"2 * LAMPS + 1", 13U}}) {
+        const std::string fragment = fmt::format(
+            "#include <lamp>\nOUTPUT(0) vec4 color;\n#if LAMPS > 0\nfloat t[{}];\n#endif\n"
+            "void main() {{\n    color = vec4(0.0);\n#if LAMPS > 0\n    t[1] = color.x;\n"
+            "    for (int i = 0; i < LAMPS; ++i) color += t[1];\n#endif\n}}\n",
+            size);
+        const Built lamps = built(kLamps, kVertex, fragment, {"lamp=1", "lamp=6"}, GetParam());
+        EXPECT_THAT(lamps.composition.notes, IsEmpty()) << size;
+        const int stage = lamps.composition.permutations[0].stages[StageKind::fragment];
+        EXPECT_EQ(size_of_t(spirv::specialized(lamps.validated.stage(stage).spirv, {{0, 6}}).value()),
+                  largest)
+            << size;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, SpecializedCount, testing::Values(Dialect::vulkan, Dialect::gl_spirv),

@@ -1,6 +1,7 @@
 #include "compose/specialized_counts.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -43,6 +44,19 @@ std::string count_text(const Feature& count, const std::string& value, std::opti
     if (!id) return fmt::format("#define {0} {1}\n#define {0}{2} {1}\n", count.macro, value, kLargest);
     return fmt::format("#define {0}{1} {2}\nlayout(constant_id = {3}) const int {0} = {2};\n", count.macro,
                        kLargest, count.values.back(), *id);
+}
+
+std::set<std::uint32_t> count_ids(std::string_view prologue) {
+    constexpr std::string_view kBefore = "layout(constant_id = ";
+    std::set<std::uint32_t> ids;
+    for (std::size_t at = prologue.find(kBefore); at != std::string_view::npos;
+         at = prologue.find(kBefore, at + 1)) {
+        const std::string_view digits = prologue.substr(at + kBefore.size());
+        std::uint32_t id = 0;
+        std::from_chars(digits.data(), digits.data() + digits.size(), id);
+        ids.insert(id);
+    }
+    return ids;
 }
 
 Result<std::map<int, int>> CountSpecializer::in_stages(const Key& key,

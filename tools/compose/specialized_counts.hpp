@@ -1,7 +1,9 @@
 // Counts of a family as specialisation constants of SPIR-V: one stage serves every count above 0.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -24,6 +26,9 @@ inline constexpr std::string_view kLargest = "_LARGEST";
 
 /// What stands for a count in a prologue: its macro or its constant, and what conditions ask for.
 [[nodiscard]] std::string count_text(const Feature& count, const std::string& value, std::optional<int> id);
+
+/// The constant_ids of the counts that a prologue declares so.
+[[nodiscard]] std::set<std::uint32_t> count_ids(std::string_view prologue);
 
 /// Decides key by key which counts are constants.
 class CountSpecializer {

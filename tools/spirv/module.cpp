@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "spirv/constants.hpp"
+
 namespace gobo::spirv {
 namespace {
 
@@ -133,7 +135,14 @@ class Reader {
                 line_ = 0;
                 return;
             case spv::OpConstant:
+            case spv::OpConstantTrue:
+            case spv::OpConstantFalse:
+            case spv::OpConstantComposite:
+            case spv::OpConstantNull:
             case spv::OpSpecConstant:
+            case spv::OpSpecConstantTrue:
+            case spv::OpSpecConstantFalse:
+            case spv::OpSpecConstantComposite:
             case spv::OpSpecConstantOp:
                 return read_constant(instruction);
             case spv::OpVariable:
@@ -163,38 +172,12 @@ class Reader {
     void read_constant(const Instruction& instruction) {
         const Type& type = module_.type(instruction.type);
         if (type.opcode == spv::OpNop) return stop("a constant of an unknown type");
-        if (type.opcode != spv::OpTypeInt) return;
-        std::optional<std::int64_t> value;
-        if (instruction.opcode == spv::OpSpecConstantOp)
-            value = folded(instruction);
-        else if (type.value.scalar_size() == 8)
-            value = static_cast<std::int64_t>(std::uint64_t{instruction.word(4)} << 32 | instruction.word(3));
-        else if (type.value.scalar == Scalar::int32)
-            value = static_cast<std::int32_t>(instruction.word(3));
-        else
-            value = instruction.word(3);
-        // Values beyond 32 bits are of no use as sizes; without them the arithmetic below cannot overflow.
+        constants_.add(instruction);
+        const std::optional<std::int64_t> value = constants_.integer(instruction);
+        // Values beyond 32 bits are of no use as sizes.
         if (value && *value >= std::numeric_limits<std::int32_t>::min() &&
             *value <= std::numeric_limits<std::uint32_t>::max())
             module_.integers[instruction.result] = *value;
-    }
-
-    /// Sums, differences, products, quotients, remainders and negations of known integers.
-    [[nodiscard]] std::optional<std::int64_t> folded(const Instruction& instruction) const {
-        const auto left = module_.integers.find(instruction.id(4));
-        const auto right = module_.integers.find(instruction.id(5));
-        if (left == module_.integers.end()) return std::nullopt;
-        if (instruction.word(3) == spv::OpSNegate) return -left->second;
-        if (right == module_.integers.end()) return std::nullopt;
-        const std::int64_t a = left->second;
-        const std::int64_t b = right->second;
-        const auto is = [&](auto... opcodes) { return ((instruction.word(3) == opcodes) || ...); };
-        if (is(spv::OpIAdd)) return a + b;
-        if (is(spv::OpISub)) return a - b;
-        if (is(spv::OpIMul)) return a * b;
-        if (b != 0 && is(spv::OpSDiv, spv::OpUDiv)) return a / b;
-        if (b != 0 && is(spv::OpSMod, spv::OpSRem, spv::OpUMod)) return a % b;
-        return std::nullopt;
     }
 
     void read_variable(const Instruction& instruction) {
@@ -212,7 +195,7 @@ class Reader {
         if (is(spv::OpTypeBool)) set_scalar(type, Scalar::boolean);
         if (is(spv::OpTypeInt, spv::OpTypeFloat)) set_scalar(type, scalar_of(instruction));
         if (is(spv::OpTypeVector, spv::OpTypeMatrix)) set_columns(type, instruction);
-        if (is(spv::OpTypeArray)) set_element(type, instruction.id(2), array_extent(instruction.id(3)));
+        if (is(spv::OpTypeArray)) set_element(type, instruction.id(2), array_extent(instruction));
         if (is(spv::OpTypeRuntimeArray)) set_element(type, instruction.id(2), 0);
         if (is(spv::OpTypeStruct)) set_members(type, instruction);
         if (is(spv::OpTypeImage)) set_image(type, instruction);
@@ -293,16 +276,21 @@ class Reader {
                       instruction.word(7) == 2,    instruction.as<spv::ImageFormat>(8)};
     }
 
-    std::uint32_t array_extent(Id id) {
-        const auto extent = module_.integers.find(id);
-        if (extent == module_.integers.end()) stop("an array whose size is not an integer constant");
-        if (extent->second < 1 || extent->second > std::numeric_limits<std::int32_t>::max())
-            stop("an array of impossible size");
-        return static_cast<std::uint32_t>(extent->second);
+    std::uint32_t array_extent(const Instruction& array) {
+        const auto extent = module_.integers.find(array.id(3));
+        const bool is_known = extent != module_.integers.end();
+        if (is_known && extent->second >= 1 && extent->second <= std::numeric_limits<std::int32_t>::max())
+            return static_cast<std::uint32_t>(extent->second);
+        const Instruction* const size = module_.definition(array.id(3));
+        if (size == nullptr || (size->opcode != spv::OpSpecConstant && size->opcode != spv::OpSpecConstantOp))
+            stop(is_known ? "an array of impossible size" : "an array whose size is not an integer constant");
+        module_.unknown_sizes.insert(array.result);
+        return 1;
     }
 
     std::span<const std::uint32_t> words_;
     Module module_;
+    Constants constants_{module_};
     std::size_t position_ = 0;
     std::uint32_t line_ = 0;
 };

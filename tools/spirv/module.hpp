@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -111,6 +112,9 @@ struct Module {
     std::vector<Variable> variables;  ///< in the order of declaration
     std::unordered_map<Id, Type> types;
     std::unordered_map<Id, std::int64_t> integers;  ///< constants of 32 bits; specialisable ones by default
+    /// Arrays whose size is computed from specialisation constants and is, by their defaults, none that an
+    /// array can have, or not known. They stand there with one element.
+    std::set<Id> unknown_sizes;
     /// Literal strings that name ids and members of structs (kWhole: the id itself).
     std::map<std::pair<Id, int>, std::span<const std::uint32_t>> names;
     /// By id and member: the decoration's first literal, 0 where it has none.

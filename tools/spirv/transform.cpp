@@ -1,11 +1,14 @@
 #include "spirv/transform.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <unordered_map>
 
 #include <fmt/format.h>
 #include <spirv-tools/optimizer.hpp>
 
+#include "spirv/constants.hpp"
 #include "spirv/module.hpp"
 
 namespace gobo::spirv {
@@ -24,10 +27,63 @@ Result<Words> run(spvtools::Optimizer& optimizer, const Words& words) {
     return fail(Fault::internal, fmt::format("SPIRV-Tools' optimizer refuses a module: {}", problem));
 }
 
+/// Finds how large arrays get.
+class Sizes {
+  public:
+    Sizes(const Module& module, const std::set<std::uint32_t>& counts) : module_(module), counts_(counts) {
+        for (const Instruction& instruction : module.instructions) {
+            std::set<std::uint32_t>& own = hang_on_[instruction.result];
+            if (const auto id = module.decoration(instruction.result, spv::DecorationSpecId))
+                own.insert(*id);
+            else if (instruction.opcode == spv::OpSpecConstantComposite ||
+                     instruction.opcode == spv::OpSpecConstantOp)
+                for (const std::uint32_t word : instruction.words.subspan(3))
+                    if (const auto part = hang_on_.find(Id{word}); part != hang_on_.end())
+                        own.insert(part->second.begin(), part->second.end());
+        }
+    }
+
+    /// The largest size for any of the counts' values; 0 where it hangs on others, or on more than are tried.
+    [[nodiscard]] std::int64_t largest(const Instruction& size) const {
+        constexpr std::uint64_t kMostTried = 4096;
+        const std::set<std::uint32_t>& ids = hang_on_.at(size.result);
+        std::map<std::uint32_t, std::uint32_t> last;
+        std::uint64_t tried = 1;
+        for (const auto& [place, id] : module_.decorations)
+            if (std::get<spv::Decoration>(place) == spv::DecorationSpecId && ids.contains(id)) {
+                const auto value = module_.integers.find(std::get<Id>(place));
+                if (!counts_.contains(id) || value == module_.integers.end() || value->second < 1) return 0;
+                last[id] = static_cast<std::uint32_t>(value->second);
+                tried = std::min(tried * last[id], kMostTried + 1);
+            }
+        if (last.size() != ids.size() || tried > kMostTried) return 0;
+        std::map<std::uint32_t, std::uint32_t> chosen;
+        for (const std::uint32_t id : ids) chosen[id] = 1;
+        std::int64_t most = 0;
+        while (true) {
+            Constants constants(module_, chosen);
+            for (const Instruction& instruction : module_.instructions) constants.add(instruction);
+            most = std::max(most, constants.integer(size).value_or(0));
+            auto next = chosen.begin();
+            while (next != chosen.end() && next->second == last[next->first]) (next++)->second = 1;
+            if (next == chosen.end()) return most <= std::numeric_limits<std::int32_t>::max() ? most : 0;
+            ++next->second;
+        }
+    }
+
+  private:
+    const Module& module_;
+    const std::set<std::uint32_t>& counts_;
+    std::map<Id, std::set<std::uint32_t>> hang_on_;  ///< by constant: the constant_ids
+};
+
 }  // namespace
 
-Result<Words> with_largest_arrays(std::span<const std::uint32_t> words) {
+Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
+                                  const std::set<std::uint32_t>& counts) {
+    if (counts.empty()) return Words(words.begin(), words.end());
     GOBO_TRY(const Module module, read_module(words));
+    const Sizes all(module, counts);
     constexpr std::size_t kHeader = 5;
     constexpr std::size_t kBound = 3;
     Words result(words.begin(), words.begin() + kHeader);
@@ -35,11 +91,12 @@ Result<Words> with_largest_arrays(std::span<const std::uint32_t> words) {
     for (const Instruction& instruction : module.instructions) {
         const Instruction* size =
             instruction.opcode == spv::OpTypeArray ? module.definition(instruction.id(3)) : nullptr;
-        const bool is_chosen =
+        const bool is_special =
             size != nullptr && (size->opcode == spv::OpSpecConstant || size->opcode == spv::OpSpecConstantOp);
+        const std::int64_t value = is_special ? all.largest(*size) : 0;
+        const bool is_chosen = value > 0;
         std::uint32_t constant = 0;
         if (is_chosen) {
-            const std::int64_t value = module.integers.at(size->result);
             const auto [place, is_new] = sizes.try_emplace({size->type, value}, result[kBound]);
             constant = place->second;
             if (is_new) {

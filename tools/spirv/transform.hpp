@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace gobo::spirv {
 
 using Words = std::vector<std::uint32_t>;
 
-/// The module with arrays whose size is a specialisation constant as large as that constant's default makes
-/// them: their size is fixed then, whatever a pipeline chooses.
-[[nodiscard]] Result<Words> with_largest_arrays(std::span<const std::uint32_t> words);
+/// The module with arrays whose size hangs on these specialisation constants alone, by constant_id, as large
+/// as values from 1 to their defaults make them: their size is fixed then, whatever a pipeline chooses.
+[[nodiscard]] Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
+                                                const std::set<std::uint32_t>& counts);
 
 /// The module with its specialisation constants at the given values, by constant_id, and no longer to be
 /// chosen; others stand at their defaults.

@@ -12,6 +12,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "compose/dialect.hpp"
+#include "compose/specialized_counts.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "reflect/reflect.hpp"
@@ -404,7 +405,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     stage.spirv = spirv_of(intermediate, debug_information);
     if (is_spirv(dialect_)) {
         GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_));
-        GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv));
+        GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv, count_ids(pieces_.front()->text)));
     }
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
     if (!read) return placed(std::move(read).error(), pieces_);

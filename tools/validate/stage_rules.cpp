@@ -40,6 +40,7 @@ class StageCheck {
         if (kind_ == StageKind::geometry) check_vertices();
         if (kind_ == StageKind::geometry) check_streams();
         check_sizes();
+        check_array_sizes();
         check_writeonly();
         check_offsets();
         if (dialect_ == Dialect::vulkan) check_stated_offsets();
@@ -213,6 +214,39 @@ class StageCheck {
         }
         all.size = aligned(all.size, all.alignment);
         return all;
+    }
+
+    /// glslang takes any size that is computed from specialisation constants.
+    void check_array_sizes() {
+        for (const spirv::Instruction& variable : module_.instructions) {
+            if (variable.opcode != spv::OpVariable) continue;
+            const Id type = module_.type(variable.type).element;
+            const Id array = unknown_size_in(type);
+            if (array == Id::none) continue;
+            std::string name = module_.name(variable.result);
+            if (name.empty()) name = spirv::type_name(module_, type);
+            const Place place = module_.place(variable.line);
+            const spirv::Instruction* const declaration = module_.definition(array);
+            const auto size = module_.integers.find(declaration->id(3));
+            const std::string what =
+                size == module_.integers.end()
+                    ? fmt::format("the size of an array in '{}' has no value", name)
+                    : fmt::format("the size of an array in '{}' is {}", name, size->second);
+            return refuse(place.line > 0 ? Declaration{place, "", false} : declared(name),
+                          what + " where specialisation constants stand at their defaults",
+                          "state defaults that make it at least 1, divide by none that is 0, and shift by "
+                          "fewer bits than there are");
+        }
+    }
+
+    /// The first array of unknown size that a type is made of.
+    [[nodiscard]] Id unknown_size_in(Id id) const {
+        if (module_.unknown_sizes.contains(id)) return id;
+        const spirv::Type& type = module_.type(id);
+        if (type.is_array()) return unknown_size_in(type.element);
+        for (const Id member : type.members)
+            if (const Id found = unknown_size_in(member); found != Id::none) return found;
+        return Id::none;
     }
 
     /// What a buffer block states as writeonly may not be read, as `+=` does.
