@@ -169,10 +169,11 @@ Imf::FrameBuffer slices_of(Image& image, const std::vector<std::string>& names, 
     const std::size_t pixel = sizeof(float) * static_cast<std::size_t>(image.channels);
     const std::size_t row = pixel * static_cast<std::size_t>(image.width);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        char* const first = reinterpret_cast<char*>(image.values.data() + i);
-        char* const origin =
-            first - left * static_cast<std::ptrdiff_t>(pixel) - top * static_cast<std::ptrdiff_t>(row);
-        frame.insert(names[i], Imf::Slice(Imf::FLOAT, origin, pixel, row));
+        // OpenEXR adds the corner again. As numbers: a pointer must not leave its array by so much.
+        const auto first = reinterpret_cast<std::uintptr_t>(image.values.data() + i);
+        const std::uintptr_t origin =
+            first - static_cast<std::uintptr_t>(left) * pixel - static_cast<std::uintptr_t>(top) * row;
+        frame.insert(names[i], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(origin), pixel, row));
     }
     return frame;
 }
