@@ -1,4 +1,5 @@
 // A generated header for Vulkan: its tables, and the structs that <gobo/vulkan.hpp> makes of them.
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "descriptor_arrays.hpp"
 #include "lit.hpp"
 #include "pushed_by_stage.hpp"
+#include "pushed_sizes.hpp"
 #include "spirv.hpp"
 
 namespace gobo {
@@ -154,6 +156,36 @@ INSTANTIATE_TEST_SUITE_P(
                          {{"Tint", 32, kFragment, 16}, {"Tone", 80, kFragment, 64}, {"Place", 64, kVertex}},
                          {{kVertex, 0, 64}, {kFragment, 16, 64}}}),
     [](const auto& row) { return std::string(row.param.name); });
+
+struct PushedSizeRow {
+    const char* name;
+    std::size_t of_struct, stated, bytes;
+};
+
+/// vkCmdPushConstants() reads as many bytes as the range has.
+class PushedSizes : public testing::TestWithParam<PushedSizeRow> {};
+
+TEST_P(PushedSizes, AreThoseOfTheStructs) {
+    const PushedSizeRow& row = GetParam();
+    const auto block = std::find_if(
+        pushed_sizes::push_constants.begin(), pushed_sizes::push_constants.end(),
+        [&](const runtime::PushConstants& one) { return one.name == std::string_view(row.name); });
+    ASSERT_NE(block, pushed_sizes::push_constants.end());
+    EXPECT_EQ(block->size, row.bytes);
+    EXPECT_EQ(row.of_struct, row.bytes);
+    EXPECT_EQ(row.stated, row.bytes);
+}
+
+#define SIZES(block, bytes)                                                   \
+    PushedSizeRow {                                                           \
+#block, sizeof(pushed_sizes::block), pushed_sizes::block::size, bytes \
+    }
+INSTANTIATE_TEST_SUITE_P(Rows, PushedSizes,
+                         testing::Values(SIZES(BehindOthers, 8), SIZES(OneStruct, 4), SIZES(FarApart, 124),
+                                         SIZES(EndsInVector, 32), SIZES(Rows, 32), SIZES(Doubles, 16),
+                                         SIZES(Rays, 80), SIZES(Std140, 64), SIZES(Whole, 128)),
+                         [](const auto& row) { return std::string(row.param.name); });
+#undef SIZES
 
 struct Vertex {
     float weight;

@@ -8,6 +8,7 @@
 
 #include "emit/sections.hpp"
 #include "family/constraint.hpp"
+#include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 
 namespace gobo {
@@ -18,17 +19,6 @@ constexpr int kStructAlignment = 16;
 
 int rounded_up(int size, int alignment = kStructAlignment) {
     return (size + alignment - 1) / alignment * alignment;
-}
-
-/// What std430 aligns a struct to: the most that any number or column in it needs.
-int alignment_of(const std::vector<Member>& members) {
-    int most = 1;
-    for (const Member& member : members) {
-        std::optional<GlslType> column = glsl_type(member.type);
-        if (column && member.row_major) column->rows = column->columns;
-        most = std::max(most, column ? column->column_alignment() : alignment_of(member.members));
-    }
-    return most;
 }
 
 /// In the order of Scalar. C++17 has no float of 16 bits: its bits, as glm::packHalf1x16() makes them.
@@ -187,8 +177,9 @@ class StructWriter {
             members.pop_back();
         }
         GOBO_TRY_DO(add_members(structure, members, block.name, block.is_storage));
-        int size = block.is_storage ? rounded_up(structure.end, alignment_of(members))
-                                    : rounded_up(std::max(structure.end, block.layout.size));
+        int size = is_pushed          ? block.layout.size
+                   : block.is_storage ? rounded_up(structure.end, alignment_of(members))
+                                      : rounded_up(std::max(structure.end, block.layout.size));
         if (tail) {
             size = tail->offset;
             structure.pad_to(size);

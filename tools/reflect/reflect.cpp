@@ -82,15 +82,6 @@ std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
-/// Base alignment without std140's rounding of arrays and structs to 16, which block_size() does once at the
-/// end.
-std::int64_t alignment_of(const Member& member) {
-    if (member.members.empty()) return glsl_type(member.type).value_or(GlslType{}).column_alignment();
-    std::int64_t alignment = 1;
-    for (const Member& inner : member.members) alignment = std::max(alignment, alignment_of(inner));
-    return alignment;
-}
-
 /// From the start of what contains the members to the end of the one that ends last.
 std::int64_t end_of(const std::vector<Member>& members) {
     std::int64_t end = 0;
@@ -98,10 +89,11 @@ std::int64_t end_of(const std::vector<Member>& members) {
     return end;
 }
 
-/// Bytes from the start of a block to the end of its last member, rounded up to 16: what Mesa reports as
-/// UNIFORM_BLOCK_DATA_SIZE. An array without a size counts as empty.
-std::int64_t block_size(const std::vector<Member>& members) {
-    return rounded_up(end_of(members), 16);
+/// Bytes from the start of a block to the end of its last member. Rounded up to 16 that is what Mesa reports
+/// as UNIFORM_BLOCK_DATA_SIZE; push constants are as large as a struct of C++, in whole words, as Vulkan
+/// wants them. An array without a size counts as empty.
+std::int64_t block_size(const std::vector<Member>& members, bool is_pushed) {
+    return rounded_up(end_of(members), is_pushed ? std::max(alignment_of(members), 4) : 16);
 }
 
 /// Locations between stages. A vertex attribute of three or four doubles takes one, elsewhere two.
@@ -274,7 +266,8 @@ class Reflection {
         if (!is_structure(module_, structure) || !is_laid_out(module_, structure))
             return stop("block '{}' of the SPIR-V module has no layout", block.name, Fault::internal);
         block.members = members_of(module_, structure);
-        const std::int64_t size = block_size(block.members);
+        const bool is_pushed = variable.storage == spv::StorageClassPushConstant;
+        const std::int64_t size = block_size(block.members, is_pushed);
         if (size > kLargest) return stop("block '{}' takes more than 2 GiB", block.name);
         std::int64_t count = 1;
         for (const int extent : extents) count = std::min<std::int64_t>(count * extent, kMostPlaces + 1);
@@ -286,7 +279,6 @@ class Reflection {
             return stop("block '{}' is an array of arrays, which Vulkan 1.0 cannot bind", block.name,
                         Fault::input, "make it an array of one dimension: [2 * i + j] for [i][j]");
         block.binding = stated(module_, spv::DecorationBinding, variable.id);
-        const bool is_pushed = variable.storage == spv::StorageClassPushConstant;
         block.set = is_pushed ? -1 : set_of(variable.id);
         block.size = static_cast<int>(size);
         block.stages = interface_.stages;
@@ -456,9 +448,19 @@ class Reflection {
 
 }  // namespace
 
+int alignment_of(const std::vector<Member>& members) {
+    int most = 1;
+    for (const Member& member : members) {
+        std::optional<GlslType> column = glsl_type(member.type);
+        if (column && member.row_major) column->rows = column->columns;
+        most = std::max(most, column ? column->column_alignment() : alignment_of(member.members));
+    }
+    return most;
+}
+
 std::int64_t size_of(const Member& member) {
     if (!member.array.empty()) return std::int64_t{member.array_stride} * member.array.front();
-    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member));
+    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member.members));
     const GlslType type = glsl_type(member.type).value_or(GlslType{});
     if (!type.is_matrix()) return type.column_size();
     return std::int64_t{member.matrix_stride} * (member.row_major ? type.rows : type.columns);

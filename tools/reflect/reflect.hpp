@@ -23,6 +23,9 @@ enum class Api { opengl, vulkan };
 [[nodiscard]] Result<Interface> reflect_stage(const spirv::Module& module, const spirv::Usage& usage,
                                               Api api = Api::opengl);
 
+/// What std430 aligns a struct to: the most that any number or column in it needs.
+[[nodiscard]] int alignment_of(const std::vector<Member>& members);
+
 /// Bytes of a member of a block, from its strides. A row-major matrix is stored as an array of its rows.
 [[nodiscard]] std::int64_t size_of(const Member& member);
 
