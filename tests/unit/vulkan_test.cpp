@@ -175,6 +175,72 @@ TEST(VulkanInterface, NamesTheSizesOfWorkGroups) {
                             SpecializationConstant{"local_size_z", "uint", 7, 1}));
 }
 
+struct LimitRow {
+    const char* name;
+    const char* group;
+    const char* size;  ///< of the shared array
+    const char* message;
+};
+
+/// What Vulkan guarantees less of than OpenGL is warned of from there on.
+class WorkGroupLimit : public testing::TestWithParam<LimitRow> {};
+
+TEST_P(WorkGroupLimit, IsSaid) {
+    MemoryFileSystem files;
+    files.write("a.comp",
+                fmt::format("#version 450\nlayout({}) in;\nshared float t[{}];\n"
+                            "layout(std430, set = 0, binding = 0) buffer Values {{ float value; }};\n"
+                            "void main() {{ t[0] = 1.0; value = t[0]; }}\n",
+                            GetParam().group, GetParam().size));
+    SearchPath search;
+    const Family family = family_of_files({"a.comp"}, files, search).value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const std::string text = first_text(validate(family, composition, {}).diagnostics);
+    EXPECT_EQ(text.substr(0, text.find(" [")), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, WorkGroupLimit,
+    testing::Values(
+        LimitRow{"guaranteed", "local_size_x = 16, local_size_y = 8", "4096", ""},
+        LimitRow{"group_warned_of", "local_size_x = 129", "1",
+                 "a.comp:2: warning: invocations of a work group: 129, Vulkan guarantees only 128 "
+                 "(maxComputeWorkGroupInvocations)"},
+        LimitRow{"largest_group", "local_size_x = 1024", "1",
+                 "a.comp:2: warning: invocations of a work group: 1024, Vulkan guarantees only 128 "
+                 "(maxComputeWorkGroupInvocations)"},
+        LimitRow{
+            "group_refused", "local_size_x = 32, local_size_y = 33", "1",
+            "a.comp:2: error: invocations of a work group: 1056, gobo takes only 1024, Vulkan guarantees "
+            "128 (maxComputeWorkGroupInvocations)"},
+        LimitRow{"shared_warned_of", "local_size_x = 1", "4097",
+                 "a.comp:3: warning: bytes of shared variables: 16388, Vulkan guarantees only 16384 "
+                 "(maxComputeSharedMemorySize)"},
+        LimitRow{
+            "shared_refused", "local_size_x = 1", "8193",
+            "a.comp:3: error: bytes of shared variables: 32772, gobo takes only 32768, Vulkan guarantees "
+            "16384 (maxComputeSharedMemorySize)"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(FragmentOutputs, AreWarnedOfFromTheFifthOn) {
+    const auto said = [](int location) {
+        MemoryFileSystem files;
+        files.write("a.vert", "#version 450\nvoid main() { gl_Position = vec4(0.0); }\n");
+        files.write("a.frag", fmt::format("#version 450\nlayout(location = {}) out vec4 color;\n"
+                                          "void main() {{ color = vec4(1.0); }}\n",
+                                          location));
+        SearchPath search;
+        const Family family = family_of_files({"a.vert", "a.frag"}, files, search).value();
+        const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+        const std::string text = first_text(validate(family, composition, {}).diagnostics);
+        return text.substr(0, text.find(" ["));
+    };
+    EXPECT_EQ(said(3), "");
+    EXPECT_EQ(said(4),
+              "a.frag:2: warning: fragment output locations up to the last of 'color': 5, Vulkan guarantees "
+              "only 4 (maxFragmentOutputAttachments)");
+}
+
 struct ArrayRow {
     const char* name;
     const char* text;        ///< declares 't', the size of which is computed

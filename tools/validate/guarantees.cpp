@@ -31,14 +31,27 @@ constexpr std::array<VulkanLimit, 14> kVulkanLimits = {{
     {"MAX_COMPUTE_SHARED_MEMORY_SIZE", "maxComputeSharedMemorySize", 16384},
 }};
 
-}  // namespace
-
-std::string guarantee_text(Dialect dialect, std::int64_t limit, std::string_view constant) {
-    if (dialect != Dialect::vulkan) return fmt::format("OpenGL guarantees only {} ({})", limit, constant);
+const VulkanLimit* vulkan_limit(std::string_view constant) {
     const auto* const found = std::ranges::find_if(kVulkanLimits, [&](const VulkanLimit& row) {
         return row.constant.starts_with('_') ? constant.ends_with(row.constant) : constant == row.constant;
     });
-    if (found == kVulkanLimits.end()) return fmt::format("gobo takes only {}", limit);
+    return found == kVulkanLimits.end() ? nullptr : found;
+}
+
+}  // namespace
+
+std::int64_t guaranteed(Dialect dialect, std::int64_t limit, std::string_view constant) {
+    const VulkanLimit* const found = dialect == Dialect::vulkan ? vulkan_limit(constant) : nullptr;
+    return found == nullptr ? limit : std::min<std::int64_t>(limit, found->least);
+}
+
+std::string guarantee_text(Dialect dialect, std::int64_t size, std::int64_t limit,
+                           std::string_view constant) {
+    if (dialect != Dialect::vulkan) return fmt::format("OpenGL guarantees only {} ({})", limit, constant);
+    const VulkanLimit* const found = vulkan_limit(constant);
+    if (found == nullptr) return fmt::format("gobo takes only {}", limit);
+    if (size > limit && found->least < limit)
+        return fmt::format("gobo takes only {}, Vulkan guarantees {} ({})", limit, found->least, found->name);
     return fmt::format("Vulkan guarantees only {} ({})", found->least, found->name);
 }
 

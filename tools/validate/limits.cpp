@@ -89,20 +89,20 @@ class LimitCheck {
         if (first.kind == StageKind::vertex)
             check_locations(first, first.interface.inputs, 16, "vertex attribute", "MAX_VERTEX_ATTRIBS");
         const StageView& last = stages_.back();
-        if (last.kind == StageKind::fragment)
-            check_locations(last, last.interface.outputs, is_es_ ? 4 : 8, "fragment output",
-                            "MAX_DRAW_BUFFERS");
+        if (last.kind == StageKind::fragment) check_outputs(last);
         return std::move(found_);
     }
 
   private:
     void at_most(int limit, std::int64_t needed, const StageView& stage, const std::string& name,
                  const std::string& what, std::string_view constant, Severity severity = Severity::error) {
-        if (needed <= limit) return;
+        if (needed <= guaranteed(dialect_, limit, constant)) return;
+        if (needed <= limit) severity = Severity::warning;
         const Declaration at = name.empty() ? Declaration{{stage.pieces.back()->path, 0, 0}, "", false}
                                             : declaration_of(name, "", stage.pieces);
         found_.push_back(diagnostic_at(
-            at, severity, fmt::format("{} {}, {}", what, needed, guarantee_text(dialect_, limit, constant)),
+            at, severity,
+            fmt::format("{} {}, {}", what, needed, guarantee_text(dialect_, needed, limit, constant)),
             "use fewer, or forbid the combination by a rule of the family"));
     }
 
@@ -235,16 +235,28 @@ class LimitCheck {
         at_most(rows_of_varyings_, needed, stage, "", "varying vectors:", "MAX_VARYING_VECTORS");
     }
 
+    void check_outputs(const StageView& stage) {
+        const int limit = is_es_ ? 4 : 8;
+        const auto least = static_cast<int>(guaranteed(dialect_, limit, "MAX_DRAW_BUFFERS"));
+        const std::size_t found = found_.size();
+        for (const auto& [most, severity] :
+             {std::pair{limit, Severity::error}, std::pair{least, Severity::warning}})
+            if (found_.size() == found)
+                check_locations(stage, stage.interface.outputs, most, "fragment output", "MAX_DRAW_BUFFERS",
+                                severity);
+    }
+
     /// Attributes or fragment outputs: each column of a matrix and each element of an array takes a location.
     void check_locations(const StageView& stage, const std::vector<Variable>& list, int limit,
-                         std::string_view what, std::string_view constant) {
+                         std::string_view what, std::string_view constant,
+                         Severity severity = Severity::error) {
         std::int64_t needed = 0;
         for (const Variable& variable : list) {
             const std::int64_t count = location_count(variable.type, variable.array);
             if (variable.location >= 0 && variable.location + count > limit)
                 return at_most(limit, variable.location + count, stage, variable.name,
                                fmt::format("{} locations up to the last of '{}':", what, variable.name),
-                               constant);
+                               constant, severity);
             // A column of three or four doubles counts twice among attributes (OpenGL 4.6, 11.1.1).
             const GlslType type = glsl_type(variable.type).value_or(GlslType{});
             const bool is_wide =
@@ -252,7 +264,7 @@ class LimitCheck {
             if (!variable.usage.unused && variable.component == 0) needed += is_wide ? 2 * count : count;
         }
         if (needed > limit)
-            return at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant);
+            return at_most(limit, needed, stage, "", fmt::format("{} locations:", what), constant, severity);
         check_room(stage, list, limit, what, constant);
     }
 

@@ -141,10 +141,10 @@ class StageCheck {
 
     void at_most(std::int64_t limit, std::int64_t size, const Declaration& at, std::string_view what,
                  std::string_view constant, Severity severity = Severity::error) {
-        if (size > limit)
+        if (size > guaranteed(dialect_, limit, constant))
             found_.push_back(diagnostic_at(
-                at, severity,
-                fmt::format("{}: {}, {}", what, size, guarantee_text(dialect_, limit, constant)),
+                at, size > limit ? severity : Severity::warning,
+                fmt::format("{}: {}, {}", what, size, guarantee_text(dialect_, size, limit, constant)),
                 "state fewer"));
     }
 
@@ -174,7 +174,7 @@ class StageCheck {
                                Severity severity) {
             at_most(groups, group, use_of("local_size_x", pieces_), "invocations of a work group",
                     fmt::format("MAX_COMPUTE_WORK_GROUP_INVOCATIONS{}", whose), severity);
-            if (shared > bytes)
+            if (largest != Id::none)
                 at_most(bytes, shared, declared(module_.name(largest)), "bytes of shared variables",
                         fmt::format("MAX_COMPUTE_SHARED_MEMORY_SIZE{}", whose), severity);
         };
@@ -343,7 +343,8 @@ class StageCheck {
             refuse(use_of("max_vertices", pieces_),
                    fmt::format("{} vertices of {} components each are {}, {}", vertices, components,
                                vertices * components,
-                               guarantee_text(dialect_, kGuaranteed, "MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS")),
+                               guarantee_text(dialect_, vertices * components, kGuaranteed,
+                                              "MAX_GEOMETRY_TOTAL_OUTPUT_COMPONENTS")),
                    "emit fewer vertices, or write fewer components with each");
     }
 
