@@ -172,6 +172,114 @@ TEST_P(Proof, IsAsKnown) {
 INSTANTIATE_TEST_SUITE_P(Rows, Proof, testing::ValuesIn(kRows),
                          [](const testing::TestParamInfo<Row>& row) { return row.param.name; });
 
+/// What some variants compute with 16-bit floats: the limits are theirs.
+struct MediumpRow {
+    std::string name;
+    std::string declarations;
+    std::string statements;  ///< that set `result`
+    Domain domain;
+    std::string rule;
+    Status status;
+};
+
+Domain domain_of(std::string name, double low, double high, bool of_length = false) {
+    Domain domain;
+    domain.name = std::move(name);
+    domain.low = low;
+    domain.high = high;
+    domain.of_length = of_length;
+    return domain;
+}
+
+const std::string kInfinite = "an infinity made from finite numbers";
+
+const MediumpRow kMediumpRows[] = {
+    {"normalize_of_long_vectors", "in mediump vec3 v;", "result = normalize(v).x;",
+     domain_of("v", 500, 1000, true), "normalize() overflows: the square of the length is too large",
+     kPossible},
+    {"normalize_of_vectors_within_16_bits", "in mediump vec3 v;", "result = normalize(v).x;",
+     domain_of("v", 100, 255, true), "normalize() overflows: the square of the length is too large",
+     kImpossible},
+    {"normalize_of_short_vectors", "in mediump vec3 v;", "result = normalize(v).x;",
+     domain_of("v", 0.001, 0.002, true), "normalize() underflows: the square of the length is too small",
+     kPossible},
+    {"normalize_of_vectors_not_short", "in mediump vec3 v;", "result = normalize(v).x;",
+     domain_of("v", 0.01, 1, true), "normalize() underflows: the square of the length is too small",
+     kImpossible},
+    {"normalize_in_highp_of_what_mediump_read", "in mediump vec3 v; in highp float k;",
+     "mediump vec3 w = v; result = normalize(w * k).x;", domain_of("v", 500, 1000),
+     "normalize() overflows: the square of the length is too large", kImpossible},
+    {"length", "in mediump vec3 v;", "result = length(v);", domain_of("v", 500, 1000, true),
+     "length() overflows: its square is too large", kPossible},
+    {"length_of_a_part", "in mediump vec3 v;", "result = length(v.xy);", domain_of("v", 500, 1000, true),
+     "length() overflows: its square is too large", kPossible},
+    {"distance", "in mediump vec3 v;", "result = distance(v, -v);", domain_of("v", 500, 1000, true),
+     "distance() overflows: its square is too large", kPossible},
+    {"distance_in_highp", "in highp vec3 v;", "result = distance(v, -v);", domain_of("v", 500, 1000, true),
+     "distance() overflows: its square is too large", kImpossible},
+    {"uniform_beyond_16_bits", "uniform mediump vec3 v; in highp float k;",
+     "mediump vec3 c = v; result = (c * k).x;", domain_of("v", 0, 1e5), kInfinite, kPossible},
+    {"uniform_within_16_bits", "uniform mediump vec3 v; in highp float k;",
+     "mediump vec3 c = v; result = (c * k).x;", domain_of("v", 0, 6e4), kInfinite, kImpossible},
+    {"product_of_what_may_be_infinite", "uniform mediump float v;",
+     "mediump float c = min(v * 3e4, 6e4); mediump float d = sqrt(v * 3e4); result = c + d;",
+     domain_of("v", 0, 2), kInfinite, kImpossible},
+    {"dot", "in mediump vec3 v;", "result = dot(v, v);", domain_of("v", 0, 200), kInfinite, kPossible},
+    {"cross", "in mediump vec3 v;", "result = cross(v, v.yzx).x;", domain_of("v", -1e3, 1e3), kInfinite,
+     kPossible},
+    {"reflect", "in mediump vec3 v;", "result = reflect(v, v).x;", domain_of("v", 0, 40), kInfinite,
+     kPossible},
+    {"refract", "in mediump vec3 v;", "result = refract(v, v, 0.9).x;", domain_of("v", 0, 300), kInfinite,
+     kPossible},
+    {"pow", "in mediump vec3 v;", "result = pow(v.x, 2.0);", domain_of("v", 1, 300), kInfinite, kPossible},
+    {"exp", "in mediump vec3 v;", "result = exp(v.x);", domain_of("v", 0, 12), kInfinite, kPossible},
+    {"exp_within_16_bits", "in mediump vec3 v;", "result = exp(v.x);", domain_of("v", 0, 11), kInfinite,
+     kImpossible},
+    {"determinant", "in mediump vec3 v;", "result = determinant(mat3(v, v.yzx, v.zxy));",
+     domain_of("v", 0, 50), kInfinite, kPossible},
+    {"matrix_product", "in mediump vec3 v;", "result = (mat3(v, v, v) * v).x;", domain_of("v", 0, 250),
+     kInfinite, kPossible},
+    {"product_of_matrices", "in mediump vec3 v;", "result = (mat3(v, v, v) * mat3(v, v, v))[0].x;",
+     domain_of("v", 0, 250), kInfinite, kPossible},
+    {"conversion", "in mediump vec3 v;", "result = float(int(v.x));", domain_of("v", 0, 1e6),
+     "conversion to int out of range", Status::undecided},  // of an infinity, which is told where it is made
+};
+
+class MediumpProof : public testing::TestWithParam<MediumpRow> {};
+
+TEST_P(MediumpProof, IsAsKnown) {
+    const MediumpRow& row = GetParam();
+    const std::string text = "#version 300 es\nprecision mediump float;\n" + row.declarations +
+                             "\nout highp float color;\nvoid main() {\n    float result;\n    " +
+                             row.statements + "\n    color = result;\n}\n";
+    prove::ProveOptions options;
+    options.check = 8192;
+    options.points = 8192;
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{{"known.frag", text}});
+    const auto found = by_rule(proven("known.frag", files, options, {row.domain, domain_of("k", 0, 1)}));
+    ASSERT_TRUE(found.contains(row.rule));
+    EXPECT_EQ(word(found.at(row.rule)), word(row.status));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, MediumpProof, testing::ValuesIn(kMediumpRows),
+                         [](const testing::TestParamInfo<MediumpRow>& row) { return row.param.name; });
+
+/// b may be infinite, which says nothing of those that are not.
+TEST(MediumpProofs, HoldWhereOperandsMayBeInfinite) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 300 es\nprecision mediump float;\nin float a;\nout vec4 color;\nvoid main() {\n"
+         "    float b = a * a;\n    color = vec4(b + 100.0);\n}\n"}});
+    std::map<int, Status> by_line;
+    for (const prove::SourceOperation& operation :
+         proven("known.frag", files, {}, {domain_of("a", 0, 300)}).operations)
+        for (const prove::ProvenRule& rule : operation.rules)
+            if (rule.message == kInfinite)
+                by_line[operation.place.line] = std::max(by_line[operation.place.line], rule.status);
+    EXPECT_EQ(word(by_line[6]), "possible");
+    EXPECT_EQ(word(by_line[7]), "undecided");  // 65472 + 100 is met by few points
+}
+
 /// b - a is 0 only where the constraint is broken: no example.
 TEST(Proofs, ShowNoInputThatBreaksAConstraint) {
     const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{

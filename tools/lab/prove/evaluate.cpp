@@ -76,10 +76,14 @@ Known Ranges::evaluate(std::uint32_t index) const {
             return known;
         case kHalf: {
             const Known& whole = known_[operands[0]];
+            const bool is_read = expression.part == 1;
             known.range = also_in_half(whole.range);
-            known.makes_infinity =
-                whole.makes_infinity || (!is_infinite(whole.range) && is_infinite(known.range));
-            known.makes_nan = whole.makes_nan;
+            const Range finite = !is_infinite(whole.range) ? whole.range
+                                 : !is_read                ? whole.of_finite
+                                 : is_half(operands[0])    ? kNothing
+                                                           : finite_part(whole.range);
+            known.makes_infinity = (whole.makes_infinity && !is_read) || is_infinite(also_in_half(finite));
+            known.makes_nan = whole.makes_nan && !is_read;
             return known;
         }
         case kJoined:
@@ -117,6 +121,16 @@ Known Ranges::evaluate(std::uint32_t index) const {
     }
     evaluate_floats(expression, index, known);
     return known;
+}
+
+bool Ranges::is_half(std::uint32_t expression, int depth) const {
+    constexpr int kDeepest = 8;
+    expression = expressions_.origin(expression);
+    const Expression& one = expressions_.all[expression];
+    if (one.code == kHalf) return true;
+    if (one.code != kJoined || depth > kDeepest) return false;
+    const std::uint32_t* ways = expressions_.operands_of(expression);
+    return std::all_of(ways, ways + one.count, [&](std::uint32_t way) { return is_half(way, depth + 1); });
 }
 
 void Ranges::evaluate_join(const Expression& expression, const std::uint32_t* operands, Known& known) const {

@@ -480,6 +480,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
                            expression.code != spv::OpBitcast;
     known.makes_nan = nan;
     result.nan = result.nan || nan;
+    known.of_finite = result;
     known.range = is_wild ? kAnything : result;
     if (is_wild) known.has_product = known.has_product && !known.product.has_no_number();
 }

@@ -123,6 +123,7 @@ void Ranges::evaluate_sum(const Expression& expression, const std::uint32_t* ope
         known.range = all;
     }
     known.makes_infinity = is_infinite(known.range);
+    known.of_finite = known.range;
     known.makes_nan = false;
     if (x.range.nan || y.range.nan || is_infinite(x.range) || is_infinite(y.range)) known.range = kAnything;
 }

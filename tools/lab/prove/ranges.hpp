@@ -49,6 +49,7 @@ struct Known {
     bool always_has_terms = false;      ///< whichever way it was computed
     Range product = kNothing;           ///< before it is rounded
     std::array<TermsCases, 2> terms{};  ///< regrouped, reordered
+    Range of_finite = kNothing;         ///< of finite operands; nothing of what passes on its operands
     bool makes_infinity = false;        ///< of finite operands
     bool makes_nan = false;             ///< of finite operands
 };
@@ -146,6 +147,8 @@ class Ranges {
     [[nodiscard]] double sine_limit(std::uint32_t square_of_cross, std::uint32_t square) const;
     /// Whether each product scales its component of a vector, which all have, by 1 / length.
     [[nodiscard]] bool makes_unit(const std::uint32_t* products, std::uint32_t count) const;
+    /// Whether it holds 16-bit floats wherever what is mediump does.
+    [[nodiscard]] bool is_half(std::uint32_t expression, int depth = 0) const;
     void leave_to(std::uint32_t context);
     void push(std::uint32_t context);
     [[nodiscard]] Known evaluate(std::uint32_t expression) const;

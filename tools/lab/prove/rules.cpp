@@ -7,6 +7,7 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/image_call.hpp"
+#include "lab/sanitize/finding.hpp"
 #include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/rules.hpp"
 
@@ -148,40 +149,66 @@ bool vector_is_not_zero(View& view) {
     return never_all_zero(view, 0, count);
 }
 
-/// The components of a vector, or of the difference of two.
-std::vector<Range> components_of(View& view) {
-    std::vector<Range> components;
-    for (std::uint32_t c = 0; c < view.info().operands[0].count; ++c)
-        components.push_back(view.info().operands.size() == 1
-                                 ? view.range(0, c)
-                                 : rounded(sum(view.range(0, c), negated(view.range(1, c)))));
-    return components;
-}
-
-/// No vector but the zero vector has a square below the smallest normal number.
-bool square_does_not_underflow(View& view) {
-    constexpr double kEnough = kSmallestNormal * 1.0001;
-    const std::vector<Range> components = components_of(view);
-    const auto has_large_square = [](const Range& r) { return r.smallest() * r.smallest() >= kEnough; };
-    if (std::ranges::any_of(components, has_large_square)) return true;
-    // Each is 0 or large enough.
-    const auto is_zero_or_large = [](const Range& r) {
-        return !r.nan && ((r.low == 0 && r.high == 0) || r.least * r.least >= kEnough);
-    };
-    if (std::ranges::all_of(components, is_zero_or_large)) return true;
-    if (view.info().operands.size() != 1) return false;
-    const auto declared = view.ranges.declared_length(view.vector(0), view.info().operands[0].count);
-    return declared && declared->least * declared->least >= kEnough;
-}
-
-bool square_does_not_overflow(View& view) {
-    double square = 0;
-    for (const Range& component : components_of(view)) square += component.size() * component.size();
-    if (view.info().operands.size() == 1) {
-        const double limit = view.ranges.length_limit(view.vector(0), view.info().operands[0].count);
-        square = std::min(square, limit * limit);
+/// What length(), distance() and normalize() square: a vector or the difference of two.
+class Squared {
+  public:
+    explicit Squared(View& view) : is_half_(view.info().is_relaxed) {
+        const std::uint32_t count = view.info().operands[0].count;
+        const bool is_one = view.info().operands.size() == 1;
+        for (std::uint32_t c = 0; c < count; ++c)
+            components_.push_back(is_one ? view.range(0, c)
+                                         : rounded(sum(view.range(0, c), negated(view.range(1, c)))));
+        if (!is_one) return;
+        limit_ = view.ranges.length_limit(view.vector(0), count);
+        // Of what is read as 16-bit floats the domain states the length before it is rounded to them.
+        std::vector<std::uint32_t> vector(view.vector(0), view.vector(0) + count);
+        bool is_rounded = false;
+        for (std::uint32_t& one : vector) {
+            const std::uint32_t origin = view.expressions.origin(one);
+            if (view.expressions.all[origin].code != kHalf) continue;
+            one = view.expressions.operand(origin, 0);
+            is_rounded = true;
+        }
+        declared_ = view.ranges.declared_length(vector.data(), count);
+        if (!declared_) return;
+        if (is_rounded) {
+            const double tiny = std::sqrt(count) * 0x1p-24;
+            declared_->least = declared_->least * (1 - 0x1p-10) - tiny;
+            declared_->high = declared_->high * (1 + 0x1p-10) + tiny;
+        }
+        limit_ = std::min(limit_, declared_->high);
     }
-    return square < kLargestFloat * 0.9999;
+
+    /// No vector but the zero vector has a square below the smallest normal number.
+    [[nodiscard]] bool does_not_underflow() const {
+        const double enough = (is_half_ ? 0x1p-14 : kSmallestNormal) * 1.0001;
+        const auto has_large_square = [&](const Range& r) { return r.smallest() * r.smallest() >= enough; };
+        if (std::ranges::any_of(components_, has_large_square)) return true;
+        // Each is 0 or large enough.
+        const auto is_zero_or_large = [&](const Range& r) {
+            return !r.nan && ((r.low == 0 && r.high == 0) || r.least * r.least >= enough);
+        };
+        if (std::ranges::all_of(components_, is_zero_or_large)) return true;
+        return declared_ && declared_->least > 0 && declared_->least * declared_->least >= enough;
+    }
+    [[nodiscard]] bool does_not_overflow() const {
+        double square = 0;
+        for (const Range& component : components_) square += component.size() * component.size();
+        return std::min(square, limit_ * limit_) < (is_half_ ? 65520 : kLargestFloat) * 0.9999;
+    }
+
+  private:
+    bool is_half_;  ///< some variant has no more than 16 bits for it
+    std::vector<Range> components_;
+    double limit_ = kInfinity;  ///< of the length
+    std::optional<Range> declared_;
+};
+
+bool square_does_not_underflow(View& view) {
+    return Squared(view).does_not_underflow();
+}
+bool square_does_not_overflow(View& view) {
+    return Squared(view).does_not_overflow();
 }
 
 template <bool Known::*makes>
@@ -424,8 +451,10 @@ std::vector<std::vector<Rule>> rules_of(const evaluate::Program& program) {
                                : row.code == spv::OpVectorExtractDynamic ? 2U
                                                                          : 4U});
         add_image_rules(program, program.operations[at], all[at]);
-        if (row.kind <= Kind::matrix && program.infos[at].result.scalar == Scalar::float32) {
+        const bool has_floats = program.infos[at].result.scalar == Scalar::float32;
+        if (has_floats && (row.kind <= Kind::matrix || sanitize::reads_mediump_input(program, at)))
             all[at].push_back({kMakesInfinity, makes_no<&Known::makes_infinity>, ~0U, true});
+        if (has_floats && row.kind <= Kind::matrix) {
             all[at].push_back({kMakesNaN, makes_no<&Known::makes_nan>, ~0U, true});
         }
     }

@@ -9,6 +9,7 @@
 #include "lab/evaluate/functions.hpp"
 #include "lab/prove/input_range.hpp"
 #include "lab/prove/unroll_operations.hpp"
+#include "lab/sanitize/finding.hpp"
 
 namespace gobo::prove {
 namespace {
@@ -272,12 +273,13 @@ class Unroller {
         for (const Slice& operand : info.operands)
             for (std::uint32_t i = 0; i < operand.count; ++i) before.push_back(state.slots[operand.slot + i]);
         std::vector<Id> results = operations_.results_of(operation, info, row, before, state.slots);
+        const bool is_read = row.kind == evaluate::Kind::load || row.kind == evaluate::Kind::store;
         if (info.is_relaxed && info.result.scalar == Scalar::float32)
-            for (Id& result : results) result = builder_.make({.code = kHalf}, {result});
+            for (Id& result : results)
+                result = builder_.make({.code = kHalf, .part = is_read ? 1U : 0U}, {result});
         if (row.code != evaluate::kScatter)
             for (std::uint32_t i = 0; i < results.size(); ++i) state.slots[operation.result + i] = results[i];
-        if (row.is_bookkeeping || row.kind == evaluate::Kind::load || row.kind == evaluate::Kind::store)
-            return;
+        if (row.is_bookkeeping || (is_read && !sanitize::reads_mediump_input(program_, at))) return;
         Site site;
         site.operation = at;
         site.context = builder_.context();

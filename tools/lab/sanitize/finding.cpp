@@ -96,15 +96,6 @@ bool must_be_written(const evaluate::Program& program, const evaluate::Port& por
     return program.is_fragment && !port.name.starts_with("gl_");
 }
 
-/// Whether the first operand is an input or a uniform.
-bool is_given(const evaluate::Program& program, const std::vector<Slice>& operands) {
-    const auto holds = [&](const evaluate::Port& port) {
-        return port.slot <= operands.front().slot && operands.front().slot < port.slot + port.components;
-    };
-    return !operands.empty() &&
-           (std::ranges::any_of(program.inputs, holds) || std::ranges::any_of(program.uniforms, holds));
-}
-
 /// The outputs, and what storage blocks and counters hold.
 std::vector<const evaluate::Port*> written_ports(const evaluate::Program& program) {
     std::vector<const evaluate::Port*> ports;
@@ -143,9 +134,8 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.has_silent = std::any_of(watch.rules.begin(), watch.rules.end(),
                                            [](const TrapRule& rule) { return rule.is_silent; });
             // The other operations pass on what these made.
-            watch.reads_mediump_input = run.machine == Machine::mediump && row.code == spv::OpLoad &&
-                                        run.program.infos[at].is_relaxed &&
-                                        is_given(run.program, run.program.infos[at].operands);
+            watch.reads_mediump_input =
+                run.machine == Machine::mediump && reads_mediump_input(run.program, at);
             watch.makes_floats = (row.kind <= Kind::matrix || watch.reads_mediump_input) &&
                                  evaluate::is_float(run.program.infos[at].result.scalar);
             watch.first_decider = first_decider(row);
@@ -575,6 +565,17 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
 }
 
 }  // namespace
+
+bool reads_mediump_input(const evaluate::Program& program, std::size_t operation) {
+    const evaluate::OperationInfo& info = program.infos[operation];
+    if (code_of(program.operations[operation]) != spv::OpLoad || !info.is_relaxed || info.operands.empty())
+        return false;
+    const auto holds = [&](const evaluate::Port& port) {
+        return port.slot <= info.operands.front().slot &&
+               info.operands.front().slot < port.slot + port.components;
+    };
+    return std::ranges::any_of(program.inputs, holds) || std::ranges::any_of(program.uniforms, holds);
+}
 
 Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
                                         const evaluate::Invocations& invocations, Machine machine,
