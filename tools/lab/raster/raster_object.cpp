@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <glm/matrix.hpp>
 
 #include "lab/evaluate/images.hpp"
 #include "lab/render/mesh.hpp"
@@ -166,18 +167,23 @@ Result<RasterObject> object_inputs(const Pipeline& pipeline, const Interface& in
 
 Result<RasterObject> rasterise_object(const Pipeline& pipeline, const Interface& interface,
                                       const Object& object, const std::vector<RenderValue>& family_values,
-                                      ViewedObject viewed, const evaluate::Images& images) {
+                                      ViewedObject viewed, const evaluate::Images& images,
+                                      ClipSpace clip_space) {
     viewed.model = object.model;
     std::vector<RenderValue> values = family_values;
     values.insert(values.end(), object.values.begin(), object.values.end());
     GOBO_TRY(RasterObject result, object_inputs(pipeline, interface, object.mesh, values, viewed, images));
+    result.clip_space = clip_space;
     GOBO_TRY(const auto outputs, evaluate::run<float>(pipeline.vertex, result.vertices));
     const auto position = outputs.values.find("gl_Position");
     if (position == outputs.values.end())
         return fail(Fault::input, "the vertex stage does not write gl_Position");
+    const glm::dmat4 to_opengl =
+        clip_space == ClipSpace::vulkan ? glm::inverse(vulkan_clip_space_of_pictures()) : glm::dmat4(1);
     for (std::size_t i = 0; i < outputs.count; ++i) {
         glm::dvec4& to = result.positions.emplace_back();
         for (int c = 0; c < 4; ++c) to[c] = position->second[static_cast<std::size_t>(c) * outputs.count + i];
+        to = to_opengl * to;
     }
     result.fragments = rasterise(result.positions, result.indices, result.width, result.height);
     if (object.culls_back_faces)
@@ -190,14 +196,14 @@ Result<RasterObject> rasterise_object(const Pipeline& pipeline, const Interface&
 Result<std::vector<RasterObject>> rasterise_objects(const Pipeline& pipeline, const Interface& interface,
                                                     const std::vector<Object>& objects,
                                                     const std::vector<RenderValue>& values, const View& view,
-                                                    const evaluate::Images& images) {
-    ViewedObject viewed;
-    viewed.view = view.camera.view();
-    viewed.projection = view.camera.projection(static_cast<double>(view.width) / view.height);
-    viewed.viewport = {view.width, view.height};
+                                                    const evaluate::Images& images, ClipSpace clip_space) {
+    ViewedObject viewed = viewed_from(view);
+    if (clip_space == ClipSpace::vulkan)
+        viewed.projection = vulkan_clip_space_of_pictures() * viewed.projection;
     std::vector<RasterObject> result;
     for (const Object& object : objects) {
-        GOBO_TRY(RasterObject one, rasterise_object(pipeline, interface, object, values, viewed, images));
+        GOBO_TRY(RasterObject one,
+                 rasterise_object(pipeline, interface, object, values, viewed, images, clip_space));
         result.push_back(std::move(one));
     }
     return result;
@@ -229,7 +235,7 @@ std::vector<std::uint32_t> drop_unseen_triangles(RasterObject& object) {
 RasterObject part_of(const Pipeline& pipeline, const RasterObject& object,
                      const std::function<bool(int, int)>& is_wanted) {
     RasterObject part{{}, object.uniforms, object.indices, object.positions,
-                      {}, object.width,    object.height,  object.rows_run_down};
+                      {}, object.width,    object.height,  object.clip_space};
     std::copy_if(object.fragments.begin(), object.fragments.end(), std::back_inserter(part.fragments),
                  [&](const Fragment& fragment) { return is_wanted(fragment.x, fragment.y); });
     part.vertices = selected(pipeline.vertex, object.vertices, drop_unseen_triangles(part));

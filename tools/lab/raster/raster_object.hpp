@@ -19,16 +19,19 @@ namespace gobo::raster {
 [[nodiscard]] std::vector<RenderValue> with_plain_textures(const Interface& interface,
                                                            std::vector<RenderValue> values);
 
+/// Whose clip space and window a vertex stage writes positions for.
+enum class ClipSpace { opengl, vulkan };
+
 /// One object, ready to be shaded once it has positions and fragments.
 struct RasterObject {
     evaluate::Invocations vertices;  ///< of the vertex stage
     evaluate::Invocations uniforms;  ///< of the fragment stage, without its inputs
     std::vector<std::uint32_t> indices;
-    std::vector<glm::dvec4> positions;  ///< gl_Position of each vertex
+    std::vector<glm::dvec4> positions;  ///< gl_Position of each vertex, in OpenGL's clip space
     std::vector<Fragment> fragments;
     int width = 0;
     int height = 0;
-    bool rows_run_down = false;  ///< the window's first row is the upper one, as Vulkan has it
+    ClipSpace clip_space = ClipSpace::opengl;  ///< Vulkan's window has its first row above
 
     /// The corners' weights on a triangle.
     [[nodiscard]] Interpolator interpolator(std::uint32_t triangle) const;
@@ -43,17 +46,19 @@ struct RasterObject {
                                                  const evaluate::Images& images = {});
 
 /// Evaluates the vertex stage for one object and rasterises it, without the faces that it culls. `values` are
-/// the family's, the object's own come after them; `view` is the camera's part, the model matrix is the
-/// object's.
+/// the family's, the object's own come after them; `view` is the camera's part, with a projection to
+/// `clip_space`, the model matrix is the object's.
 [[nodiscard]] Result<RasterObject> rasterise_object(const Pipeline& pipeline, const Interface& interface,
                                                     const Object& object,
                                                     const std::vector<RenderValue>& values, ViewedObject view,
-                                                    const evaluate::Images& images = {});
+                                                    const evaluate::Images& images = {},
+                                                    ClipSpace clip_space = ClipSpace::opengl);
 
 /// The same for every object of a picture. `values` and `view` as of render_permutation().
 [[nodiscard]] Result<std::vector<RasterObject>> rasterise_objects(
     const Pipeline& pipeline, const Interface& interface, const std::vector<Object>& objects,
-    const std::vector<RenderValue>& values, const View& view, const evaluate::Images& images = {});
+    const std::vector<RenderValue>& values, const View& view, const evaluate::Images& images = {},
+    ClipSpace clip_space = ClipSpace::opengl);
 
 /// Leaves only the triangles that have fragments, and their vertices; returns what those were numbered
 /// before. The vertex stage's inputs stay as they are.

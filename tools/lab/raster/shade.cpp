@@ -12,7 +12,7 @@ constexpr std::size_t kQuad = 4;
 
 /// From a pixel's y, upwards, to its row as the window counts them, and back.
 int row_of(const RasterObject& object, int y) {
-    return object.rows_run_down ? object.height - 1 - y : y;
+    return object.clip_space == ClipSpace::vulkan ? object.height - 1 - y : y;
 }
 
 /// A depth as its buffer holds it.

@@ -27,6 +27,19 @@ glm::dmat4 Camera::projection(double aspect) const {
     return glm::perspective(field_of_view, aspect, near_plane, far_plane);
 }
 
+glm::dmat4 vulkan_clip_space_of_maps() {
+    glm::dmat4 matrix(1);
+    matrix[2][2] = 0.5;  // z' = z / 2 + w / 2
+    matrix[3][2] = 0.5;
+    return matrix;
+}
+
+glm::dmat4 vulkan_clip_space_of_pictures() {
+    glm::dmat4 matrix = vulkan_clip_space_of_maps();
+    matrix[1][1] = -1;
+    return matrix;
+}
+
 glm::dmat3 normal_matrix(const glm::dmat4& matrix) {
     const double scale = largest_entry(glm::dmat3(matrix));
     if (!(scale > 0) || std::isinf(scale)) return glm::dmat3(1);

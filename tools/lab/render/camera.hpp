@@ -22,6 +22,13 @@ struct Camera {
     [[nodiscard]] glm::dmat4 projection(double aspect) const;
 };
 
+/// From OpenGL's clip space to Vulkan's: depth 0 to 1, y downward. A projection behind this draws upright
+/// pictures whose triangles run as OpenGL's do.
+[[nodiscard]] glm::dmat4 vulkan_clip_space_of_pictures();
+/// The same with y upward: what texture coordinates of 0 to 1 then find in a shadow map is what OpenGL's
+/// find.
+[[nodiscard]] glm::dmat4 vulkan_clip_space_of_maps();
+
 /// Transforms normals where `matrix` transforms points: the inverse transpose of its upper left 3 x 3,
 /// computed from cofactors. Where that has no inverse, or one beyond float's range (a scene flattened or
 /// scaled by 1e-20), the cofactors are scaled so that the largest is 1: the directions stay right, and

@@ -169,24 +169,25 @@ Result<SpirvModule> module_of(const Validated& validated, const Permutation& per
 
 Result<raster::PictureReport> compare(const Drawn& drawn, const SpirvModule& vertex,
                                       const SpirvModule& fragment, const CrossCheckScene& scene,
-                                      bool rows_run_down) {
+                                      raster::ClipSpace clip_space) {
     GOBO_TRY(const auto pipeline, raster::pipeline_of(vertex, fragment));
-    GOBO_TRY(auto objects, raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values,
-                                                     scene.view, drawn.images));
-    for (raster::RasterObject& object : objects) object.rows_run_down = rows_run_down;
+    GOBO_TRY(const auto objects,
+             raster::rasterise_objects(pipeline, drawn.interface, scene.objects, drawn.values, scene.view,
+                                       drawn.images, clip_space));
     return raster::compare_picture(drawn.picture, pipeline, objects, scene.view.background);
 }
 
 /// The picture is right where all of it agrees with one of the ways in which a driver may take derivatives.
 Result<raster::PictureReport> compare(const Validated& validated, const Permutation& permutation,
-                                      const Drawn& drawn, const CrossCheckScene& scene, bool rows_run_down) {
+                                      const Drawn& drawn, const CrossCheckScene& scene,
+                                      raster::ClipSpace clip_space) {
     GOBO_TRY(const SpirvModule vertex, module_of(validated, permutation, StageKind::vertex));
     GOBO_TRY(const SpirvModule fragment, module_of(validated, permutation, StageKind::fragment));
     const SpirvModule fine = raster::with_derivatives(fragment, raster::Derivatives::fine);
-    GOBO_TRY(auto report, compare(drawn, vertex, fine, scene, rows_run_down));
+    GOBO_TRY(auto report, compare(drawn, vertex, fine, scene, clip_space));
     const SpirvModule coarse = raster::with_derivatives(fragment, raster::Derivatives::coarse);
     if (!report.fails() || coarse == fine) return report;
-    GOBO_TRY(auto other, compare(drawn, vertex, coarse, scene, rows_run_down));
+    GOBO_TRY(auto other, compare(drawn, vertex, coarse, scene, clip_space));
     return other.fails() ? report : other;
 }
 
@@ -261,8 +262,8 @@ Result<CrossCheckReport> cross_check(const std::string& driver, std::optional<Ba
         }
         GOBO_TRY(Drawn drawn, renderer->draw(permutations[i]));
         clock.stop();
-        GOBO_TRY(compared.picture,
-                 compare(validated, permutations[i], drawn, scene, composition.dialect == Dialect::vulkan));
+        GOBO_TRY(compared.picture, compare(validated, permutations[i], drawn, scene,
+                                           opengl ? raster::ClipSpace::opengl : raster::ClipSpace::vulkan));
         compared.picture.warnings = std::move(drawn.picture.warnings);
         return compared;
     };

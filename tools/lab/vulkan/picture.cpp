@@ -266,26 +266,13 @@ std::vector<StageModule> modules_of(const std::vector<std::span<const std::uint3
     return stages;
 }
 
-glm::dmat4 clip_space_of_maps() {
-    glm::dmat4 matrix(1);
-    matrix[2][2] = 0.5;  // z' = z / 2 + w / 2
-    matrix[3][2] = 0.5;
-    return matrix;
-}
-
-glm::dmat4 clip_space_of_pictures() {
-    glm::dmat4 matrix = clip_space_of_maps();
-    matrix[1][1] = -1;
-    return matrix;
-}
-
 Result<Picture> render_draws(const Device& device, const std::vector<DrawnBy>& permutations,
                              const std::vector<Draw>& draws, ViewedObject view, int width, int height,
                              const std::array<float, 4>& background,
                              const std::function<void(std::size_t)>& begins, const DrawStart& start) {
     Resources resources(device);
     GOBO_TRY(const Target target, make_target(resources, width, height, true));
-    view.projection = clip_space_of_pictures() * view.projection;
+    view.projection = vulkan_clip_space_of_pictures() * view.projection;
     GOBO_TRY(Picture picture,
              draw_all(resources, target, permutations, draws, view, background, nullptr, start, begins));
     GOBO_TRY_DO(no_messages(device));
@@ -321,8 +308,10 @@ Result<std::vector<Image>> draw_shadow_maps(const Device& device, const ShadowPa
         Resources resources(device);
         // What draws holes writes colours, too.
         GOBO_TRY(const Target target, make_target(resources, pass.side, pass.side, !with_holes.empty()));
-        const ViewedObject viewed{
-            glm::dmat4(1), camera.view, clip_space_of_maps() * camera.projection, {pass.side, pass.side}};
+        const ViewedObject viewed{glm::dmat4(1),
+                                  camera.view,
+                                  vulkan_clip_space_of_maps() * camera.projection,
+                                  {pass.side, pass.side}};
         GOBO_TRY(Picture picture, draw_all(resources, target, all, draws, viewed, {}, &bias, {}, {}));
         maps.push_back(std::move(picture.depth));
     }

@@ -69,12 +69,6 @@ using Textures = std::map<std::string, Texels>;
 /// Shadow maps, as draw_shadow_maps() draws them.
 [[nodiscard]] Texels depth_texels(const std::vector<Image>& layers);
 
-/// From OpenGL's clip space to Vulkan's: depth 0 to 1, y downward. A projection behind this draws upright
-/// pictures whose triangles run as OpenGL's do.
-[[nodiscard]] glm::dmat4 clip_space_of_pictures();
-/// The same with y upward: what texture coordinates of 0 to 1 then find in the map is what OpenGL's find.
-[[nodiscard]] glm::dmat4 clip_space_of_maps();
-
 /// Where a draw's numbers of vertices and instances begin, and which vertex gives a triangle's flat values:
 /// the last as in OpenGL, else the first, as Vulkan has it.
 struct DrawStart {
