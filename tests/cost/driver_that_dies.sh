@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# driver_that_dies.sh GOBO OSMESA_FOLDER VULKAN_LIBRARY FAMILY: drivers of OpenGL and Vulkan that abort on one key of three. It alone is lost,
+# driver_that_dies.sh GOBO OSMESA_FOLDER VULKAN_LIBRARY FAMILY: drivers of OpenGL and Vulkan that abort on one key of three, or fail. It alone is lost,
 # and what the driver was given is kept.
 set -euo pipefail
 gobo=$1
@@ -42,6 +42,39 @@ END
   grep -q '^2 of 3 permutations drawn by' output
   rm -r out
 done
+
+# A device that is lost at the second key: it alone is lost, the third has a device of its own.
+clip_space=$(dirname "$family")/../clip_space/clip_space.toml
+others=("$clip_space" --key default --key lifted=on --key flattened=on --backend vulkan -j 1 -o out)
+cat > lost.expected <<END
+gobo: error: the Vulkan driver answers vkQueueSubmit with VK_ERROR_DEVICE_LOST [lifted=on]
+  help: see whether a loop of the shaders ends, and what the system's log says; what it was given is in out/lifted-on.vert.spv and out/lifted-on.frag.spv
+END
+expect lost 1 'default.png flattened-on.png lifted-on.frag.spv lifted-on.vert.spv ' \
+  "${vulkan[@]}" RENDERER_LOST_AT=2 "$gobo" render "${others[@]}"
+rm -r out
+expect lost 1 'lifted-on.frag.spv lifted-on.vert.spv ' "${vulkan[@]}" RENDERER_LOST_AT=2 "$gobo" test "${others[@]}" --render
+rm -r out
+
+# A scene has one key, that of its last draw.
+"${vulkan[@]}" RENDERER_LOST_AT=1 "$gobo" render --scene "$(dirname "$family")/../scenes/teapot.gltf" --backend vulkan -o out 2> errors && exit 1 || [ $? -eq 1 ]
+grep -q '^gobo: error: the Vulkan driver answers vkQueueSubmit with VK_ERROR_DEVICE_LOST \[' errors
+[ "$(ls out | grep -c 'spv$')" -eq 2 ]
+rm -r out
+
+# What a driver prints is none of gobo's output.
+"${vulkan[@]}" RENDERER_TALKS=1 "$gobo" render "$family" --key default --backend vulkan -o out > output 2> errors
+echo out/default.png | diff - output
+grep -q '^the driver talks$' errors
+rm -r out
+
+# One that calls exit() as it is opened, within the loader's lock.
+cat > exits.expected <<END
+gobo: error: the renderer of --backend vulkan ended the process
+  help: try the other --backend, or another version of Mesa
+END
+mkdir out
+expect exits 3 '' "${vulkan[@]}" RENDERER_EXITS=1 timeout 30 "$gobo" render "$family" --key default --backend vulkan -o out
 
 # What is compared is the driver's verdict, and a crash is one.
 status=0

@@ -1,5 +1,7 @@
-// lavapipe that aborts where it gets SPIR-V that names abort_here. A test gives it to Vulkan's loader by
-// VK_ICD_FILENAMES, and Mesa's own by RENDERER_DRAWS.
+// lavapipe that aborts where it gets SPIR-V that names abort_here. RENDERER_LOST_AT is the submission of a process
+// at which its device is lost, RENDERER_TALKS has it print to standard output, and RENDERER_EXITS end the process
+// as it is opened. A test gives it to Vulkan's loader by VK_ICD_FILENAMES, and Mesa's own by RENDERER_DRAWS.
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -26,7 +28,24 @@ VkResult create_module(VkDevice device, const VkShaderModuleCreateInfo* info,
         device, info, allocator, module);
 }
 
+PFN_vkQueueSubmit mesas_submit = nullptr;
+
+VkResult submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* submissions, VkFence fence) {
+    static int number = 0;
+    if (std::getenv("RENDERER_TALKS") != nullptr) {
+        std::puts("the driver talks");
+        std::fflush(stdout);
+    }
+    const char* const lost_at = std::getenv("RENDERER_LOST_AT");
+    if (lost_at != nullptr && ++number >= std::atoi(lost_at)) return VK_ERROR_DEVICE_LOST;
+    return mesas_submit(queue, count, submissions, fence);
+}
+
 PFN_vkVoidFunction device_function(VkDevice device, const char* name) {
+    if (std::strcmp(name, "vkQueueSubmit") == 0) {
+        mesas_submit = reinterpret_cast<PFN_vkQueueSubmit>(device_functions(device, name));
+        return reinterpret_cast<PFN_vkVoidFunction>(&submit);
+    }
     if (std::strcmp(name, "vkCreateShaderModule") == 0)
         return reinterpret_cast<PFN_vkVoidFunction>(&create_module);
     return device_functions(device, name);
@@ -37,6 +56,7 @@ PFN_vkVoidFunction device_function(VkDevice device, const char* name) {
 extern "C" {
 
 PFN_vkVoidFunction vk_icdGetInstanceProcAddr(VkInstance instance, const char* name) {
+    if (std::getenv("RENDERER_EXITS") != nullptr) std::exit(0);
     const auto function = mesas<PFN_vkGetInstanceProcAddr>("vk_icdGetInstanceProcAddr")(instance, name);
     if (std::strcmp(name, "vkGetDeviceProcAddr") != 0) return function;
     device_functions = reinterpret_cast<PFN_vkGetDeviceProcAddr>(function);

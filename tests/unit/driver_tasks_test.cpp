@@ -70,6 +70,26 @@ INSTANTIATE_TEST_SUITE_P(Rows, DriverDeath,
                                          DeathRow{"killed", [] { std::raise(SIGKILL); }, "was killed"}),
                          [](const auto& row) { return std::string(row.param.name); });
 
+/// A driver that has answered with an error may answer so for ever: the next task has a process of its own.
+TEST(DriverTasks, AFailureOfTheDriverCostsItsTaskAlone) {
+    std::vector<std::string> texts(4);
+    DriverTasks<int, int> tasks{"the driver", texts.size(), 1};
+    tasks.open = [] { return Result<int>(0); };
+    tasks.work = [](int& asked, std::size_t, DriverClock& clock) -> Result<int> {
+        clock.begin(3);
+        if (++asked > 1) return fail(Fault::file, "the device is lost");
+        return asked;
+    };
+    tasks.done = [&](std::size_t task, Result<int> value, std::optional<int> death) {
+        texts[task] = value ? "done" : value.error().front().message;
+        if (death) texts[task] += " in part " + std::to_string(*death);
+        EXPECT_EQ(value ? 0 : exit_status(value.error()), death ? 1 : 0);
+    };
+    ASSERT_TRUE(ask_driver(tasks));
+    EXPECT_THAT(texts, testing::ElementsAre("done", "the device is lost in part 3", "done",
+                                            "the device is lost in part 3"));
+}
+
 TEST(DriverTasks, AnErrorOfOpeningIsTheOnlyError) {
     DriverTasks<int, int> tasks{"the driver", 3, 2};
     tasks.open = []() -> Result<int> { return fail(Fault::file, "there is no driver"); };

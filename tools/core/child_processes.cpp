@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -68,6 +69,8 @@ void set_limits(const ChildLimits& limits) {
     for (const int number : {SIGXCPU, SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
         std::signal(number, SIG_DFL);
     std::set_new_handler([] { _exit(kOutOfMemory); });
+    // What calls exit() may hold what its libraries' destructors wait for.
+    ::on_exit([](int status, void*) { _exit(status); }, nullptr);
 }
 
 /// The processor time of a process counts from its start.
@@ -177,6 +180,7 @@ class Pool {
             write_all(file, {reinterpret_cast<const char*>(&head), sizeof head});
             write_all(file, bytes);
             self.task = kNoTask;
+            if (self.note == kStartAnew) break;
         }
         _exit(0);
     }
@@ -241,6 +245,7 @@ class Pool {
                                                          : Death::crash;
         Shared::Child& last = shared_->children[place];
         std::size_t task = last.task.exchange(kNoTask);
+        if (task >= count_ && last.note.exchange(0) == kStartAnew) return start(place, kNoTask);
         if (task >= count_) return;  // all is done, or it died of itself: so would the next
         if (!is_done_[task] && !work_.died(task, last.note, death)) is_done_[task] = true;
         if (is_done_[task]) task = kNoTask;

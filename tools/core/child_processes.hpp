@@ -32,6 +32,8 @@ using Note = std::atomic<int>;
 
 /// While a note is this, ChildLimits::wall_seconds do not count.
 inline constexpr int kClockStands = -1;
+/// Where a task ends with this note, its process ends too, and a new one does the next.
+inline constexpr int kStartAnew = -2;
 
 struct ChildWork {
     /// In a child: the result of a task, as bytes.

@@ -330,8 +330,9 @@ Diagnostics with_kept_stages(const World& world, const std::string& folder, cons
     }
     for (Diagnostic& error : errors) {
         error.subject = key;
-        error.help = folder.empty() ? fmt::format("keep its {} with -o DIR", has_words ? "SPIR-V" : "stages")
-                                    : fmt::format("what it was given is in {}", join(paths, " and "));
+        if (!error.help.empty()) error.help += "; ";
+        error.help += folder.empty() ? fmt::format("keep its {} with -o DIR", has_words ? "SPIR-V" : "stages")
+                                     : fmt::format("what it was given is in {}", join(paths, " and "));
     }
     append(errors, problems);
     return errors;

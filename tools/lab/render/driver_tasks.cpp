@@ -1,6 +1,9 @@
 #include "lab/render/driver_tasks.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace gobo {
 
@@ -22,6 +25,14 @@ std::string ending_of(Death death, int seconds) {
 
 tl::unexpected<Diagnostics> fail_to_open(const std::string& driver, const std::string& ending) {
     return fail(Fault::file, driver + " " + ending, "try the other --backend, or another version of Mesa");
+}
+
+void send_output_to_errors() {
+    static_cast<void>(::dup2(STDERR_FILENO, STDOUT_FILENO));
+}
+
+bool is_of_driver(const Diagnostics& errors) {
+    return std::ranges::count(errors, Fault::file, &Diagnostic::fault) > 0;
 }
 
 }  // namespace gobo

@@ -167,7 +167,7 @@ Result<Framebuffer> make_framebuffer(const Context& context, int width, int heig
     attach(GL_COLOR_ATTACHMENT0, GL_RGBA32F);
     attach(GL_DEPTH_ATTACHMENT, depth == DepthFormat::bits24 ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32F);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return fail(Fault::file,
+        return fail(Fault::input,
                     fmt::format("the driver gives no framebuffer of {} x {} float pixels", width, height));
     return framebuffer;
 }

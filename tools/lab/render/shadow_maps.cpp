@@ -264,8 +264,8 @@ Result<ShadowMaps> draw_shadow_maps(const Context& context, const DepthPass& pas
     for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
         maps.attach(static_cast<int>(i));
         if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            return fail(Fault::file, fmt::format("the driver gives no {} shadow maps of {} x {} texels",
-                                                 plan.cameras.size(), pass.side, pass.side));
+            return fail(Fault::input, fmt::format("the driver gives no {} shadow maps of {} x {} texels",
+                                                  plan.cameras.size(), pass.side, pass.side));
         GOBO_TRY_DO(draw_one(context, program, pass, plan.cameras[i], whole, with_holes));
     }
     return maps;

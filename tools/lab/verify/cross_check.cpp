@@ -208,18 +208,13 @@ std::vector<ShadowLight> all_lights(const Composition& composition, const CrossC
 }
 
 /// The maps of all of them.
-ShadowMapReport compare_maps(Renderer& renderer, const std::vector<ShadowLight>& lights,
-                             const CrossCheckScene& scene, DriverClock& clock) {
-    const auto maps = renderer.draw_maps(lights);
+Result<ShadowMapReport> compare_maps(Renderer& renderer, const std::vector<ShadowLight>& lights,
+                                     const CrossCheckScene& scene, DriverClock& clock) {
+    GOBO_TRY(const auto maps, renderer.draw_maps(lights));
     clock.stop();
-    if (!maps) {
-        ShadowMapReport report;
-        report.diagnostics = maps.error();
-        return report;
-    }
     const ShadowPlan plan =
         shadow_plan(lights, scene.objects, scene.view.camera.view(), scene.shadow_pass->pass.side);
-    return compare_shadow_maps(*maps, *scene.shadow_pass, plan.cameras, scene.objects);
+    return compare_shadow_maps(maps, *scene.shadow_pass, plan.cameras, scene.objects);
 }
 
 /// What a child process found out: of a picture, or of the maps.
@@ -257,7 +252,7 @@ Result<CrossCheckReport> cross_check(const std::string& driver, std::optional<Ba
         Compared compared;
         compared.renderer = renderer->name();
         if (i == permutations.size()) {
-            compared.maps = compare_maps(*renderer, lights, scene, clock);
+            GOBO_TRY(compared.maps, compare_maps(*renderer, lights, scene, clock));
             return compared;
         }
         GOBO_TRY(Drawn drawn, renderer->draw(permutations[i]));

@@ -1,6 +1,7 @@
 #include "lab/vulkan/device.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include <dlfcn.h>
@@ -174,8 +175,30 @@ Result<void> make_device(Device::State& state, const Chosen& chosen) {
 }  // namespace
 
 tl::unexpected<Diagnostics> fail_call(const char* function, VkResult result) {
+    struct Row {
+        VkResult result;
+        const char* name;
+        const char* help;
+    };
+    constexpr const char* kLost = "see whether a loop of the shaders ends, and what the system's log says";
+    constexpr const char* kMemory = "draw fewer pictures at a time (-j 1), or smaller ones";
+    constexpr const char* kOther = "try another driver: VK_ICD_FILENAMES chooses it";
+    constexpr std::array<Row, 8> kRows = {{
+        {VK_ERROR_DEVICE_LOST, "VK_ERROR_DEVICE_LOST", kLost},
+        {VK_ERROR_OUT_OF_HOST_MEMORY, "VK_ERROR_OUT_OF_HOST_MEMORY", kMemory},
+        {VK_ERROR_OUT_OF_DEVICE_MEMORY, "VK_ERROR_OUT_OF_DEVICE_MEMORY", kMemory},
+        {VK_ERROR_OUT_OF_POOL_MEMORY, "VK_ERROR_OUT_OF_POOL_MEMORY", kMemory},
+        {VK_ERROR_MEMORY_MAP_FAILED, "VK_ERROR_MEMORY_MAP_FAILED", kMemory},
+        {VK_ERROR_INITIALIZATION_FAILED, "VK_ERROR_INITIALIZATION_FAILED", kOther},
+        {VK_ERROR_FEATURE_NOT_PRESENT, "VK_ERROR_FEATURE_NOT_PRESENT", kOther},
+        {VK_ERROR_UNKNOWN, "VK_ERROR_UNKNOWN", kOther},
+    }};
+    const auto row = std::ranges::find(kRows, result, &Row::result);
+    const bool is_known = row != kRows.end();
     return fail(Fault::file,
-                fmt::format("the Vulkan driver answers {} with {}", function, static_cast<int>(result)));
+                fmt::format("the Vulkan driver answers {} with {}", function,
+                            is_known ? row->name : fmt::format("VkResult {}", static_cast<int>(result))),
+                is_known ? row->help : kOther);
 }
 
 Device::State::~State() {

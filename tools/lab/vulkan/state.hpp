@@ -21,35 +21,36 @@ namespace gobo::vulkan {
     if (const VkResult vulkan_result = vk.function(__VA_ARGS__); vulkan_result != VK_SUCCESS) \
     return ::gobo::vulkan::fail_call(#function, vulkan_result)
 
-#define GOBO_VULKAN_INSTANCE_FUNCTIONS(DO)                                                                  \
-    DO(vkDestroyInstance)                                                                                   \
-    DO(vkEnumeratePhysicalDevices)                                                                          \
-    DO(vkGetPhysicalDeviceProperties2)                                                                      \
-    DO(vkGetPhysicalDeviceFeatures)                                                                         \
-    DO(vkGetPhysicalDeviceMemoryProperties) DO(vkGetPhysicalDeviceQueueFamilyProperties) DO(vkCreateDevice) \
-        DO(vkGetDeviceProcAddr)
+#define GOBO_VULKAN_INSTANCE_FUNCTIONS(DO)  \
+    DO(vkDestroyInstance)                   \
+    DO(vkEnumeratePhysicalDevices)          \
+    DO(vkGetPhysicalDeviceProperties2)      \
+    DO(vkGetPhysicalDeviceFeatures)         \
+    DO(vkGetPhysicalDeviceMemoryProperties) \
+    DO(vkGetPhysicalDeviceQueueFamilyProperties) DO(vkCreateDevice) DO(vkGetDeviceProcAddr)
 
 #define GOBO_VULKAN_DEVICE_FUNCTIONS(DO)                                                                     \
     DO(vkDestroyDevice)                                                                                      \
     DO(vkGetDeviceQueue)                                                                                     \
     DO(vkCreateCommandPool)                                                                                  \
     DO(vkDestroyCommandPool)                                                                                 \
-    DO(vkAllocateCommandBuffers) DO(vkFreeCommandBuffers) DO(vkBeginCommandBuffer) DO(                       \
-        vkEndCommandBuffer) DO(vkQueueSubmit) DO(vkQueueWaitIdle) DO(vkCreateBuffer) DO(vkDestroyBuffer)     \
-        DO(vkGetBufferMemoryRequirements) DO(vkBindBufferMemory) DO(vkCreateImage) DO(vkDestroyImage) DO(    \
-            vkGetImageMemoryRequirements) DO(vkBindImageMemory) DO(vkAllocateMemory) DO(vkFreeMemory)        \
-            DO(vkMapMemory) DO(vkUnmapMemory) DO(vkCreateImageView) DO(vkDestroyImageView) DO(               \
-                vkCreateSampler) DO(vkDestroySampler) DO(vkCreateShaderModule) DO(vkDestroyShaderModule)     \
-                DO(vkCreateDescriptorSetLayout) DO(vkDestroyDescriptorSetLayout) DO(vkCreatePipelineLayout)  \
-                    DO(vkDestroyPipelineLayout) DO(vkCreateDescriptorPool) DO(vkDestroyDescriptorPool)       \
-                        DO(vkAllocateDescriptorSets) DO(vkUpdateDescriptorSets) DO(vkCreateRenderPass)       \
-                            DO(vkDestroyRenderPass) DO(vkCreateFramebuffer) DO(vkDestroyFramebuffer)         \
-                                DO(vkCreateGraphicsPipelines) DO(vkDestroyPipeline) DO(vkCmdBeginRenderPass) \
-                                    DO(vkCmdEndRenderPass) DO(vkCmdBindPipeline) DO(vkCmdBindDescriptorSets) \
-                                        DO(vkCmdBindVertexBuffers) DO(vkCmdBindIndexBuffer)                  \
-                                            DO(vkCmdDrawIndexed) DO(vkCmdPushConstants)                      \
-                                                DO(vkCmdPipelineBarrier) DO(vkCmdCopyBufferToImage)          \
-                                                    DO(vkCmdCopyImageToBuffer)
+    DO(vkAllocateCommandBuffers)                                                                             \
+    DO(vkFreeCommandBuffers)                                                                                 \
+    DO(vkBeginCommandBuffer) DO(vkEndCommandBuffer) DO(vkQueueSubmit) DO(vkQueueWaitIdle) DO(vkCreateBuffer) \
+        DO(vkDestroyBuffer) DO(vkGetBufferMemoryRequirements) DO(vkBindBufferMemory) DO(vkCreateImage) DO(   \
+            vkDestroyImage) DO(vkGetImageMemoryRequirements) DO(vkBindImageMemory) DO(vkAllocateMemory)      \
+            DO(vkFreeMemory) DO(vkMapMemory) DO(vkUnmapMemory) DO(vkCreateImageView) DO(vkDestroyImageView)  \
+                DO(vkCreateSampler) DO(vkDestroySampler) DO(vkCreateShaderModule) DO(vkDestroyShaderModule)  \
+                    DO(vkCreateDescriptorSetLayout) DO(vkDestroyDescriptorSetLayout) DO(                     \
+                        vkCreatePipelineLayout) DO(vkDestroyPipelineLayout) DO(vkCreateDescriptorPool)       \
+                        DO(vkDestroyDescriptorPool) DO(vkAllocateDescriptorSets) DO(vkUpdateDescriptorSets)  \
+                            DO(vkCreateRenderPass) DO(vkDestroyRenderPass) DO(vkCreateFramebuffer)           \
+                                DO(vkDestroyFramebuffer) DO(vkCreateGraphicsPipelines) DO(vkDestroyPipeline) \
+                                    DO(vkCmdBeginRenderPass) DO(vkCmdEndRenderPass) DO(vkCmdBindPipeline)    \
+                                        DO(vkCmdBindDescriptorSets) DO(vkCmdBindVertexBuffers)               \
+                                            DO(vkCmdBindIndexBuffer) DO(vkCmdDrawIndexed)                    \
+                                                DO(vkCmdPushConstants) DO(vkCmdPipelineBarrier)              \
+                                                    DO(vkCmdCopyBufferToImage) DO(vkCmdCopyImageToBuffer)
 
 #define GOBO_VULKAN_DECLARE(function) PFN_##function function = nullptr;
 struct Functions {
