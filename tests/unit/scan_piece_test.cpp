@@ -1,6 +1,8 @@
 // What the composer reads of one file.
 #include "compose/scan_piece.hpp"
 
+#include <ctime>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -221,8 +223,21 @@ TEST(ScanPiece, AllowsExtensionsAboveIncludes) {
 struct BadPieceRow {
     const char* name;
     std::string text;
-    const char* message;
+    std::string message;
 };
+
+std::string times(int count, std::string_view text) {
+    std::string result;
+    for (int i = 0; i < count; ++i) result += text;
+    return result;
+}
+
+BadPieceRow nested_statements(const char* name, std::string_view head) {
+    const std::string text = times(2000, head) + "c;\n";
+    return {name, text,
+            "a.glsl:1: error: statements are nested more than 1000 deep, each `else if` counted\n    " +
+                text.substr(0, 80) + "\n  help: split the expression or the function\n"};
+}
 
 class BadPiece : public testing::TestWithParam<BadPieceRow> {};
 
@@ -277,7 +292,14 @@ INSTANTIATE_TEST_SUITE_P(
                     std::string(201, '\n') + std::string(150, '{') + "\n" + std::string(51, '{') + "\n",
                     "a.glsl:203: error: brackets are nested more than 200 deep\n"
                     "    {{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{{\n"
-                    "  help: split the expression or the function\n"}),
+                    "  help: split the expression or the function\n"},
+        nested_statements("ifs_in_one_another", "if(a)"),
+        nested_statements("loops_in_one_another", "for(;;)"), nested_statements("do_in_one_another", "do "),
+        nested_statements("long_chain_of_else_if", "if(a)b;else "),
+        BadPieceRow{"more_includes_than_a_stage_takes", "int a;\n" + times(10'001, "#include <b>\n"),
+                    "a.glsl:10002:1: error: this file has more than 10000 #includes below its top\n"
+                    "    #include <b>\n    ^\n"
+                    "  help: include files at the top, or from one another\n"}),
     [](const auto& row) { return row.param.name; });
 
 TEST(ScanPiece, TakesTheVersionsOfGlsl) {
@@ -288,6 +310,39 @@ TEST(ScanPiece, TakesTheVersionsOfGlsl) {
          {"", "1", "0", "450a", "450 es", "300", "300 core", "140 core", "330 Core", "-330", "0x14A",
           "330 core core", "450\x1b[31m", "450 \xE2\x80\xA8", "99999999999999999999", "4.5"})
         EXPECT_FALSE(scan_piece(std::string("#version ") + version, "a")) << version;
+}
+
+struct LongTextRow {
+    const char* name;
+    std::string text;
+};
+
+class LongText : public testing::TestWithParam<LongTextRow> {};
+
+/// Processor time: a tenth of a second, some hundred times that where each line or comment looks at all those
+/// before it.
+TEST_P(LongText, IsReadInSeconds) {
+    const std::clock_t start = std::clock();
+    EXPECT_TRUE(scan_piece(GetParam().text, "a.glsl"));
+    EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, LongText,
+    testing::Values(LongTextRow{"conditions", times(150'000, "#if 1\n") + times(150'000, "#endif\n")},
+                    LongTextRow{"branches", "#if 0\n" + times(300'000, "#elif 0\n") + "#endif\n"},
+                    LongTextRow{"macros", times(300'000, "#define A 1\n")},
+                    LongTextRow{"comments_on_one_line", times(1'500'000, "/**/")},
+                    LongTextRow{"comments_that_take_in_lines", times(150'000, "// a\\\nb\n")},
+                    LongTextRow{"words_behind_endif", times(150'000, "#if 1\n#endif A\n")},
+                    LongTextRow{"semicolons", times(1'500'000, ";")},
+                    LongTextRow{"blocks_without_layout", times(150'000, "uniform A{int a;};\n")}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(ScanPiece, TakesStatementsThatAreEndedAgain) {
+    for (const char* text : {"while (a) b;", "if (a) b; else c;", "do a; while (b);", "for (;;) { a; }",
+                             "if (a) { b; } else if (c) { d; } e;", "case 1: case 2: default:"})
+        EXPECT_TRUE(scan_piece(times(5000, text), "a.glsl")) << text;
 }
 
 TEST(ScanPiece, TakesDeepNestingThatIsClosedAgain) {

@@ -13,6 +13,7 @@ bool is_blank(std::string_view text) {
 struct JoinedText {
     std::string text;
     std::vector<std::size_t> joins;  ///< where in `text` a line end was taken out
+    std::vector<std::size_t> ends;   ///< of its lines
 
     /// Whether a `//` comment takes in more than blanks and another such comment.
     [[nodiscard]] bool takes_in_code(std::size_t begin, std::size_t end) const {
@@ -23,17 +24,21 @@ struct JoinedText {
     }
     /// The line of the file that a character stands on.
     [[nodiscard]] int line_at(std::size_t at) const {
-        const auto place = text.begin() + static_cast<std::ptrdiff_t>(at);
-        const std::size_t start = text.substr(0, at).rfind('\n') + 1;
+        const auto end = std::ranges::lower_bound(ends, at);
+        const std::size_t start = end == ends.begin() ? 0 : end[-1] + 1;
         return static_cast<int>(
-            1 + std::count(text.begin(), place, '\n') +
-            std::ranges::count_if(joins, [&](std::size_t join) { return join >= start && join <= at; }));
+            1 + (end - ends.begin()) +
+            (std::ranges::upper_bound(joins, at) - std::ranges::lower_bound(joins, start)));
     }
 };
 
 JoinedText join_lines(std::string_view text) {
     JoinedText joined;
     std::size_t owed = 0;
+    const auto put_end = [&] {
+        joined.ends.push_back(joined.text.size());
+        joined.text += '\n';
+    };
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text.substr(i).starts_with("\\\n")) {
             joined.joins.push_back(joined.text.size());
@@ -41,8 +46,11 @@ JoinedText join_lines(std::string_view text) {
             ++i;
             continue;
         }
-        joined.text += text[i];
-        if (text[i] == '\n') joined.text.append(std::exchange(owed, 0), '\n');
+        if (text[i] != '\n') {
+            joined.text += text[i];
+            continue;
+        }
+        for (put_end(); owed > 0; --owed) put_end();
     }
     joined.text.append(owed, '\n');
     return joined;
@@ -80,37 +88,36 @@ class CommentCutter {
     void put(char text, char code) {
         clean_.text += text;
         clean_.code += code;
+        has_code_ = has_code_ || (code != ' ' && code != '\t');
+        has_quotation_ = has_quotation_ || code == '"';
+        if (code == '\n') has_code_ = has_quotation_ = false;
     }
     void end_line() {
         for (; owed_ > 0; --owed_) put('\n', '\n');
-        line_start_ = clean_.code.size();
     }
 
     /// Cuts the comment from `begin` to `end`, which is returned.
     std::size_t cut(std::size_t begin, std::size_t end) {
         const std::string_view comment = std::string_view(joined_.text).substr(begin, end - begin);
-        const std::string_view behind =
-            std::string_view(joined_.text).substr(end, joined_.text.find('\n', end) - end);
-        const std::string_view before = std::string_view(clean_.code).substr(line_start_);
         // Amid a line, such as a directive, a comment is a blank, however many lines it takes.
-        if (comment.find('\n') != std::string_view::npos && !is_blank(before) && !is_blank(behind)) {
+        if (has_code_ && comment.find('\n') != std::string_view::npos &&
+            !is_blank(std::string_view(joined_.text).substr(end, joined_.text.find('\n', end) - end))) {
             owed_ += std::ranges::count(comment, '\n');
             put(' ', ' ');
             return end;
         }
         // To glslang what stands behind a quotation mark is a string, to others it may be a comment.
-        const bool is_disputed = before.find('"') != std::string_view::npos;
-        for (const char character : comment) {
+        const bool is_disputed = has_quotation_;
+        for (const char character : comment)
             put(is_disputed && character != '\n' ? ' ' : character, character == '\n' ? '\n' : ' ');
-            if (character == '\n') line_start_ = clean_.code.size();
-        }
         return end;
     }
 
     const JoinedText& joined_;
     CleanText clean_;
-    std::ptrdiff_t owed_ = 0;     ///< line ends of comments amid the current line
-    std::size_t line_start_ = 0;  ///< of the current line in clean_.code
+    std::ptrdiff_t owed_ = 0;  ///< line ends of comments amid the current line
+    bool has_code_ = false;    ///< the current line, so far
+    bool has_quotation_ = false;
 };
 
 }  // namespace

@@ -94,12 +94,14 @@ class Composer {
         Piece prologue{
             "prologue", "prologue",
             stage_prologue(family_, composition_.dialect, placement, mentions, library_, specialized), false};
-        for (const auto& [name, extension] : placement.extensions) {
-            const auto at =
-                prologue.text.begin() +
-                static_cast<std::ptrdiff_t>(prologue.text.find(fmt::format("#extension {} ", name)));
-            const auto line = static_cast<int>(1 + std::count(prologue.text.begin(), at, '\n'));
-            prologue.moved_lines[line] = {extension.place, extension.line};
+        int line = 0;
+        for (std::string_view rest = prologue.text; !rest.empty(); rest.remove_prefix(rest.find('\n') + 1)) {
+            ++line;
+            constexpr std::string_view word = "#extension ";
+            if (!rest.starts_with(word)) continue;
+            const std::string name(rest.substr(word.size(), rest.find(' ', word.size()) - word.size()));
+            if (const auto stated = placement.extensions.find(name); stated != placement.extensions.end())
+                prologue.moved_lines[line] = {stated->second.place, stated->second.line};
         }
         for (const Feature& feature : family_.features) {  // as macros of features, at those
             auto at = prologue.text.find(fmt::format("#define {} ", feature.macro));

@@ -15,12 +15,31 @@
 namespace gobo {
 namespace {
 
+constexpr int kMostIncludesBelow = 10'000;
+
 using Tokens = std::span<const std::string_view>;
 
 /// The line that a character of the text stands on.
 int line_at(std::string_view text, const char* at) {
     return 1 + static_cast<int>(std::count(text.data(), at, '\n'));
 }
+
+/// Lines of a text, asked for in their order.
+class LineReader {
+  public:
+    explicit LineReader(std::string_view text) : rest_(text) {}
+
+    /// The line of a number that is no smaller than the last one; empty behind the end.
+    std::string_view line(int number) {
+        for (; number_ < number && !rest_.empty(); ++number_)
+            rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size() - 1) + 1);
+        return rest_.substr(0, rest_.find('\n'));
+    }
+
+  private:
+    std::string_view rest_;
+    int number_ = 1;
+};
 
 Diagnostic warning(const Place& place, std::string_view quoted_line, std::string message, std::string help) {
     Diagnostic diagnostic = fail(place, quoted_line, std::move(message), std::move(help)).value().front();
@@ -57,14 +76,18 @@ Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_v
                              const std::string& path) {
     Diagnostics warnings;
     bool is_stated = false;  // in the declaration so far
+    int line = 1;            // that `from` stands on
+    const char* from = code.data();
+    LineReader lines(text);
     for (; !tokens.empty(); tokens = tokens.subspan(1)) {
         const std::string_view token = tokens.front();
         if (token == "std140") is_stated = true;
         if (are(tokens, {"uniform", ";"}) && is_stated) return {};  // for all blocks
         if (are(tokens, {"uniform", "name", "{"}) && tokens[1] != "struct" && !is_stated) {
-            const int line = line_at(code, tokens[1].data());
+            line += static_cast<int>(std::count(from, tokens[1].data(), '\n'));
+            from = tokens[1].data();
             warnings.push_back(warning(
-                {path, line, 0}, line_of(text, line),
+                {path, line, 0}, lines.line(line),
                 fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
                             tokens[1]),
                 "write layout(std140) before uniform, or ask the driver for every offset"));
@@ -88,8 +111,15 @@ class Scanner {
 
     Result<ScannedPiece> run() {
         number_own_lines();
+        LineReader lines(file_);
         for (std::size_t start = 0, number = 1; start < clean_.code.size(); ++number) {
             const std::size_t end = clean_.code.find('\n', start);
+            line_ = lines.line(static_cast<int>(number));
+            if (std::ranges::binary_search(clean_.joined_comments, static_cast<int>(number)))
+                result_.warnings.push_back(
+                    warning({path_, static_cast<int>(number), 0}, line_,
+                            "this comment takes in the next line, since it ends in '\\'",
+                            "write something behind the '\\'"));
             GOBO_TRY_DO(scan_line(static_cast<int>(number), start, end));
             start = end + 1;
         }
@@ -105,10 +135,6 @@ class Scanner {
         for (StatedBinding& stated : bindings_of(tokens))
             result_.bindings[std::move(stated.name)] = stated.binding;
         result_.unstated_layouts = unstated_layouts(tokens, clean_.code, file_, path_);
-        for (const int line : clean_.joined_comments)
-            result_.warnings.push_back(warning({path_, line, 0}, line_of(file_, line),
-                                               "this comment takes in the next line, since it ends in '\\'",
-                                               "write something behind the '\\'"));
         result_.code = without_trailing_blanks(clean_.code);
         result_.text = without_trailing_blanks(clean_.text);
         return std::move(result_);
@@ -157,7 +183,7 @@ class Scanner {
             GOBO_TRY(const bool is_taken, take({std::string(word),
                                                 std::string(trim(rest.substr(word.size()))),
                                                 {path_, number, column},
-                                                std::string(line_of(file_, number))}));
+                                                std::string(line_)}));
             if (is_taken) return blank(start, end);
             if (word == "else" || word == "endif") drop_words(start, end, word, number);
             if (word == "error" || word == "pragma") close_quotation(start, end, ' ');
@@ -197,6 +223,12 @@ class Scanner {
         } else if (word != "define" && word != "undef" && word != "include") {
             return false;
         }
+        // Each parts the file, and each part has lines before it.
+        if (word == "include" && ++includes_below_ > kMostIncludesBelow)
+            return fail_at(
+                directive,
+                fmt::format("this file has more than {} #includes below its top", kMostIncludesBelow),
+                "include files at the top, or from one another");
         const bool is_blanked = word == "include" || word == "extension";
         result_.directives.push_back(std::move(directive));
         return is_blanked;
@@ -240,7 +272,7 @@ class Scanner {
         Nesting& nesting = trim(code).starts_with('#') ? of_directive : nesting_;
         for (const std::string_view token : tokens_of(code))
             if (const std::optional<std::string> excess = nesting.add(token))
-                return fail({path_, number, 0}, line_of(file_, number).substr(0, 80), *excess,
+                return fail({path_, number, 0}, line_.substr(0, 80), *excess,
                             "split the expression or the function");
         return {};
     }
@@ -304,7 +336,7 @@ class Scanner {
         const std::size_t begin = clean_.code.find(word, start) + word.size();
         if (trim(std::string_view(clean_.code).substr(begin, end - begin)).empty()) return;
         result_.warnings.push_back(
-            warning({path_, number, 0}, line_of(file_, number),
+            warning({path_, number, 0}, line_,
                     fmt::format("words behind #{} are left out: to some drivers they are an error", word),
                     "make them a comment"));
         for (std::size_t at = begin; at < end; ++at)
@@ -350,9 +382,13 @@ class Scanner {
                 (is_first || (i > 0 && (tokens[i - 1] == ";" || (tokens[i - 1] == "}" && is_function))));
             // What stands behind a directive may be the end of one branch alone.
             const std::size_t at = place_of(i);
-            if (is_alone && (is_first || clean_.code.find('#', place_of(i - 1)) > at))
-                clean_.text[at] = clean_.code[at] = ' ';
-            if (token == ";" || (token == "}" && is_function)) head = i + 1;
+            const auto is_behind_directive = [&] {
+                const std::size_t before = place_of(i - 1);
+                return std::string_view(clean_.code).substr(before, at - before).find('#') !=
+                       std::string_view::npos;
+            };
+            if (is_alone && (is_first || !is_behind_directive())) clean_.text[at] = clean_.code[at] = ' ';
+            if (token == ";" || token == "}") head = i + 1;
         }
     }
 
@@ -384,6 +420,8 @@ class Scanner {
     CleanText clean_;
     ScannedPiece result_;
     std::vector<Condition> open_;
+    std::string_view line_;  ///< of the file, that is being read
+    int includes_below_ = 0;
     bool seen_code_ = false;
     bool is_guarded_ = true;
     Nesting nesting_;

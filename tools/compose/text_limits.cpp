@@ -18,6 +18,8 @@ namespace {
 // real shader comes near.
 constexpr std::size_t kDeepestNesting = 200;
 constexpr int kMostOperators = 2000;
+/// Its parser's stack has 10,000 places, of which an `else if` takes seven.
+constexpr int kDeepestStatements = 1000;
 /// An instruction of SPIR-V has 65,535 words.
 constexpr int kMostElements = 65'000;
 constexpr double kMostTokens = 1e6;
@@ -101,9 +103,27 @@ class MacroSizes {
 
 }  // namespace
 
+/// Statements in statements: `if (a) for (;;) if (b) c; else if (d) e;`
+void Nesting::follow_statement(Level& level, std::string_view token) {
+    const bool ends_loop = level.is_ended && level.loops > 0 && token == "while";
+    if (ends_loop) --level.loops;
+    if (level.is_ended && !ends_loop && token != "else") level.statements = level.loops = 0;
+    level.is_ended = false;
+    if (ends_loop || token == "else") return;
+    if (token == "do") ++level.loops;
+    const bool holds_another =
+        token == "if" || token == "for" || token == "while" || token == "do" || token == "switch";
+    if (holds_another) ++level.statements;
+    if (token == "case" || token == "default") level.is_label = true;
+    const bool ends_label = token == ":" && level.is_label;
+    if (ends_label) level.is_label = false;
+    if (holds_another || ends_label) level.operators = 0;
+}
+
 std::optional<std::string> Nesting::add(std::string_view token) {
     const std::string_view before = std::exchange(before_, token);
     const char first = token.front();
+    follow_statement(levels_.back(), token);
     if (first == '(' || first == '[' || first == '{') {
         const bool is_list = first == '{' ? before == "=" || before == "," || before == "{" || before == "("
                                           : ends_operand(before);
@@ -111,9 +131,13 @@ std::optional<std::string> Nesting::add(std::string_view token) {
         levels_.push_back({is_list});
     } else if (first == ')' || first == ']' || first == '}') {
         if (levels_.size() > 1) levels_.pop_back();
-        if (first == '}') levels_.back().operators = 0;
+        if (first == '}') {
+            levels_.back().operators = 0;
+            levels_.back().is_ended = true;
+        }
     } else if (first == ';' || (first == ',' && levels_.back().is_list)) {
         levels_.back().operators = 0;
+        levels_.back().is_ended = first == ';';
         if (first == ',' && ++levels_.back().elements == kMostElements)
             return fmt::format("a list has more than {} elements", kMostElements);
     } else if (token == "." || (!is_identifier_part(first) && first != '.')) {
@@ -121,6 +145,9 @@ std::optional<std::string> Nesting::add(std::string_view token) {
     }
     if (levels_.size() > kDeepestNesting + 1)
         return fmt::format("brackets are nested more than {} deep", kDeepestNesting);
+    if (levels_.back().statements > kDeepestStatements)
+        return fmt::format("statements are nested more than {} deep, each `else if` counted",
+                           kDeepestStatements);
     if (levels_.back().operators > kMostOperators)
         return fmt::format("an expression has more than {} operators", kMostOperators);
     return std::nullopt;

@@ -24,7 +24,13 @@ class Nesting {
         bool is_list = false;  ///< its commas part expressions: a call, an initialiser
         int operators = 0;     ///< of the expression so far
         int elements = 0;      ///< of the list so far
+        int statements = 0;    ///< that the one being read stands in, without braces between
+        int loops = 0;         ///< of these, `do` whose `while` is to come
+        bool is_ended = true;  ///< the statement before is, but for an `else` or the `while` of a `do`
+        bool is_label = false;
     };
+
+    void follow_statement(Level& level, std::string_view token);
 
     std::vector<Level> levels_ = std::vector<Level>(1);
     std::string_view before_ = ";";

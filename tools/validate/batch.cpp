@@ -94,15 +94,21 @@ BatchResult BatchWorker::work_off(const Batch& batch, const GivenUp& given_up, N
     for (const std::size_t program : batch.programs)
         for (const int stage : programs_[program]) ++programs_left[stage];
     std::erase_if(parsed_, [&](const auto& entry) { return !programs_left.contains(entry.first); });
+    std::set<int> linked;
     BatchResult result;
     for (const std::size_t number : batch.programs) {
         const Program& program = programs_[number];
+        const auto stopped = given_up.find(note_of_program(number));
         bool are_fine = true;
         for (const int stage : program) are_fine = parsed(stage, given_up, note).is_fine && are_fine;
         if (are_fine && program.size() > 1)
             result.programs.push_back({number, link_program(number, given_up, note)});
+        if (stopped == given_up.end()) linked.insert(program.begin(), program.end());
         for (const int stage : program) {
             if (--programs_left[stage] > 0) continue;
+            // What took linking too long, generating would take too long again.
+            if (stage == program.back() && !linked.contains(stage) && parsed_.at(stage).is_fine)
+                parsed_.at(stage) = {nullptr, false, stopped->second};
             // Not before its last program: glslang assigns locations then, which would disturb later links.
             if (std::ranges::binary_search(batch.own, stage)) result.stages.push_back(generate(stage, note));
             const auto at = parsed_.find(stage);
