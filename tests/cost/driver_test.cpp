@@ -32,10 +32,10 @@ std::string text_of(const CompiledPipeline& pipeline) {
 }
 
 TEST(FakeDriver, CostsNobodyElseTheirFigures) {
-    const std::vector<Pipeline> pipelines = {pipeline_named("fine"),      pipeline_named("abort_here"),
-                                             pipeline_named("also_fine"), pipeline_named("hang_here"),
-                                             pipeline_named("exit_here"), pipeline_named("refuse_here"),
-                                             pipeline_named("fine_again")};
+    const std::vector<Pipeline> pipelines = {pipeline_named("fine"),       pipeline_named("abort_here"),
+                                             pipeline_named("also_fine"),  pipeline_named("hang_here"),
+                                             pipeline_named("exit_here"),  pipeline_named("refuse_here"),
+                                             pipeline_named("fault_here"), pipeline_named("fine_again")};
     const auto answers = compile(chips_of({"navi21", "vega10"}), pipelines,
                                  {.driver = GOBO_FAKE_DRIVER, .jobs = 3, .time_limit = 4});
     ASSERT_EQ(answers.size(), 2U);
@@ -44,9 +44,12 @@ TEST(FakeDriver, CostsNobodyElseTheirFigures) {
         EXPECT_EQ(answer->driver, "fake 1.0");
         std::vector<std::string> texts;
         for (const CompiledPipeline& pipeline : answer->pipelines) texts.push_back(text_of(pipeline));
-        EXPECT_THAT(texts, ElementsAre("42 cycles", "was ended by signal 6 (Aborted)", "42 cycles",
+        EXPECT_THAT(texts, ElementsAre("42 cycles", "crashed with signal 6 (Aborted)", "42 cycles",
                                        "gave no answer within 4 s", "ended with status 0",
-                                       "answered vkCreateShaderModule with -2", "42 cycles"));
+                                       "answered vkCreateShaderModule with -2",
+                                       "crashed with signal 11 (Segmentation fault); before that it printed: "
+                                       "fake: of something else",
+                                       "42 cycles"));
     }
 }
 
@@ -72,13 +75,13 @@ TEST_P(BadDrivers, AreErrorsThatSayWhatToInstall) {
 INSTANTIATE_TEST_SUITE_P(
     Cost, BadDrivers,
     testing::Values(BadDriver{"KnowsNoSuchChip", "tahiti", GOBO_FAKE_DRIVER,
-                              "tahiti: the driver was ended by signal 6 (Aborted): fake: unknown chip",
+                              "tahiti: the driver crashed with signal 6 (Aborted): fake: unknown chip",
                               "a newer mesa-vulkan-drivers may know it"},
                     BadDriver{"KnowsTheChipByAnotherName", "gfx1100", GOBO_FAKE_DRIVER,
-                              "gfx1100: the driver was ended by signal 6 (Aborted): fake: unknown chip",
+                              "gfx1100: the driver crashed with signal 6 (Aborted): fake: unknown chip",
                               "newer drivers know it as navi31: write --gpu navi31"},
                     BadDriver{"CrashesAsItIsLoaded", "hawaii", GOBO_FAKE_DRIVER,
-                              "hawaii: the driver was ended by signal 6 (Aborted)",
+                              "hawaii: the driver crashed with signal 6 (Aborted)",
                               "'gobo cost --gpu list' says of which chips this driver has figures"},
                     BadDriver{"HasNoDevice", "pitcairn", GOBO_FAKE_DRIVER, "has no device", "--gpu list"},
                     BadDriver{"TellsNothing", "bonaire", GOBO_FAKE_DRIVER,
@@ -278,7 +281,7 @@ TEST_F(Mesa, TakesPlainUniformsAsABlock) {
 TEST_F(Mesa, SaysThatItDoesNotKnowAChip) {
     const auto answers = compile({Chip{"navi99", "", ""}}, {}, {});
     EXPECT_THAT(answers.front().error().front().message,
-                HasSubstr("navi99: the driver was ended by signal 6"));
+                HasSubstr("navi99: the driver crashed with signal 6"));
 }
 
 }  // namespace

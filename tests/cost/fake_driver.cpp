@@ -1,5 +1,6 @@
 // A Vulkan driver that compiles nothing: it does what the fragment stage is named after. Tests load it in
 // place of Mesa's.
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -49,6 +50,10 @@ void features(VkPhysicalDevice, VkPhysicalDeviceFeatures2* told) {
 VkResult create_module(VkDevice, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks*,
                        VkShaderModule*) {
     const char* family = std::getenv("RADV_FORCE_FAMILY");
+    if (holds(*info, "fault_here")) {
+        static_cast<void>(::write(STDERR_FILENO, "fake: of something else\n", 24));
+        std::raise(SIGSEGV);
+    }
     if (holds(*info, "abort_here") || std::strcmp(family, "FIJI") == 0) std::abort();
     while (holds(*info, "hang_here")) ::pause();
     if (holds(*info, "exit_here")) ::_exit(0);

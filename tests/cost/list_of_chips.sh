@@ -9,7 +9,7 @@ pitcairn   GCN1          Radeon HD 7870     -
 bonaire    GCN2          Radeon HD 7790     -
 hawaii     GCN2          Radeon R9 290      -
 tonga      GCN3          Radeon R9 285      no use: fake 1.0 answered vkCreateShaderModule with -2
-fiji       GCN3          Radeon R9 Fury     no use: fake 1.0 was ended by signal 6 (Aborted)
+fiji       GCN3          Radeon R9 Fury     no use: fake 1.0 crashed with signal 6 (Aborted)
 polaris10  GCN4          Radeon RX 480      fake 1.0
 END
 )

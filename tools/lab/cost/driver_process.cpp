@@ -126,14 +126,20 @@ bool read_some(int file, std::string& text) {
     return count > 0 || (count < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-/// "was ended by signal 6 (Aborted): radv: ...", with the last line that it printed.
+/// "crashed with signal 6 (Aborted): radv: ...", with the last line that it printed: the reason why where it
+/// ends itself, elsewhere perhaps of something else.
 std::string ending_of(int status, const std::string& printed) {
-    std::string text = WIFSIGNALED(status) ? fmt::format("was ended by signal {} ({})", WTERMSIG(status),
-                                                         ::strsignal(WTERMSIG(status)))
-                                           : fmt::format("ended with status {}", WEXITSTATUS(status));
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    constexpr std::array kCrashes = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+    const bool crashed = std::find(kCrashes.begin(), kCrashes.end(), signal) != kCrashes.end();
+    std::string text = signal != 0
+                           ? fmt::format("{} signal {} ({})", crashed ? "crashed with" : "was ended by",
+                                         signal, ::strsignal(signal))
+                           : fmt::format("ended with status {}", WEXITSTATUS(status));
     const std::vector<std::string> lines = split(printed, '\n');
-    if (!lines.empty()) text += ": " + printable(lines.back());
-    return text;
+    if (lines.empty()) return text;
+    const bool says_why = signal == 0 || signal == SIGABRT;
+    return fmt::format("{}{}: {}", text, says_why ? "" : "; before that it printed", printable(lines.back()));
 }
 
 }  // namespace
