@@ -148,8 +148,11 @@ Result<std::string> dialect_for(const std::string& backend, const std::string& d
         return dialect;
     }
     if (!dialect.empty() && dialect != "vulkan")
-        return fail(Fault::usage, fmt::format("--backend vulkan does not draw --dialect {}", dialect),
-                    "leave --dialect out, or draw by --backend osmesa");
+        return fail(
+            Fault::usage, fmt::format("--backend vulkan does not draw --dialect {}", dialect),
+            dialect == "gl_spirv"
+                ? "leave --dialect out, or draw --dialect 450, whose text is the same, by --backend osmesa"
+                : "leave --dialect out, or draw by --backend osmesa");
     return "vulkan";
 }
 

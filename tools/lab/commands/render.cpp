@@ -62,6 +62,8 @@ Result<PictureOptions> picture_options(const RenderOptions& options) {
     if (options.live && !makes_page(options))
         return fail(Fault::usage, "--page shows --all, --cover or the default set as PNG files, not smoothed",
                     "select keys by one of these");
+    if (options.live && options.backend == kVulkanBackend)
+        return fail(Fault::usage, "--backend vulkan makes no page", "leave --page out, or --backend");
     const std::string usual = options.live ? "240x180" : makes_page(options) ? "400x300" : "640x480";
     GOBO_TRY(const auto size, read_size(options.size.empty() ? usual : options.size));
     GOBO_TRY(pictures.format, image_format_of(options.format));

@@ -298,21 +298,23 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
     outcome.output = maps_text(report.shadow_maps, outcome.diagnostics);
     raster::PictureReport totals;
     std::size_t drawn = 0;
+    DiagnosticGroups undrawn(family);
     DiagnosticGroups warnings(family);
     for (std::size_t i = 0; i < report.pictures.size(); ++i) {
         const raster::PictureReport& picture = report.pictures[i];
         const std::string key = key_text(family, picture.key);
-        Diagnostics problems = picture.diagnostics;
         if (std::ranges::count(report.crashed, i) > 0)
-            problems = with_kept_stages(world, options.folder, family, composition, validated,
-                                        composition.permutations[i], std::move(problems));
-        for (Diagnostic& problem : problems) problem.subject = key;
-        if (picture.fails()) problems = report_picture(world, options.folder, key, picture);
-        append(outcome.diagnostics, problems);
+            append(outcome.diagnostics,
+                   with_kept_stages(world, options.folder, family, composition, validated,
+                                    composition.permutations[i], picture.diagnostics));
+        else
+            for (const Diagnostic& problem : picture.diagnostics) undrawn.add(problem, picture.key);
+        if (picture.fails()) append(outcome.diagnostics, report_picture(world, options.folder, key, picture));
         for (const Diagnostic& warning : warnings_of(picture)) warnings.add(warning, picture.key);
         if (picture.diagnostics.empty()) ++drawn;
         add(picture, totals);
     }
+    append(outcome.diagnostics, undrawn.result());
     append(outcome.diagnostics, warnings.result());
     append(outcome.diagnostics, warn_of_no_keys(composition, "nothing was tested"));
     outcome.output += totals_text(totals, drawn, composition.permutations.size(), report.renderer);

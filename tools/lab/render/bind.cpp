@@ -248,6 +248,17 @@ Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& valu
                 suggestion(plain, {known.begin(), known.end()}));
 }
 
+/// An error where a value names a member of a storage block, which nothing fills.
+Result<void> refuse_storage(const Interface& interface, const RenderValue& value) {
+    for (const Block& block : interface.storage_blocks)
+        if (value.name.starts_with(block.name + "."))
+            return fail(
+                value.place, {},
+                fmt::format("'{}' is in a storage block, which the renderer does not fill", value.name),
+                "leave it out, or have the shaders read a uniform block");
+    return {};
+}
+
 /// A block with one of its members, whatever elements of arrays within the block.
 std::string member_of(const Leaf& leaf) {
     return leaf.block + " " + without_subscripts(leaf.name);
@@ -463,6 +474,7 @@ Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std:
         const std::vector<Leaf> named = named_leaves(leaves, value);
         if (named.empty() && !is_of_sampler(interface, value)) {
             GOBO_TRY_DO(check_name(leaves, value));
+            GOBO_TRY_DO(refuse_storage(interface, value));
             if (!is_of_input(interface, value)) unused.push_back(&value);
         }
         for (const Leaf& leaf : named) {

@@ -60,8 +60,10 @@ Result<void> Bindings::make_layouts() {
     };
     for (const Block& block : interface_.blocks) add(block, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1);
     if (!interface_.storage_blocks.empty())
-        return fail(Fault::input, fmt::format("the renderer has no contents for the storage block '{}'",
-                                              interface_.storage_blocks.front().name));
+        return fail(Fault::input,
+                    fmt::format("the renderer has no contents for the storage block '{}'",
+                                interface_.storage_blocks.front().name),
+                    "leave its keys out, or have the shaders read a uniform block");
     for (const Sampler& sampler : interface_.samplers)
         add(sampler, descriptor_type(sampler), element_count(sampler.array));
     for (const std::vector<VkDescriptorSetLayoutBinding>& set : bindings_) {
