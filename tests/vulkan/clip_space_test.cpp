@@ -74,7 +74,7 @@ Picture checked(Result<Picture> picture) {
 
 /// One picture by a pair of stages.
 Picture drawn(const std::string& vertex, const std::string& fragment, const std::vector<glm::vec3>& corners,
-              vulkan::DrawStart start = {}) {
+              vulkan::DrawStart start = {}, const vulkan::Textures& textures = {}) {
     const Tiny tiny(vertex, fragment, Dialect::vulkan);
     std::vector<std::span<const std::uint32_t>> modules;
     for (const ValidatedStage& stage : tiny.validated.stages) modules.emplace_back(stage.spirv);
@@ -82,7 +82,7 @@ Picture drawn(const std::string& vertex, const std::string& fragment, const std:
     static const vulkan::Device& device = *new vulkan::Device(device_with_layer());
     return checked(vulkan::render_permutation(
         device, vulkan::modules_of(modules, tiny.permutation()), tiny.interface,
-        {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, small_view(), {}, start));
+        {{triangle(corners), glm::dmat4(1), {}, false, true}}, {}, small_view(), textures, start));
 }
 
 /// The same by OpenGL.
@@ -170,6 +170,19 @@ TEST(VulkanClipSpace, DerivativesUpwardsAreNegative) {
     EXPECT_NEAR(upward.color.at(2, kSide - 3, 1), 2.0F / kSide, 1e-4F);
 }
 
+TEST(VulkanClipSpace, DerivativesToTheRightArePositive) {
+    std::string along = kProjected;
+    along.replace(along.find("position.y"), 10, "position.x");
+    const std::string fragment =
+        "VARYING(0) float height;\n" + colored("vec4(dFdx(height), dFdy(height), 0.0, 1.0)");
+    const Picture picture = drawn(along, fragment, kLowerLeft);
+    const Picture upward = drawn_by_opengl(along, fragment, kLowerLeft);
+    for (const Picture* one : {&picture, &upward}) {
+        EXPECT_NEAR(one->color.at(2, kSide - 3, 0), 2.0F / kSide, 1e-4F);
+        EXPECT_NEAR(one->color.at(2, kSide - 3, 1), 0, 1e-6F);
+    }
+}
+
 TEST(VulkanClipSpace, UprightPicturesKeepTheWindingOfOpenGl) {
     const std::string fragment =
         "VARYING(0) float height;\n" + colored("vec4(gl_FrontFacing ? 1.0 : 0.0, height, 0.0, 1.0)");
@@ -219,8 +232,9 @@ TEST(VulkanClipSpace, NumbersOfVerticesAndInstancesCountTheFirstOneIn) {
     EXPECT_EQ(by_opengl.color.at(1, kSide - 2, 1), 0) << "gl_BaseInstance is another matter";
 }
 
-/// The maps of lights are drawn with y upward: row 0, at t = 0, is where clip space has y = -1, as in OpenGL.
-TEST(VulkanClipSpace, ShadowMapsHaveTheirRowsAsOpenGl) {
+/// The map of a light that looks along the world's z axis at the triangle in the lower left, depth from -1
+/// to 1.
+std::vector<Image> map_of_lower_left() {
     const Tiny tiny(kProjected, "VARYING(0) float height;\nvoid main() {}\n", Dialect::vulkan);
     vulkan::ShadowPass pass;
     pass.side = kSide;
@@ -229,13 +243,47 @@ TEST(VulkanClipSpace, ShadowMapsHaveTheirRowsAsOpenGl) {
     for (const StageKind kind : {StageKind::vertex, StageKind::fragment})
         pass.stages.push_back({kind, tiny.validated.stage(tiny.permutation().stages[kind]).spirv, {}});
     ShadowPlan plan;
-    plan.cameras.push_back({});  // clip space is the world, as OpenGL has it: depth from -1 to 1
-    const auto maps = vulkan::draw_shadow_maps(device_with_layer(), pass, plan,
-                                               {{triangle(kLowerLeft), glm::dmat4(1), {}, false, true}});
-    ASSERT_TRUE(maps) << to_text(maps.error().front());
-    ASSERT_EQ(maps->size(), 1u);
-    EXPECT_EQ(maps->front().at(1, 1, 0), 0.5F) << "the lower left is in the first rows; z = 0 is half way";
-    EXPECT_EQ(maps->front().at(1, kSide - 2, 0), 1);
+    plan.cameras.push_back({});  // clip space is the world, as OpenGL has it
+    auto maps = vulkan::draw_shadow_maps(device_with_layer(), pass, plan,
+                                         {{triangle(kLowerLeft), glm::dmat4(1), {}, false, true}});
+    EXPECT_TRUE(maps) << (maps ? "" : to_text(maps.error().front()));
+    return maps ? *std::move(maps) : std::vector<Image>{Image(kSide, kSide, 1)};
+}
+
+/// The maps of lights are drawn with y upward: row 0, at t = 0, is where clip space has y = -1, as in OpenGL.
+TEST(VulkanClipSpace, ShadowMapsHaveTheirRowsAsOpenGl) {
+    const std::vector<Image> maps = map_of_lower_left();
+    ASSERT_EQ(maps.size(), 1u);
+    EXPECT_EQ(maps.front().at(1, 1, 0), 0.5F) << "the lower left is in the first rows; z = 0 is half way";
+    EXPECT_EQ(maps.front().at(1, kSide - 2, 0), 1);
+}
+
+/// So that a shader finds a place in the map by half of its coordinates and a half, y and depth too.
+TEST(VulkanClipSpace, ShadowMapsAreLookedUpAsInOpenGl) {
+    const std::string vertex =
+        "BLOCK(0, Transform) { mat4 modelView; mat4 projection; } transform;\nATTRIBUTE(0) vec3 position;\n"
+        "VARYING(0) vec3 place;\n"
+        "void main() {\n    place = position;\n"
+        "    gl_Position = transform.projection * (transform.modelView * vec4(position, 1.0));\n}\n";
+    const std::string fragment =
+        "VARYING(0) vec3 place;\nSAMPLER(1, sampler2DArrayShadow) shadowMaps;\nOUTPUT(0) vec4 color;\n"
+        "float lit(float z) {\n"
+        "    return texture(shadowMaps, vec4(0.5 * place.xy + 0.5, 0.0, 0.5 * z + 0.5));\n}\n"
+        "void main() { color = vec4(lit(-0.1), lit(0.1), 0.0, 1.0); }\n";
+    const Picture picture = drawn(vertex, fragment, {{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}}, {},
+                                  {{"shadowMaps", vulkan::depth_texels(map_of_lower_left())}});
+    struct Row {
+        const char* name;
+        int x, y;
+        float before, behind;
+    };
+    for (const Row& row : {Row{"lower left", 3, kSide - 4, 1, 0},
+                           {"upper left", 3, 3, 1, 1},
+                           {"lower right", kSide - 4, kSide - 4, 1, 1}}) {
+        SCOPED_TRACE(row.name);
+        EXPECT_EQ(picture.color.at(row.x, row.y, 0), row.before) << "nearer to the light";
+        EXPECT_EQ(picture.color.at(row.x, row.y, 1), row.behind) << "behind";
+    }
 }
 
 /// Else no message would mean nothing.
