@@ -292,6 +292,7 @@ void Decoder::store(const Instruction& instruction, const Value& target, const V
     else
         emit(spv::OpStore, instruction, count, target.slot, {from});
     program_.infos.back().result = slice(target);
+    program_.infos.back().is_relaxed = target.is_relaxed;
 }
 
 /// One level down by an index known now. False (and reported) where there is no such part.
@@ -332,6 +333,10 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
                                                        path, type(at).count));
             const auto index = static_cast<std::uint32_t>(constant->second.front());
             path = part_name(path, at.type, index);
+            if (type(at).opcode == spv::OpTypeStruct)
+                at.is_relaxed =
+                    module_.decoration(at.type, spv::DecorationRelaxedPrecision, static_cast<int>(index))
+                        .has_value();
             if (!step_into(instruction, at.type, at.slot, index)) return;
             continue;
         }

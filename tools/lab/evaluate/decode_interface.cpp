@@ -122,7 +122,9 @@ std::optional<Value> Decoder::new_variable(const Instruction& instruction, const
     }
     const auto index = static_cast<int>(is_read_only_.size());
     is_read_only_.push_back(is_read_only);
-    const Value variable{id, permanent(slots), -1, index, intern(name), true};
+    const bool is_relaxed =
+        module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
+    const Value variable{id, permanent(slots), -1, index, intern(name), true, 0, is_relaxed};
     return variable;
 }
 

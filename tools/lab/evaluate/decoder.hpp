@@ -29,6 +29,7 @@ struct Value {
     std::uint32_t name = 0;  ///< index into Program::names
     bool is_pointer = false;
     std::uint32_t offset = 0;  ///< slot of a pointer's offset; 0 for none
+    bool is_relaxed = false;   ///< a pointer to what is mediump or lowp
 };
 
 using Values = std::vector<Value>;

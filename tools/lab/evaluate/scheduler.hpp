@@ -304,7 +304,11 @@ class Scheduler {
             if (const Row& row = row_of(operation); row.liberties.largest_error != nullptr)
                 add_largest_error(row, operation, program_.infos[at].result.count, registers_,
                                   options_.errors == Errors::largest_up);
-        if (options_.is_half && program_.infos[at].is_relaxed) make_half(program_.infos[at].result);
+        if (!options_.is_half || !program_.infos[at].is_relaxed) return;
+        if (row_of(operation).code == kScatter)
+            make_half_at_addresses(operation, program_.infos[at].result);
+        else
+            make_half(program_.infos[at].result);
     }
 
     void execute(const Operation& operation) { rows_[operation.row](operation, registers_); }
@@ -315,6 +319,18 @@ class Scheduler {
         for (std::size_t i = 0; i < result.count * kLanes; ++i)
             if (registers_.is_active(i % kLanes))
                 row[i] = static_cast<T>(rounded_to_half(static_cast<float>(row[i])));
+    }
+
+    /// Of a store whose place each lane computes.
+    void make_half_at_addresses(const Operation& store, const Slice& variable) {
+        if (variable.scalar != Scalar::float32) return;
+        for (std::uint32_t component = 0; component < store.count; ++component)
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                if (!registers_.is_active(lane)) continue;
+                const auto offset = static_cast<std::uint32_t>(registers_.ints(store.operands[1])[lane]);
+                T& cell = registers_.floats(store.result + offset + component)[lane];
+                cell = static_cast<T>(rounded_to_half(static_cast<float>(cell)));
+            }
     }
 
     /// Brings the operation's result to the width of its type, where rows are wider than that.

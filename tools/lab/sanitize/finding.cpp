@@ -11,6 +11,7 @@
 #include <spirv/unified1/spirv.hpp>
 
 #include "lab/evaluate/eval_report.hpp"
+#include "lab/evaluate/half.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/rules.hpp"
@@ -53,6 +54,9 @@ std::string value_text(const Step& step, const Slice& slice, std::size_t lane) {
 /// "FDiv 1, depth = 0 -> inf".
 std::string operation_text(const Step& step, std::size_t lane) {
     std::vector<std::string> operands;
+    if (step.row().code == evaluate::kScatter)  // the variable's own slots are not what was written
+        return fmt::format("{} {} in {}", step.name(), value_text(step, step.info().operands.front(), lane),
+                           step.program.names[step.info().result.name]);
     for (const Slice& operand : step.info().operands) operands.push_back(value_text(step, operand, lane));
     return fmt::format("{} {} -> {}", step.name(), fmt::join(operands, ", "),
                        value_text(step, step.info().result, lane));
@@ -75,6 +79,31 @@ struct Run {
         if (machine != Machine::ieee) finding.point.machine = name_of(machine);
     }
 };
+
+/// Whether the operation, which does not compute floats, makes 16-bit ones of those that it passes on where
+/// they are mediump.
+bool may_narrow(const evaluate::Row& row) {
+    switch (row.kind) {
+        case Kind::convert:
+            return row.code == spv::OpConvertSToF || row.code == spv::OpConvertUToF;
+        case Kind::move:
+            return row.code != spv::OpAccessChain;
+        default:
+            return row.kind == Kind::load || row.kind == Kind::store || row.kind == Kind::select ||
+                   row.kind == Kind::image || row.kind == Kind::derivative;
+    }
+}
+
+/// The lanes in which what is stored is a number that no 16-bit float holds.
+Lanes beyond_half(const Step& step) {
+    const Slice& stored = step.info().operands.front();
+    Lanes result = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        for (std::uint32_t component = 0; component < stored.count; ++component)
+            if (std::isinf(evaluate::rounded_to_half(float_row(step, stored, component)[lane])))
+                result |= Lanes{1} << lane;
+    return result & step.lanes;
+}
 
 /// The operation that last stores to the output, or to an array by an index that may lead to it; nothing
 /// where none does.
@@ -133,11 +162,13 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.rules = rules_of(trap_rules(), row.code);
             watch.has_silent = std::any_of(watch.rules.begin(), watch.rules.end(),
                                            [](const TrapRule& rule) { return rule.is_silent; });
+            const evaluate::OperationInfo& info = run.program.infos[at];
+            watch.narrows = run.machine == Machine::mediump && info.is_relaxed && may_narrow(row);
             // The other operations pass on what these made.
             watch.reads_mediump_input =
                 run.machine == Machine::mediump && reads_mediump_input(run.program, at);
-            watch.makes_floats = (row.kind <= Kind::matrix || watch.reads_mediump_input) &&
-                                 evaluate::is_float(run.program.infos[at].result.scalar);
+            watch.makes_floats =
+                (row.kind <= Kind::matrix || watch.narrows) && evaluate::is_float(info.result.scalar);
             watch.first_decider = first_decider(row);
             watch.is_of_image = row.kind == Kind::image || row.kind == Kind::derivative;
         }
@@ -238,6 +269,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         std::span<const TrapRule> rules;
         bool has_silent = false;
         bool makes_floats = false;         ///< the result must be finite
+        bool narrows = false;              ///< what is only passed on becomes a 16-bit float
         bool reads_mediump_input = false;  ///< which may be given more than 16 bits hold
         bool is_of_image = false;          ///< a texture function, or a derivative
         /// The first operand that decides what is read, so that it must be defined; nothing where none does.
@@ -279,7 +311,8 @@ class TrapObserver final : public evaluate::Observer<float> {
         // The second half of what frexp() gives are integers.
         if (step.row().code == evaluate::kExtended + GLSLstd450FrexpStruct)
             result.count = step.program.operations[step.operation].count;
-        lanes &= not_finite(step, result);
+        lanes &=
+            watch.narrows && step.row().kind == Kind::store ? beyond_half(step) : not_finite(step, result);
         if (!watch.reads_mediump_input)
             for (const Slice& operand : step.info().operands)
                 if (lanes != 0 && evaluate::is_float(operand.scalar)) lanes &= ~not_finite(step, operand);

@@ -39,6 +39,22 @@ std::uint32_t address(const Step& step, std::uint32_t base, std::uint32_t offset
     return base + static_cast<std::uint32_t>(int_row(step, offset, 0)[lane]);
 }
 
+/// The operand that decides what such an operation gives, whatever the other is.
+std::optional<std::int32_t> deciding_value(std::uint32_t code) {
+    switch (code) {
+        case spv::OpLogicalAnd:
+        case spv::OpBitwiseAnd:
+        case spv::OpIMul:
+            return 0;
+        case spv::OpLogicalOr:
+            return 1;
+        case spv::OpBitwiseOr:
+            return -1;
+        default:
+            return std::nullopt;
+    }
+}
+
 /// Whether component i of the result comes of component i of the operands alone.
 bool is_by_component(const evaluate::Row& row) {
     switch (row.code) {
@@ -124,6 +140,16 @@ void Taint::copied(const Operation& one, Lanes lanes) {
 void Taint::mark(const Step& step, Lanes lanes, const Cause& cause) {
     const CauseId id = id_of(cause);
     const Operation& operation = program_.operations[step.operation];
+    if (code_of(operation) == evaluate::kScatter) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            for (std::uint32_t i = 0; i < operation.count && has(lanes, lane); ++i) {
+                State& known = states_[address(step, operation.result, operation.operands[1], lane) + i];
+                State state{Lanes{1} << lane, 0, id, 0};
+                state.add(known, fixed_causes_);
+                known = state;
+            }
+        return;
+    }
     const bool is_address = code_of(operation) == spv::OpAccessChain;  // whose result is told as a variable
     const Slice& result = step.info().result;
     const std::uint32_t first = is_address ? operation.result : result.slot;
@@ -271,7 +297,8 @@ void Taint::compute(const Step& step) {
                                  code == evaluate::kExtended + GLSLstd450FrexpStruct;
     const std::uint32_t count =
         has_two_results ? 2 * program_.operations[step.operation].count : std::max(info.result.count, 1U);
-    const Lanes any = operands_of(step);
+    const Lanes decided = decided_by_other(step);
+    const Lanes any = operands_of(step) & ~decided;
     if (any == 0) {
         for (std::uint32_t i = 0; i < count; ++i) states_[info.result.slot + i].lanes = 0;
         return;
@@ -284,12 +311,33 @@ void Taint::compute(const Step& step) {
             const bool is_single = is_by_component && (operand.count == count || has_two_results);
             const std::uint32_t first = is_single ? i % operand.count : 0;
             for (std::uint32_t c = first; c < (is_single ? first + 1 : operand.count); ++c) {
-                result.add(states_[operand.slot + c], fixed_causes_);
+                result.add(states_[operand.slot + c].within(~decided), fixed_causes_);
             }
         }
         scratch_.push_back(result);
     }
     std::copy(scratch_.begin(), scratch_.end(), states_.begin() + info.result.slot);
+}
+
+/// The lanes in which one operand is undefined, but the other decides what comes of it: false && b. Where the
+/// compiler sees no effects it computes both sides, so what the right side read there was no read.
+Lanes Taint::decided_by_other(const Step& step) {
+    const std::optional<std::int32_t> decider = deciding_value(step.row().code);
+    const auto& operands = step.info().operands;
+    if (!decider || operands_of(step) == 0 || operands[0].count != 1) return 0;
+    Lanes decided = 0;
+    for (const std::size_t i : {0U, 1U}) {
+        const std::int32_t* row = int_row(step, operands[i], 0);
+        const Lanes open = lanes_of(operands[1 - i]) & ~lanes_of(operands[i]);
+        for (std::size_t lane = 0; lane < kLanes && open != 0; ++lane)
+            if (has(open, lane) && row[lane] == *decider) decided |= Lanes{1} << lane;
+    }
+    for (std::size_t lane = 0; lane < kLanes && decided != 0; ++lane)
+        for (auto& uses : first_uses_)
+            if (has(decided & step.lanes, lane) && !uses.empty() && uses[lane] != 0 &&
+                program_.place_of(uses[lane] - 1).line == step.place().line)
+                uses[lane] = 0;
+    return decided;
 }
 
 /// Remembers where each lane first computed with what nobody wrote.

@@ -64,6 +64,7 @@ class Taint {
     void gather(const evaluate::Step<float>& step, const evaluate::Operation& operation);
     void select(const evaluate::Step<float>& step, const evaluate::Operation& operation);
     void compute(const evaluate::Step<float>& step);
+    Lanes decided_by_other(const evaluate::Step<float>& step);
     void note_use(const evaluate::Step<float>& step, Lanes lanes);
     void compute_address(const evaluate::Operation& operation, const evaluate::Step<float>& step);
     [[nodiscard]] CauseId id_of(const Cause& cause);
