@@ -314,6 +314,19 @@ INSTANTIATE_TEST_SUITE_P(
             "  help: state defaults that make it at least 1, divide by none that is 0, and shift by fewer "
             "bits than there are\n"},
         ArrayRow{
+            "in_front_of_a_member",
+            GROUP "shared float t[1];\nlayout(std430, set = 0, binding = 1) buffer W { float first[A + 1], "
+                  "rest; };",
+            0,
+            "a.comp:6: error: 'rest' has offset 4, within that of 'first', which stands above it [default]\n"
+            "    layout(std430, set = 0, binding = 1) buffer W { float first[A + 1], rest; };\n"
+            "  help: state its offset: glslang counts an array whose size is computed from "
+            "specialisation constants as one element\n"},
+        ArrayRow{"in_front_of_a_stated_offset",
+                 GROUP "shared float t[1];\nlayout(std430, set = 0, binding = 1) buffer W { float first[A + "
+                       "1]; layout(offset = 12) float rest; };",
+                 1},
+        ArrayRow{
             "division_by_zero", GROUP "shared float t[A / (A - 2)];", 0,
             "a.comp:5: error: the size of an array in 't' has no value where specialisation constants "
             "stand at their defaults [default]\n    layout(local_size_x = 4) in; shared float t[A / (A - "

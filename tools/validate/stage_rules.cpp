@@ -285,9 +285,21 @@ class StageCheck {
                             declaration_of_member(root_of(block.name), member.name, pieces_),
                             fmt::format("'{}' has offset {}, {} of '{}', which stands above it", member.name,
                                         member.offset, where, before.name),
-                            "order members by their offsets, each behind the end of the one before");
+                            !before.array.empty() && computes_sizes()
+                                ? "state its offset: glslang counts an array whose size is computed from "
+                                  "specialisation constants as one element"
+                                : "order members by their offsets, each behind the end of the one before");
                     }
                 }
+    }
+
+    /// Whether any array's size is computed from specialisation constants.
+    [[nodiscard]] bool computes_sizes() const {
+        return std::ranges::any_of(module_.instructions, [&](const spirv::Instruction& array) {
+            const spirv::Instruction* const size =
+                array.opcode == spv::OpTypeArray ? module_.definition(array.id(3)) : nullptr;
+            return size != nullptr && size->opcode == spv::OpSpecConstantOp;
+        });
     }
 
     /// In a block that leaves its layout to Vulkan, glslang moves a member whose offset its type does not
