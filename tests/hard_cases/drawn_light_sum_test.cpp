@@ -22,7 +22,9 @@ constexpr const char* kWholeTarget =
 
 /// The terms come from a uniform, so that no compiler adds them up.
 std::string stage_of(const std::string& piece) {
-    return "#version 450\nlayout(location = 0) out vec4 color;\nuniform float term;\n" + piece +
+    return "#version 450\n#define LIGHT_PRECISION\nlayout(location = 0) out vec4 color;\nuniform float "
+           "term;\n" +
+           piece +
            "void main() {\n"
            "    LightSum sum = emptySum();\n"
            "    for (int i = 0; i < 4096; ++i) addTerm(sum, vec3(term));\n"

@@ -33,7 +33,7 @@ std::vector<Series> all_series() {
 }
 
 std::string stage_of(const std::string& piece, const Series& series) {
-    return "#version 450\nlayout(location = 0) out vec4 r;\n" + piece +
+    return "#version 450\n#define LIGHT_PRECISION\nlayout(location = 0) out vec4 r;\n" + piece +
            "void main() {\n"
            "    LightSum sum = emptySum();\n"
            "    for (int i = 0; i < 4096; ++i) addTerm(sum, vec3(" +
