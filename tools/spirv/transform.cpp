@@ -77,6 +77,49 @@ class Sizes {
     std::map<Id, std::set<std::uint32_t>> hang_on_;  ///< by constant: the constant_ids
 };
 
+constexpr std::size_t kHeader = 5;
+constexpr std::size_t kBound = 3;
+
+/// With constants instead of divisions of constants. SPIRV-Tools divides the least integer by -1, too, which
+/// ends the process.
+Result<Words> with_divisions_done(const Words& words, std::map<std::uint32_t, std::uint32_t> chosen) {
+    GOBO_TRY(const Module module, read_module(words));
+    Constants constants(module, std::move(chosen));
+    Words result(words.begin(), words.begin() + kHeader);
+    const auto add = [&](spv::Op opcode, std::initializer_list<std::uint32_t> head, const Words& rest) {
+        const auto count = static_cast<std::uint32_t>(1 + head.size() + rest.size());
+        result.push_back(count << spv::WordCountShift | static_cast<std::uint32_t>(opcode));
+        result.insert(result.end(), head);
+        result.insert(result.end(), rest.begin(), rest.end());
+    };
+    for (const Instruction& instruction : module.instructions) {
+        constants.add(instruction);
+        const bool divides = instruction.opcode == spv::OpSpecConstantOp &&
+                             (instruction.words[3] == spv::OpSDiv || instruction.words[3] == spv::OpSRem ||
+                              instruction.words[3] == spv::OpSMod);
+        const std::optional<Constant> value =
+            divides ? constants.value(instruction.result) : std::optional<Constant>();
+        if (!value || value->width != 32) {
+            result.insert(result.end(), instruction.words.begin(), instruction.words.end());
+            continue;
+        }
+        const auto type = static_cast<std::uint32_t>(instruction.type);
+        const auto id = static_cast<std::uint32_t>(instruction.result);
+        if (value->count == 1) {
+            add(spv::OpConstant, {type, id}, {static_cast<std::uint32_t>(value->bits[0])});
+            continue;
+        }
+        Words parts;
+        const auto element = static_cast<std::uint32_t>(module.type(instruction.type).element);
+        for (std::uint32_t i = 0; i < value->count; ++i) {
+            parts.push_back(result[kBound]++);
+            add(spv::OpConstant, {element, parts.back()}, {static_cast<std::uint32_t>(value->bits[i])});
+        }
+        add(spv::OpConstantComposite, {type, id}, parts);
+    }
+    return result;
+}
+
 }  // namespace
 
 Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
@@ -84,8 +127,6 @@ Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
     if (counts.empty()) return Words(words.begin(), words.end());
     GOBO_TRY(const Module module, read_module(words));
     const Sizes all(module, counts);
-    constexpr std::size_t kHeader = 5;
-    constexpr std::size_t kBound = 3;
     Words result(words.begin(), words.begin() + kHeader);
     std::map<std::pair<Id, std::int64_t>, std::uint32_t> sizes;  // new constants by type and value
     for (const Instruction& instruction : module.instructions) {
@@ -115,12 +156,17 @@ Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
 
 Result<Words> specialized(const Words& words, const std::map<int, std::uint32_t>& values) {
     std::unordered_map<std::uint32_t, std::string> texts;
-    for (const auto& [id, value] : values) texts[static_cast<std::uint32_t>(id)] = std::to_string(value);
+    std::map<std::uint32_t, std::uint32_t> chosen;
+    for (const auto& [id, value] : values) {
+        texts[static_cast<std::uint32_t>(id)] = std::to_string(value);
+        chosen[static_cast<std::uint32_t>(id)] = value;
+    }
+    GOBO_TRY(const Words divided, with_divisions_done(words, std::move(chosen)));
     spvtools::Optimizer optimizer(SPV_ENV_UNIVERSAL_1_0);
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(texts))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
         .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
-    return run(optimizer, words);
+    return run(optimizer, divided);
 }
 
 Result<Words> optimized(const Words& words, spv_target_env environment) {
