@@ -52,7 +52,19 @@ TEST(WorstCase, IsFoundWhereNoSceneIs) {
     EXPECT_GT(worst_of(all_cases(), "spot_edge=cosine"), 0.5);     // cones of less than a degree
     EXPECT_GT(worst_of(all_cases(), "power=squaring"), 0.2);       // shininess 0.5
     EXPECT_GT(worst_of(all_cases(), "normal=interpolated"), 0.5);  // normals much shorter than 1
+    EXPECT_GT(worst_of(all_cases(), "guards=ordinary"), 0.5);      // lamps and viewers nearer than 1e-15
     EXPECT_EQ(worst_of(all_cases(), ""), 0) << "the most accurate quality errs by nothing but roundings";
+}
+
+/// Highlights look at the viewer: where the domain keeps the surface away from it, no vector is tiny.
+TEST(WorstCase, OfOrdinaryGuardsIsNoneAwayFromTheViewer) {
+    const std::string effects = "directional=1 specular=blinn";
+    Domain depth;
+    depth.name = "eyePosition.z";
+    depth.low = -1e3;
+    depth.high = -0.1;
+    EXPECT_GT(worst_of(searched({effects}), "guards=ordinary"), 0.5);
+    EXPECT_EQ(worst_of(searched({effects}, {depth}), "guards=ordinary"), 0);
 }
 
 /// Rough metals lose up to half of their light to a second reflection; what gives it back looks up a table,

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/text.hpp"
 
@@ -31,6 +35,12 @@ bool is_name(std::string_view text) {
                return kLetters.find(sign) != std::string_view::npos ||
                       std::string_view("0123456789.[]").find(sign) != std::string_view::npos;
            });
+}
+
+double next_float(double number, int direction) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    return static_cast<double>(
+        std::nextafter(static_cast<float>(number), direction > 0 ? kInfinity : -kInfinity));
 }
 
 std::optional<Constraint> comparison_of(std::string_view text) {
@@ -112,6 +122,83 @@ std::vector<Constraint> constraints_of(const std::vector<Domain>& domains) {
                 constraints.push_back(std::move(*constraint));
             }
     return constraints;
+}
+
+const Constraint* contradiction_in(const std::vector<Constraint>& constraints,
+                                   std::map<std::string, NumberRange> ranges, double (*step)(double, bool)) {
+    // The least values follow from one another: where they still grow after as many rounds as there are
+    // names, comparisons form a circle.
+    for (std::size_t round = 0; round <= ranges.size() + 1; ++round)
+        for (const Constraint& constraint : constraints) {
+            const bool is_strict = constraint.kind == Constraint::Kind::less;
+            if (constraint.has_number()) {
+                const bool is_upper = !constraint.names[0].empty();
+                const auto of = ranges.find(constraint.names[is_upper ? 0 : 1]);
+                if (of == ranges.end()) continue;
+                auto& [low, high, is_float] = of->second;
+                const double bound =
+                    is_strict ? next_float(constraint.number, is_upper ? -1 : 1) : constraint.number;
+                if (constraint.kind == Constraint::Kind::differ) {
+                    if (low == high && low == constraint.number) return &constraint;
+                    continue;
+                }
+                (is_upper ? high : low) = is_upper ? std::min(high, bound) : std::max(low, bound);
+                if (low > high) return &constraint;
+                continue;
+            }
+            const bool is_of_one = constraint.names.size() == 2 && constraint.names[0] == constraint.names[1];
+            if (is_of_one && (is_strict || constraint.kind == Constraint::Kind::differ ||
+                              constraint.kind == Constraint::Kind::distinct))
+                return &constraint;
+            if (!constraint.is_comparison() || constraint.kind == Constraint::Kind::differ) continue;
+            const auto less = ranges.find(constraint.names[0]);
+            const auto more = ranges.find(constraint.names[1]);
+            if (less == ranges.end() || more == ranges.end()) continue;
+            const double low = less->second.low;
+            const double least =
+                is_strict ? low + step(low, less->second.is_float && more->second.is_float) : low;
+            if (least <= more->second.low) continue;
+            more->second.low = least;
+            if (least > more->second.high || round > ranges.size()) return &constraint;
+        }
+    return nullptr;
+}
+
+Diagnostic contradiction_error(const Constraint& constraint) {
+    return {.place = constraint.place,
+            .message = fmt::format("no input keeps '{}' along with its range and the other constraints",
+                                   constraint.text),
+            .help = "remove one of those that contradict one another, or widen the range in [domain]"};
+}
+
+Result<void> refuse_contradictions(const std::vector<Domain>& domains) {
+    std::map<std::string, NumberRange> ranges;
+    for (const Domain& domain : domains) {
+        if (is_constraint(domain.name)) continue;
+        double least = domain.of_length ? -domain.high : domain.low;
+        double most = domain.high;
+        for (const double also : domain.also) {
+            least = std::min(least, also);
+            most = std::max(most, also);
+        }
+        ranges.emplace(domain.name, NumberRange{least, most});
+    }
+    std::vector<Constraint> constraints = constraints_of(domains);
+    std::ranges::stable_sort(constraints, {},
+                             [](const Constraint& one) { return std::pair(one.place.file, one.place.line); });
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    for (const Constraint& constraint : constraints)
+        for (const std::string& name : constraint.names) {
+            const auto part = component_name(name);
+            const auto whole = part ? ranges.find(part->of) : ranges.end();
+            if (!name.empty())
+                ranges.emplace(name,
+                               whole == ranges.end() ? NumberRange{-kLargest, kLargest} : whole->second);
+        }
+    const auto step = [](double number, bool) { return next_float(number, 1) - number; };
+    if (const Constraint* const found = contradiction_in(constraints, std::move(ranges), step))
+        return fail(contradiction_error(*found));
+    return {};
 }
 
 }  // namespace gobo

@@ -1,11 +1,13 @@
 // What inputs have to do with one another, as [domain] and comments state it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/diagnostic.hpp"
 #include "family/family.hpp"
 
 namespace gobo {
@@ -60,5 +62,22 @@ struct ComponentName {
 [[nodiscard]] std::optional<Constraint> constraint_of(std::string_view text);
 /// Those among the names of domains that are known.
 [[nodiscard]] std::vector<Constraint> constraints_of(const std::vector<Domain>& domains);
+
+/// The numbers that an input or a component may hold.
+struct NumberRange {
+    double low = 0;
+    double high = 0;
+    bool is_float = true;
+};
+/// One of the constraints that nothing keeps, given the ranges of names and the constraints before it; null
+/// where there is none. Of names without a range nothing is known. By `step(number, is_float)` a strictly
+/// larger number is larger at least.
+[[nodiscard]] const Constraint* contradiction_in(const std::vector<Constraint>& constraints,
+                                                 std::map<std::string, NumberRange> ranges,
+                                                 double (*step)(double, bool));
+/// An error where the domains and constraints leave no inputs. Of several domains of a name the first counts.
+[[nodiscard]] Result<void> refuse_contradictions(const std::vector<Domain>& domains);
+/// What is said of a constraint that nothing keeps.
+[[nodiscard]] Diagnostic contradiction_error(const Constraint& constraint);
 
 }  // namespace gobo

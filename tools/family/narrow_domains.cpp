@@ -33,9 +33,11 @@ double next_float(double number, float towards) {
 
 /// The range that a comparison with a number leaves.
 Result<Domain> range_left_by(const Domain& stated, const Constraint& constraint, Domain range) {
-    if (range.of_length)
-        return refused(stated, fmt::format("the range of '{}' is one of its length", range.name),
-                       fmt::format("state \"{}\" = {{ length = [low, high] }}", range.name));
+    if (range.of_length) {
+        const std::string whole = component_name(range.name).value_or(ComponentName{range.name}).of;
+        return refused(stated, fmt::format("the range of '{}' is one of its length", whole),
+                       fmt::format("state \"{}\" = {{ length = [low, high] }}", whole));
+    }
     if (constraint.kind == Constraint::Kind::differ)
         return refused(stated, "a range has no hole", "state the side that the numbers are on: < or >");
     const bool is_upper = !constraint.names[0].empty();
@@ -162,6 +164,7 @@ Result<std::vector<Domain>> narrow_domains(Family& family, const std::vector<Dom
         }
     }
     if (!errors.empty()) return tl::unexpected(std::move(errors));
+    GOBO_TRY_DO(refuse_contradictions(family.domains));
     return narrowed;
 }
 

@@ -160,6 +160,9 @@ std::vector<Domain> read_domains(const TomlTable& root) {
         for (const auto& [key, node] : table->entries)
             domains.push_back(read_domain(root.reader, std::string(key.str()), node));
     check_components(root.reader, domains);
+    if (const auto kept = refuse_contradictions(domains); !kept)
+        for (const Diagnostic& error : kept.error())
+            root.reader.error(error.place, error.message, error.help);
     return domains;
 }
 

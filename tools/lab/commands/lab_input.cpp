@@ -300,6 +300,7 @@ Result<Validated> compile_over_domains(const World& world, Subject& subject, con
         stated.insert(stated.end(), commented.begin(), commented.end());
     }
     domains.insert(domains.begin(), stated.begin(), stated.end());  // ahead of the family's own
+    GOBO_TRY_DO(refuse_contradictions(domains));
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true, .debug_information = true}));
     if (Diagnostics errors = sanitize::domains_of_nothing(stated, {}, validated); !errors.empty())
         return tl::unexpected(std::move(errors));

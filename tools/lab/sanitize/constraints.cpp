@@ -251,19 +251,14 @@ bool narrow(Domain& domain, const std::string& name, std::optional<std::size_t> 
 }
 
 const Constraint* contradiction_in(const InputSpace& space) {
-    struct Interval {
-        double low;
-        double high;
-        bool is_float;
-    };
-    std::map<std::string, Interval> intervals;
+    std::map<std::string, NumberRange> ranges;
     const auto add = [&](const std::string& name, const Domain& domain, bool is_float) {
-        Interval interval{domain.low, domain.high, is_float};
+        NumberRange range{domain.low, domain.high, is_float};
         for (const double also : domain.also) {
-            interval.low = std::min(interval.low, also);
-            interval.high = std::max(interval.high, also);
+            range.low = std::min(range.low, also);
+            range.high = std::max(range.high, also);
         }
-        intervals.emplace(name, interval);
+        ranges.emplace(name, range);
     };
     for (const InputField& field : space.fields) {
         if (field.is_texture) continue;
@@ -273,32 +268,7 @@ const Constraint* contradiction_in(const InputSpace& space) {
                 if (const auto part = part_of(field, name); part && part->count < field.components)
                     add(name, field.domain_of(part->first), field.is_float());
     }
-    // The least values follow from one another: where they still grow after as many rounds as there are
-    // names, comparisons form a circle.
-    for (std::size_t round = 0; round <= intervals.size() + 1; ++round)
-        for (const Constraint& constraint : space.constraints) {
-            if (!constraint.is_comparison()) continue;
-            if (constraint.has_number()) {
-                const auto of = intervals.find(constraint.names[constraint.names[0].empty() ? 1 : 0]);
-                if (of != intervals.end() && of->second.low > of->second.high) return &constraint;
-                continue;
-            }
-            const auto less = intervals.find(constraint.names[0]);
-            const auto more = intervals.find(constraint.names[1]);
-            if (less == intervals.end() || more == intervals.end()) continue;
-            if (constraint.kind == Constraint::Kind::differ) {
-                if (less == more) return &constraint;
-                continue;
-            }
-            const bool is_strict = constraint.kind == Constraint::Kind::less;
-            const double low = less->second.low;
-            const double least =
-                is_strict ? low + step_of(low, less->second.is_float && more->second.is_float) : low;
-            if (least <= more->second.low) continue;
-            more->second.low = least;
-            if (least > more->second.high || round > intervals.size()) return &constraint;
-        }
-    return nullptr;
+    return gobo::contradiction_in(space.constraints, std::move(ranges), step_of);
 }
 
 void constrain(const InputSpace& space, std::span<double> point) {

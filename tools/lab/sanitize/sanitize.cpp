@@ -66,11 +66,7 @@ class StageSearch {
         program_ = std::move(*program);
         space_ = input_space_of(program_, family.domains, true);
         if (const Constraint* const constraint = contradiction_in(space_)) {
-            diagnostics_.push_back(evaluate::error_at(
-                constraint->place,
-                fmt::format("no input keeps '{}' along with its range and the other constraints",
-                            constraint->text),
-                "remove one of those that contradict one another, or widen the range in [domain]"));
+            diagnostics_.push_back(contradiction_error(*constraint));
             return;
         }
         bounds_.emplace(family, key, kind, program_, space_, promise);

@@ -41,24 +41,18 @@ class Search {
           orders_(searched_orders(fields_, family.domains)) {}
 
     Result<WorstCase> run() {
-        for (std::size_t done = 0; done < options_.points && worst_.error <= options_.enough;
-             done += kPortion) {
-            const std::size_t count = std::min(kPortion, options_.points - done);
+        for (std::size_t done = 0; done < options_.points; done += kPortion) {
             const std::size_t portion = done / kPortion;
             // Each second pair of portions has one lamp only: what is worst there must not be crowded out.
             const bool is_alone = portion / 2 % 2 == 1;
-            std::vector<Kept>& kept = is_alone ? kept_alone_ : kept_;
-            const bool is_fresh = kept.empty() || portion % 2 == 0;
-            std::vector<Sample> samples = is_fresh ? drawn(count, is_alone) : varied(count, kept);
-            for (Sample& sample : samples) {
-                for (const SearchedField& field : fields_) bring_into_domain(field, sample);
-                are_in_order(sample);
-                if (model_.environment_brdf == oracle::EnvironmentBrdf::table) look_up_table(model_, sample);
-            }
-            std::erase_if(samples, [&](Sample& sample) { return !are_in_order(sample); });
-            if (samples.empty()) continue;
-            GOBO_TRY_DO(judge(verify::rounded_to_float(std::move(samples)), kept));
+            GOBO_TRY_DO(search(std::min(kPortion, options_.points - done), portion, is_alone,
+                               is_alone ? kept_alone_ : kept_));
         }
+        // An eighth more beside the viewer and the lamps.
+        is_near_ = true;
+        for (std::size_t done = 0; done < options_.points / 8; done += kPortion)
+            GOBO_TRY_DO(search(std::min(kPortion, options_.points / 8 - done), done / kPortion,
+                               done / kPortion / 2 % 2 == 0, kept_near_));
         return std::move(worst_);
     }
 
@@ -68,6 +62,21 @@ class Search {
         double excess = 0;
         Sample sample;
     };
+
+    /// Judges a portion of points: drawn, or each second time varied from those kept.
+    Result<void> search(std::size_t count, std::size_t portion, bool is_alone, std::vector<Kept>& kept) {
+        if (worst_.error > options_.enough) return {};
+        const bool is_fresh = kept.empty() || portion % 2 == 0;
+        std::vector<Sample> samples = is_fresh ? drawn(count, is_alone) : varied(count, kept);
+        for (Sample& sample : samples) {
+            for (const SearchedField& field : fields_) bring_into_domain(field, sample);
+            are_in_order(sample);
+            if (model_.environment_brdf == oracle::EnvironmentBrdf::table) look_up_table(model_, sample);
+        }
+        std::erase_if(samples, [&](Sample& sample) { return !are_in_order(sample); });
+        if (samples.empty()) return {};
+        return judge(verify::rounded_to_float(std::move(samples)), kept);
+    }
 
     /// Puts the sample into each order; whether all could be kept, one beside the other.
     bool are_in_order(Sample& sample) {
@@ -83,6 +92,7 @@ class Search {
             if (!random_.one_in(4)) bring_to_edges(sample, random_);
             if (is_alone) leave_one_light(sample.scene, random_);
             while (!fields_.empty() && random_.one_in(3)) bring_to_end(lit_field(sample), sample, random_);
+            if (is_near_) bring_near(sample, random_);
         }
         return samples;
     }
@@ -178,6 +188,8 @@ class Search {
     std::vector<SearchedOrder> orders_;
     std::vector<Kept> kept_;
     std::vector<Kept> kept_alone_;  ///< with one lamp
+    bool is_near_ = false;          ///< what is drawn lies beside the viewer and the lamps
+    std::vector<Kept> kept_near_;
     WorstCase worst_;
 };
 

@@ -143,6 +143,24 @@ void bring_to_edges(Sample& sample, SearchRandom& random) {
     }
 }
 
+void bring_near(Sample& sample, SearchRandom& random) {
+    const auto step = [&] {
+        const glm::dvec3 direction{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+        return direction * random.across(1e-20, 1e-3);
+    };
+    sample.surface.position = random.one_in(4) ? glm::dvec3(0) : step();
+    const auto move = [&](glm::dvec3& position) {
+        if (random.one_in(2)) position = sample.surface.position + step();
+    };
+    for (oracle::PointLight& light : sample.scene.point) move(light.position);
+    for (oracle::SpotLight& light : sample.scene.spot) move(light.position);
+    for (oracle::DirectionalOrPointLight& light : sample.scene.directional_or_point) {
+        glm::dvec3 position(light.position);
+        move(position);
+        light.position = glm::dvec4(position, light.position.w);
+    }
+}
+
 void leave_one_light(oracle::Scene& scene, SearchRandom& random) {
     std::vector<glm::dvec3*> colors;
     for (oracle::DirectionalLight& light : scene.directional) colors.push_back(&light.color);

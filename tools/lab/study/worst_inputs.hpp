@@ -46,6 +46,9 @@ struct SearchedOrder {
 /// edge, and the point anywhere from the middle of the view, 1e-3 radians from it, to straight aside.
 void bring_to_edges(verify::Sample& sample, SearchRandom& random);
 
+/// Puts the point at the viewer or 1e-20 to 1e-3 from it, and every other lamp as near to the point.
+void bring_near(verify::Sample& sample, SearchRandom& random);
+
 /// Puts out all light but that of one lamp, and fog that thins to nothing: alone a light's error shows whole.
 void leave_one_light(oracle::Scene& scene, SearchRandom& random);
 
