@@ -6,13 +6,17 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gobo/reload.hpp>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
+using testing::Not;
 
 /// However slow the computer is; nothing here waits as long on a quiet one.
 constexpr std::chrono::seconds kPatience{30};
@@ -80,6 +85,8 @@ class Watch : public testing::TestWithParam<const char*> {
         process = ::fork();
         if (process == 0) {
             const std::string out = folder + "/log";
+            const rlimit limit{most_descriptors, most_descriptors};
+            if (most_descriptors > 0) ::setrlimit(RLIMIT_NOFILE, &limit);
             if (told >= 0 ? ::dup2(told, STDERR_FILENO) < 0
                           : std::freopen(out.c_str(), "a", stderr) == nullptr)
                 ::_exit(127);
@@ -131,6 +138,7 @@ class Watch : public testing::TestWithParam<const char*> {
     std::string around = "/tmp/gobo_watch_XXXXXX";
     std::string folder;  ///< one below: others write into /tmp, which would be news
     pid_t process = -1;
+    rlim_t most_descriptors = 0;  ///< that it may have; 0: as many as the system allows
     std::optional<Reload> application;
     std::map<std::string, ReloadedProgram> programs;
     int taken = 0;
@@ -198,6 +206,56 @@ TEST_P(Watch, EndsWhenItIsAskedTo) {
     start();
     ASSERT_TRUE(await([&] { return take() > 0; }));
     EXPECT_TRUE(application->is_connected());
+}
+
+TEST_P(Watch, MakesASocketAgainThatIsRemoved) {
+    fs::remove(socket());
+    EXPECT_TRUE(await([&] { return fs::exists(socket()); }));
+    Reload late(socket());
+    int count = 0;
+    EXPECT_TRUE(await([&] {
+        late.take([&](const ReloadedProgram&) { ++count; });
+        return count == 2;
+    }));
+}
+
+/// Clock ticks of processor time.
+long ticks_of(pid_t process) {
+    std::istringstream status(text_of("/proc/" + std::to_string(process) + "/stat"));
+    std::string skipped;
+    for (int i = 0; i < 13; ++i) status >> skipped;
+    long user = 0;
+    long system = 0;
+    status >> user >> system;
+    return user + system;
+}
+
+TEST_P(Watch, BuildsForMoreWhoListenThanItHasDescriptorsFor) {
+    stop(SIGTERM);
+    most_descriptors = 32;
+    start();
+    ASSERT_TRUE(await([&] { return fs::exists(socket()); }));
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    socket().copy(address.sun_path, sizeof address.sun_path - 1);
+    std::vector<int> silent;
+    for (int i = 0; i < 40; ++i) {
+        silent.push_back(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+        static_cast<void>(
+            ::connect(silent.back(), reinterpret_cast<const sockaddr*>(&address), sizeof address));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.0625); }\n");
+    EXPECT_TRUE(await([&] {
+        return text_of(folder + "/out/tiny.hpp").find("vec4(0.0625)") != std::string::npos;
+    })) << text_of(folder + "/log");
+    EXPECT_THAT(text_of(folder + "/log"), Not(HasSubstr("open files")));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const long before = ticks_of(process);
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_LT(ticks_of(process) - before, 30) << "of 100, while nothing happens";
+    for (const int client : silent) ::close(client);
+    EXPECT_TRUE(await([&] { return take() > 0; })) << "whoever comes when they are gone is heard";
 }
 
 TEST_P(Watch, WritesAgainWhatIsRemoved) {

@@ -48,6 +48,13 @@ tl::unexpected<Diagnostics> file_error(const std::string& path, std::string_view
                  .message = fmt::format("cannot be {}: {}", action, std::strerror(error))});
 }
 
+bool are_of_descriptors(const Diagnostics& errors) {
+    return std::ranges::any_of(errors, [](const Diagnostic& error) {
+        return error.fault == Fault::file && (error.message.ends_with(std::strerror(EMFILE)) ||
+                                              error.message.ends_with(std::strerror(ENFILE)));
+    });
+}
+
 int write_and_close(std::FILE* file, std::string_view content) {
     if (file == nullptr) return errno;
     errno = 0;

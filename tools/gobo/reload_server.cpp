@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -19,6 +19,9 @@ namespace {
 /// Bytes that wait for an application which does not take them. It is let go then, and may come again.
 constexpr std::size_t kMostUnsent = std::size_t{256} << 20;
 
+/// Each takes a descriptor, and builds need some.
+constexpr std::size_t kMostClients = 16;
+
 /// Whether a server listens there.
 bool is_served(const sockaddr_un& address) {
     const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -32,18 +35,35 @@ bool is_socket(const std::string& path) {
     return ::lstat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode);
 }
 
+/// A new socket that listens at the address.
+Result<int> listen_at(const sockaddr_un& address) {
+    const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const mode_t mask = ::umask(0077);
+    const bool is_bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    const int error = errno;
+    ::umask(mask);
+    if (is_bound && ::listen(socket, 16) == 0) return socket;
+    ::close(socket);
+    return file_error(address.sun_path, "made a socket", is_bound ? errno : error);
+}
+
+sockaddr_un address_of(const std::string& path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    return address;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ReloadServer>> ReloadServer::open(const std::string& path) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
+    const sockaddr_un address = address_of(path);
     if (path.size() >= sizeof address.sun_path)
         return fail({.fault = Fault::file,
                      .place = {path},
                      .message = fmt::format("cannot be a socket: its name has more than {} bytes",
                                             sizeof address.sun_path - 1),
                      .help = "name one in a folder nearby, or in /tmp"});
-    std::memcpy(address.sun_path, path.data(), path.size());
     if (is_socket(path)) {
         if (is_served(address))
             return fail({.fault = Fault::file,
@@ -52,16 +72,15 @@ Result<std::unique_ptr<ReloadServer>> ReloadServer::open(const std::string& path
                          .help = "name another socket, or end it"});
         ::unlink(path.c_str());
     }
-    const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    const mode_t mask = ::umask(0077);
-    const bool is_bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-    const int error = errno;
-    ::umask(mask);
-    if (!is_bound || ::listen(socket, 16) != 0) {
-        ::close(socket);
-        return file_error(path, "made a socket", is_bound ? errno : error);
-    }
+    GOBO_TRY(const int socket, listen_at(address));
     return std::unique_ptr<ReloadServer>(new ReloadServer(path, socket));
+}
+
+void ReloadServer::restore_socket() {
+    if (is_socket(path_)) return;
+    const Result<int> socket = listen_at(address_of(path_));  // where it cannot, it is tried again
+    if (!socket) return;
+    ::close(std::exchange(socket_, *socket));
 }
 
 ReloadServer::~ReloadServer() {
@@ -119,6 +138,7 @@ void ReloadServer::offer_errors(std::string_view errors) {
 }
 
 void ReloadServer::send(const std::string& message) {
+    can_accept_ = true;
     for (Client& client : clients_) client.unsent += message;
     std::erase_if(clients_, [](Client& client) { return !send_some(client); });
 }
@@ -141,7 +161,7 @@ bool ReloadServer::send_some(Client& client) {
 }
 
 std::vector<pollfd> ReloadServer::descriptors() const {
-    std::vector<pollfd> all = {{socket_, POLLIN, 0}};
+    std::vector<pollfd> all = {{can_accept_ ? socket_ : -1, POLLIN, 0}};
     for (const Client& client : clients_)
         all.push_back(
             {client.socket, static_cast<short>(client.unsent.empty() ? POLLIN : POLLIN | POLLOUT), 0});
@@ -159,13 +179,20 @@ void ReloadServer::serve(const std::vector<pollfd>& polled) {
         const ssize_t count = ::recv(client.socket, &said, 1, MSG_DONTWAIT);
         const bool is_gone = count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR);
         if (is_gone) ::close(client.socket);
+        can_accept_ = can_accept_ || is_gone;
         return is_gone || !send_some(client);
     });
     if (!is_ready(socket_)) return;
-    for (int come = 0; (come = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;) {
-        Client client{come, message_of(programs_)};
-        if (send_some(client)) clients_.push_back(std::move(client));
+    int come = -1;
+    while ((come = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0) {
+        Client client{come, clients_.size() < kMostClients ? message_of(programs_) : ""};
+        if (client.unsent.empty())
+            ::close(come);
+        else if (send_some(client))
+            clients_.push_back(std::move(client));
     }
+    // It would be ready again at once, and no more accepted, until a descriptor is free.
+    can_accept_ = errno != EMFILE && errno != ENFILE;
 }
 
 }  // namespace gobo

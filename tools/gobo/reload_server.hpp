@@ -14,7 +14,7 @@
 
 namespace gobo {
 
-/// Listens at a socket in the file system, for the user's own processes. Messages are a line "GOBO1 SIZE" and
+/// Listens at a socket in the file system, for 16 of the user's own processes at a time. Messages are a line "GOBO1 SIZE" and
 /// SIZE bytes of records:
 ///     "stage KIND SIZE\n" and the text, KIND as in StageKind;
 ///     "program SIZE COUNT NUMBER...\n" and the key, the numbers those of stages of this message, from 0;
@@ -36,6 +36,8 @@ class ReloadServer {
     /// What to wait for, for poll(), and what to do with its answer.
     [[nodiscard]] std::vector<pollfd> descriptors() const;
     void serve(const std::vector<pollfd>& polled);
+    /// Listens anew where the socket was removed.
+    void restore_socket();
 
   private:
     struct Client {
@@ -57,6 +59,7 @@ class ReloadServer {
 
     std::string path_;
     int socket_;
+    bool can_accept_ = true;  ///< as far as descriptors go
     std::vector<Client> clients_;
     Programs programs_;
     std::string errors_;

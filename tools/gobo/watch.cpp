@@ -2,12 +2,14 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include "core/file_error.hpp"
 #include "core/file_trace.hpp"
 #include "core/file_watch.hpp"
 #include "core/result_cache.hpp"
@@ -24,6 +26,9 @@ using Clock = std::chrono::steady_clock;
 /// Milliseconds of quiet after which a file is taken for saved, and between two looks where nobody tells.
 constexpr int kQuiet = 5;
 constexpr int kBetweenLooks = 200;
+/// Milliseconds after which a socket that was removed is made again, and a build tried again that had no
+/// descriptors left.
+constexpr int kBetweenTries = 1000;
 
 struct WatchOptions : BuildOptions {
     std::string socket;
@@ -89,8 +94,12 @@ class Watcher {
     std::vector<FileQuestion> tell(Result<Built> built, Clock::time_point start) {
         Result<Outcome> outcome =
             built ? with_files_written(built->outcome) : tl::unexpected(std::move(built).error());
+        wants_descriptors_ = !outcome && are_of_descriptors(outcome.error());
+        const std::string errors = outcome ? "" : to_text(outcome.error());
+        const bool is_told = errors == std::exchange(told_, errors);
+        if (is_told && wants_descriptors_) return {};
         if (!outcome) {
-            if (server_) server_->offer_errors(to_text(outcome.error()));
+            if (server_) server_->offer_errors(errors);
             world_.tell(
                 {{}, std::move(outcome).error(), fmt::format("{}: waiting for a change", options_.family)});
             return {};
@@ -119,10 +128,16 @@ class Watcher {
                                               {STDERR_FILENO, 0, 0}};
                 if (server_)
                     for (const pollfd& socket : server_->descriptors()) waited.push_back(socket);
-                if (::poll(waited.data(), waited.size(), looks ? kBetweenLooks : -1) < 0) continue;
+                const int timeout = looks                            ? kBetweenLooks
+                                    : wants_descriptors_ || server_ ? kBetweenTries
+                                                                    : -1;
+                const int ready = ::poll(waited.data(), waited.size(), timeout);
+                if (ready < 0) continue;
                 // Or nobody reads any more what is told.
                 if (waited[0].revents != 0 || (waited[2].revents & POLLERR) != 0) return false;
                 if (server_) server_->serve(waited);
+                if (server_) server_->restore_socket();
+                if (ready == 0 && wants_descriptors_) return true;
                 has_news = looks || waited[1].revents != 0;
             }
             // An editor writes a file, then renames it; a checkout changes many.
@@ -143,6 +158,8 @@ class Watcher {
     std::unique_ptr<ReloadServer> server_;
     Ending ending_;
     FileWatch watch_;
+    std::string told_;                ///< the errors of the last state
+    bool wants_descriptors_ = false;  ///< the last build failed without
 };
 
 Result<Outcome> run(const WatchOptions& options, const World& world) {
