@@ -214,6 +214,14 @@ TEST_F(Together, AllOrNone) {
     EXPECT_EQ(listing(), "a/one=3 two=2 ");
 }
 
+TEST_F(Together, NoFolderIsLeftWithoutFiles) {
+    std::filesystem::create_directory(root + "/folder");
+    EXPECT_FALSE(write_together({{root + "/folder", "1"}, {root + "/new/deep/two", "2"}}));
+    EXPECT_FALSE(std::filesystem::exists(root + "/new"));
+    EXPECT_TRUE(write_together({{root + "/one", "1"}, {root + "/new/deep/two", "2"}}));
+    EXPECT_TRUE(std::filesystem::exists(root + "/new/deep/two"));
+}
+
 TEST_F(Together, WhatADeadWriterLeftGoes) {
     DiskFileSystem disk;
     for (const char* text : {"1", "1", "2"}) {

@@ -146,18 +146,40 @@ tl::unexpected<Diagnostics> open_error(const std::string& path, const TemporaryF
     return file_error(is_in_the_way ? temporary.name() : path, "written", error);
 }
 
-/// Makes the folder. Fault::file where it cannot be.
-Result<void> make_folder(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path();
-    std::error_code error;
-    if (!folder.empty()) fs::create_directories(folder, error);
-    if (error) return file_error(folder.generic_string(), "made", error.value());
-    return {};
-}
+/// Folders that were made for files. Without files they go again.
+class MadeFolders {
+  public:
+    MadeFolders() = default;
+    MadeFolders(const MadeFolders&) = delete;
+    MadeFolders& operator=(const MadeFolders&) = delete;
+    ~MadeFolders() {
+        std::error_code ignored;  // of those that hold something
+        for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, ignored);
+    }
+
+    /// Makes the folder of a file. Fault::file where it cannot be.
+    Result<void> make_for(const std::string& path) {
+        std::vector<fs::path> missing;
+        std::error_code error;
+        for (fs::path folder = fs::path(path).parent_path(); !folder.empty() && !fs::exists(folder, error);
+             folder = folder.parent_path())
+            missing.push_back(folder);
+        made_.insert(made_.end(), missing.rbegin(), missing.rend());
+        error.clear();
+        const fs::path folder = fs::path(path).parent_path();
+        if (!folder.empty()) fs::create_directories(folder, error);
+        if (error) return file_error(folder.generic_string(), "made", error.value());
+        return {};
+    }
+
+  private:
+    std::vector<fs::path> made_;
+};
 
 }  // namespace
 
 Result<bool> write_together(const std::vector<NewFile>& files) {
+    MadeFolders folders;  // outlives the temporary files
     std::vector<TemporaryFile> temporary;
     for (const NewFile& file : files) temporary.emplace_back(file.path);
     if (std::ranges::all_of(files, holds)) {
@@ -179,7 +201,7 @@ Result<bool> write_together(const std::vector<NewFile>& files) {
             static_cast<void>(temporary[i].clear());
             continue;
         }
-        GOBO_TRY_DO(make_folder(file.path));
+        GOBO_TRY_DO(folders.make_for(file.path));
         // Told now: later others would be in place already.
         std::error_code ignored;
         if (fs::is_directory(file.path, ignored)) return file_error(file.path, "written", EISDIR);

@@ -16,6 +16,7 @@ Result<Outcome> run(const std::string& action, const World& world) {
     const std::string folder = cache_folder(world.options);
     if (folder.empty())
         return fail(Fault::usage, "no cache is named", "give --cache DIR, or set GOBO_CACHE_DIR");
+    GOBO_TRY_DO(refuse_other_caches(folder));
     if (names_redis(folder))
         return fail(Fault::usage, fmt::format("what {} holds is Redis's to say", folder),
                     "ask it: redis-cli --scan --pattern 'gobo:*', redis-cli info memory");

@@ -11,6 +11,7 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "compose/specialized_counts.hpp"
+#include "core/digest.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
@@ -367,6 +368,11 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                    const SelectionOptions& options) {
     GOBO_TRY(const Selection selection, load_selection(world, family, options));
     GOBO_TRY(std::vector<Key> keys, select(family.family, selection, name_of(family.dialect)));
+    if (!options.shard.empty()) {
+        std::string run = fmt::format("{} {}\n", family.family.name, name_of(family.dialect));
+        for (const Key& key : keys) run += key_text(family.family, key) + "\n";
+        family.run = hex(digest_of(run));
+    }
     return shard_of(std::move(keys), options.shard);
 }
 

@@ -80,6 +80,8 @@ struct LoadedFamily {
     std::map<int, std::string> count_constants = {};
     Dialect dialect = Dialect::own;
     Comments comments = Comments::remove;
+    /// What the shards of one run have in common: their family, dialect and all keys; empty without --shard.
+    std::string run = {};
 };
 
 [[nodiscard]] Option family_argument(std::string& name);

@@ -63,6 +63,7 @@ Result<Outcome> run_with_cache(const Command& command, const World& world, const
                                const std::vector<std::string>& arguments, Diagnostics& warnings) {
     const std::string folder = cache_folder(world.options);
     if (folder.empty() || command.manages_cache) return command.run(world);
+    GOBO_TRY_DO(refuse_other_caches(folder));
     std::unique_ptr<ResultCache> opened;
     if (names_redis(folder)) {
         GOBO_TRY(opened, RedisCache::open(folder));

@@ -14,11 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kInOrder = "name every shard once, in order";
 constexpr const char* kRunAgain = "run its shard again, and name every shard once, in order";
 
 struct Shard {
     std::string path;
     std::string text;
+    std::string number = {};  ///< "1/2"; empty where it states none
+    std::string run = {};     ///< what shards of one run have in common
 };
 
 /// Shards take turns: the first key is the first one's, the next the second one's. `groups` are each shard's
@@ -30,11 +33,12 @@ Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const
     std::map<std::string, std::size_t> owners;
     for (std::size_t i = 0; i < groups.size(); ++i)
         for (const Group& group : groups[i])
-            if (const auto [owner, is_new] = owners.try_emplace(key_of(group), i);
-                !is_new && owner->second != i)
+            if (const auto [owner, is_new] = owners.try_emplace(key_of(group), i); !is_new)
                 return fail(Place{shards[i].path}, {},
-                            fmt::format("holds '{}', as {} does", owner->first, shards[owner->second].path),
-                            "name every shard once, in order");
+                            owner->second == i ? fmt::format("holds '{}' twice", owner->first)
+                                               : fmt::format("holds '{}', as {} does", owner->first,
+                                                             shards[owner->second].path),
+                            owner->second == i ? kRunAgain : kInOrder);
     std::size_t count = 0;
     for (const auto& own : groups) count += own.size();
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -54,6 +58,23 @@ Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const
 bool is_list_of_keys(const Json& value) {
     return value.is_array() &&
            std::ranges::all_of(value, [](const Json& row) { return row.is_object() && row.contains("key"); });
+}
+
+/// Each is the shard that its place among the files says, of the same run as the first; where they state it.
+Result<void> check_shards(const std::vector<Shard>& shards) {
+    for (std::size_t i = 0; i < shards.size(); ++i) {
+        const Shard& shard = shards[i];
+        const std::string wanted = fmt::format("{}/{}", i + 1, shards.size());
+        if (!shard.number.empty() && shard.number != wanted)
+            return fail(Place{shard.path}, {}, fmt::format("is shard {}, not {}", shard.number, wanted),
+                        kInOrder);
+        if (shard.run != shards.front().run)
+            return fail(Place{shard.path}, {},
+                        fmt::format("is of another run than {}: of other keys, or another dialect",
+                                    shards.front().path),
+                        "merge the shards of one run");
+    }
+    return {};
 }
 
 /// Lists of keys are put together, lists of other objects one by one; all else must be the same.
@@ -105,21 +126,21 @@ int indentation_of(std::string_view text) {
     return static_cast<int>(std::min(line.find_first_not_of(' '), line.size()));
 }
 
-Result<std::string> merged_json(const std::vector<Shard>& shards) {
+Result<std::string> merged_json(std::vector<Shard> shards) {
     std::vector<Json> documents;
-    for (const Shard& shard : shards) {
+    for (Shard& shard : shards) {
         documents.push_back(Json::parse(shard.text, nullptr, false));
         if (documents.back().is_discarded() || !documents.back().is_object())
             return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
     }
-    for (std::size_t i = 0; i < documents.size(); ++i) {
-        const Json shard = documents[i].value("shard", Json());
-        const std::string wanted = fmt::format("{}/{}", i + 1, documents.size());
-        if (!shard.is_null() && shard != wanted)
-            return fail(Place{shards[i].path}, {}, fmt::format("is shard {}, not {}", shard.dump(), wanted),
-                        "name every shard once, in order");
-        documents[i].erase("shard");
-    }
+    for (std::size_t i = 0; i < documents.size(); ++i)
+        for (const auto& [name, text] :
+             {std::pair("shard", &shards[i].number), std::pair("run", &shards[i].run)}) {
+            const Json stated = documents[i].value(name, Json());
+            if (!stated.is_null()) *text = stated.is_string() ? stated.get<std::string>() : stated.dump();
+            documents[i].erase(name);
+        }
+    GOBO_TRY_DO(check_shards(shards));
     std::vector<const Json*> values;
     for (const Json& document : documents) values.push_back(&document);
     GOBO_TRY(const Json whole, merged(values, shards, "document"));
@@ -140,12 +161,25 @@ std::vector<Rows> groups_of(const Rows& rows, std::size_t columns) {
     return groups;
 }
 
+/// What the rows say in a column, which is taken out; empty where there is none.
+std::string taken_column(CsvTable& table, std::string_view name) {
+    const auto column = table.column(name);
+    if (!column) return {};
+    const auto at = static_cast<std::ptrdiff_t>(*column);
+    std::string text = table.rows.empty() ? "" : table.rows.front()[*column];
+    table.columns.erase(table.columns.begin() + at);
+    for (auto& row : table.rows) row.erase(row.begin() + at);
+    return text;
+}
+
 /// What stands before the column `key` parts the table: each part is put together by itself.
-Result<std::string> merged_csv(const std::vector<Shard>& shards) {
+Result<std::string> merged_csv(std::vector<Shard> shards) {
     CsvTable whole;
     std::vector<std::vector<Rows>> parts;  // of each shard
-    for (const Shard& shard : shards) {
-        const CsvTable table = read_csv(shard.text);
+    for (Shard& shard : shards) {
+        CsvTable table = read_csv(shard.text);
+        shard.number = taken_column(table, "shard");
+        shard.run = taken_column(table, "run");
         const auto key = table.column("key");
         if (!key || (!whole.columns.empty() && table.columns != whole.columns))
             return fail(Place{shard.path}, {},
@@ -157,6 +191,7 @@ Result<std::string> merged_csv(const std::vector<Shard>& shards) {
         if (parts.back().size() != parts.front().size())
             return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
     }
+    GOBO_TRY_DO(check_shards(shards));
     const std::size_t key = whole.column("key").value();
     for (std::size_t part = 0; part < parts.front().size(); ++part) {
         std::vector<std::vector<Rows>> groups;

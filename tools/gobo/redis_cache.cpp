@@ -19,6 +19,12 @@ bool names_redis(std::string_view cache) {
     return cache.starts_with(kScheme);
 }
 
+Result<void> refuse_other_caches(std::string_view cache) {
+    if (names_redis(cache) || cache.find("://") == std::string_view::npos) return {};
+    return fail(Fault::usage, fmt::format("'{}' is neither a folder nor a Redis", cache),
+                "name a folder, or redis://HOST:PORT");
+}
+
 #ifdef GOBO_HAS_HIREDIS
 
 namespace {

@@ -13,6 +13,8 @@ namespace gobo {
 
 /// "redis://" begins the name of such a cache.
 [[nodiscard]] bool names_redis(std::string_view cache);
+/// An error where it names a cache in another way, such as `http://`.
+[[nodiscard]] Result<void> refuse_other_caches(std::string_view cache);
 
 /// A key for each result, "gobo:" and its digits. How much is kept is Redis's to say (maxmemory, and
 /// maxmemory-policy allkeys-lru). Once it does not answer, nothing more is asked of it.

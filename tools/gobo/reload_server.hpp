@@ -14,8 +14,8 @@
 
 namespace gobo {
 
-/// Listens at a socket in the file system, for 16 of the user's own processes at a time. Messages are a line "GOBO1 SIZE" and
-/// SIZE bytes of records:
+/// Listens at a socket in the file system, for 16 of the user's own processes at a time. Messages are a line
+/// "GOBO1 SIZE" and SIZE bytes of records:
 ///     "stage KIND SIZE\n" and the text, KIND as in StageKind;
 ///     "program SIZE COUNT NUMBER...\n" and the key, the numbers those of stages of this message, from 0;
 ///     "errors SIZE\n" and the text; none where the last state has none.

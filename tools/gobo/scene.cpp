@@ -131,7 +131,8 @@ std::string scene_json(const SceneReport& report) {
                                       {"lights_shaded", row.shaded_lights},
                                       {"lights_unused", row.shaded_lights - row.lights}});
     }
-    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    // In ASCII: names of nodes may hold what a terminal obeys.
+    return json.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n";
 }
 
 Result<scene::EyePlace> place_eye(const scene::Scene& scene, const std::string& camera) {

@@ -128,7 +128,7 @@ class Watcher {
                                               {STDERR_FILENO, 0, 0}};
                 if (server_)
                     for (const pollfd& socket : server_->descriptors()) waited.push_back(socket);
-                const int timeout = looks                            ? kBetweenLooks
+                const int timeout = looks                           ? kBetweenLooks
                                     : wants_descriptors_ || server_ ? kBetweenTries
                                                                     : -1;
                 const int ready = ::poll(waited.data(), waited.size(), timeout);

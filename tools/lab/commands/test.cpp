@@ -321,10 +321,12 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
     return outcome;
 }
 
-/// The figures, and which shard's they are: gobo merge takes that out again.
-std::string figures_of_shard(std::string figures, const std::string& shard) {
+/// The figures, and which shard's of which run they are: gobo merge takes that out again.
+std::string figures_of_shard(std::string figures, const std::string& shard, const std::string& run) {
     constexpr std::string_view first_member = "{\n";
-    if (!shard.empty()) figures.insert(first_member.size(), fmt::format(" \"shard\": \"{}\",\n", shard));
+    if (!shard.empty())
+        figures.insert(first_member.size(),
+                       fmt::format(" \"shard\": \"{}\",\n \"run\": \"{}\",\n", shard, run));
     return figures;
 }
 
@@ -353,9 +355,9 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     Diagnostics diagnostics = report_failures(world, options, family.family, family.dialect, report);
     append(diagnostics, warn_of_no_keys(composition, "nothing was tested"));
     if (!options.figures_file.empty()) {
-        const auto written =
-            world.disk.write(options.figures_file,
-                             figures_of_shard(verify::figures_json(family.family, report), options.shard));
+        const auto written = world.disk.write(
+            options.figures_file,
+            figures_of_shard(verify::figures_json(family.family, report), options.shard, family.run));
         if (!written) append(diagnostics, written.error());
     }
     return Outcome{
