@@ -33,12 +33,22 @@ prove::ProveReport proven(const std::string& path, const FileSystem& files,
         if (error.severity == Severity::error) ADD_FAILURE() << to_text(error);
     }
     prove::ProveReport report = prove::prove(*family, *composition, validated, options);
-    for (const Diagnostic& error : report.diagnostics) ADD_FAILURE() << to_text(error);
     return report;
+}
+
+/// The same of a fragment stage's text, that writes `color` and reads `a`.
+prove::ProveReport proven_text(const std::string& statements) {
+    const MemoryFileSystem files(std::map<std::string, std::string, std::less<>>{
+        {"known.frag",
+         "#version 450\nlayout(location = 0) in float a;\nlayout(location = 0) out float color;\n"
+         "float total(float x) { return x - 2.0; }\nvoid main() {\n" +
+             statements + "\n}\n"}});
+    return proven("known.frag", files, {});
 }
 
 /// The worst of a rule over a file.
 std::map<std::string, Status> by_rule(const prove::ProveReport& report) {
+    for (const Diagnostic& error : report.diagnostics) ADD_FAILURE() << to_text(error);
     std::map<std::string, Status> all;
     for (const prove::SourceOperation& operation : report.operations)
         for (const prove::ProvenRule& rule : operation.rules)
@@ -301,6 +311,25 @@ TEST(Proofs, ClaimNothingOfWhatTheyDoNotCover) {
                         "returns, unwritten outputs and constants; gobo sanitize looks for them\n"),
               std::string::npos)
         << text;
+}
+
+/// What is an error has its row.
+TEST(Proofs, CountConstantsThatAreNotProven) {
+    const std::string text = prove::proof_text(proven_text("color = a + 1.0 / total(2.0);"));
+    const std::string row =
+        "division by zero                                                            1          0         0  "
+        " "
+        "     1    0.0 %\n";
+    EXPECT_NE(text.find(row), std::string::npos) << text;
+}
+
+TEST(Proofs, GiveUpLoopsThatMayNeverEnd) {
+    const prove::ProveReport report = proven_text(
+        "float y = a; int n = 0; while (y != 0.0) { y -= sign(y) * 0.0; ++n; } color = float(n);");
+    ASSERT_EQ(report.diagnostics.size(), 1U);
+    EXPECT_EQ(report.diagnostics.front().message,
+              "whether the loop ends stays open for 256 turns: nothing is proven of this stage");
+    EXPECT_NE(prove::proof_text(report).find("undecided\nknown.frag:6: FMul: "), std::string::npos);
 }
 
 TEST(Proofs, AreWrittenAsJson) {

@@ -20,6 +20,7 @@ enum class Setting {
     fragment,
     no_color,  ///< the body alone writes the colour
     vertex,
+    vulkan,         ///< Vulkan's GLSL, without uniforms
     mediump,        ///< GLSL ES, floats of 16 bits
     every_machine,  ///< on all variants of arithmetic
 };

@@ -9,6 +9,9 @@ namespace gobo {
 namespace {
 
 std::string shader_of(const Hazard& row, const HazardSource& source) {
+    if (row.setting == Setting::vulkan)
+        return "#version 450\nlayout(location = 0) in float x; layout(location = 0) out vec4 c;\n" +
+               source.declarations + "\nvoid main() {\nc = vec4(0);\n" + source.body + "\n}\n";
     const bool is_vertex = row.setting == Setting::vertex;
     const bool is_es = row.setting == Setting::mediump;
     const std::string flat = is_vertex ? "in int" : "flat in int";

@@ -27,11 +27,17 @@ struct Loaded {
     Validated validated;
 };
 
+/// What states constant_id is Vulkan's.
+Dialect dialect_of_text(const std::string& text) {
+    return text.find("constant_id") == std::string::npos ? Dialect::own : Dialect::vulkan;
+}
+
 Loaded load(const std::string& path, const FileSystem& files) {
     SearchPath search;
     const Result<Family> family = family_of_files({path}, files, search);
     EXPECT_TRUE(family) << path;
-    const Result<Composition> composition = compose(*family, {Key{}}, search, Dialect::own);
+    const Result<Composition> composition =
+        compose(*family, {Key{}}, search, dialect_of_text(files.read(path).value_or("")));
     EXPECT_TRUE(composition) << path;
     ValidateOptions options;
     options.keep_spirv = true;

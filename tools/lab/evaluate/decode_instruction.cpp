@@ -327,7 +327,11 @@ void Decoder::decode_access_chain(const Instruction& instruction) {
     for (std::size_t word = 4; word < instruction.words.size() && !error_; ++word) {
         const auto constant = constant_bits_.find(instruction.id(word));
         const bool is_unstated = type(at).opcode == spv::OpTypeRuntimeArray;
-        if (constant != constant_bits_.end() && constant->second.size() == 1) {
+        // One beyond the end, as specialisation constants may be, is clamped as a variable is, and told of.
+        const bool is_beyond = constant != constant_bits_.end() && constant->second.size() == 1 &&
+                               type(at).opcode != spv::OpTypeStruct && !is_unstated &&
+                               constant->second.front() >= type(at).count && type(at).count > 0;
+        if (constant != constant_bits_.end() && constant->second.size() == 1 && !is_beyond) {
             if (is_unstated && constant->second.front() >= type(at).count)
                 return report(instruction, fmt::format("'{}' has no size, and is evaluated with {} elements",
                                                        path, type(at).count));

@@ -191,6 +191,8 @@ void find_examples(const Family& family, const Composition& composition, const V
                    std::size_t stage, const Proven& proven, const ProveOptions& options,
                    const std::vector<ProvenRule*>& rules, const std::vector<Place>& places) {
     constexpr std::size_t kPortion = 256;
+    constexpr int kMostEndless = 4;  // runs with a loop that is given up: each takes 65,536 turns
+    int endless = 0;
     const auto permutations = sanitize::permutations_of(composition, stage);
     const Key key = permutations.empty() ? Key{} : composition.permutations[permutations.front()].key;
     const StageKind kind = composition.stages[stage].kind;
@@ -212,6 +214,10 @@ void find_examples(const Family& family, const Composition& composition, const V
             const auto found = sanitize::find_traps(proven.program, invocations, machine, {}, &guide);
             if (!found) return;
             guide.learn(points);
+            const bool is_endless = std::ranges::any_of(*found, [](const sanitize::Finding& finding) {
+                return finding.message == sanitize::kEndless;
+            });
+            endless += is_endless ? 1 : 0;
             for (const sanitize::Finding& finding : *found)
                 for (std::size_t i = 0; i < rules.size(); ++i) {
                     ProvenRule& rule = *rules[i];
@@ -224,6 +230,7 @@ void find_examples(const Family& family, const Composition& composition, const V
                     rule.status = Status::possible;
                 }
         }
+        if (endless >= kMostEndless) return;
         if (std::ranges::all_of(rules,
                                 [](const ProvenRule* rule) { return rule->status == Status::possible; }))
             return;

@@ -75,7 +75,7 @@ std::string proof_text(const ProveReport& report) {
     Count own;
     Count all;
     for (const SourceOperation& operation : report.operations) {
-        if (operation.is_constant) continue;
+        if (operation.is_constant && operation.is_proven()) continue;
         if (operation.has_own_rule()) own.add(operation, true);
         all.add(operation, false);
         for (const ProvenRule& rule : operation.rules)

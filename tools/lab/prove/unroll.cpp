@@ -23,6 +23,7 @@ using Id = ExpressionBuilder::Id;
 
 constexpr std::size_t kMostExpressions = 300000;
 constexpr std::uint32_t kMostTurns = 1U << 16U;
+constexpr std::size_t kMostOpenTurns = 256;  ///< the work grows with their square
 
 /// Which expression each slot holds, in a context.
 struct State {
@@ -47,6 +48,13 @@ class Unroller {
             std::vector<State> states = std::move(first->second);
             waiting_.erase(first);
             State state = joined(std::move(states));
+            if (program_.blocks[block].is_loop && turns_[block] > kMostOpenTurns &&
+                depth_of(state.context) > kMostOpenTurns)
+                return fail(evaluate::error_at(
+                    program_.places[program_.blocks[block].place],
+                    fmt::format(
+                        "whether the loop ends stays open for {} turns: nothing is proven of this stage",
+                        kMostOpenTurns)));
             if (program_.blocks[block].is_loop && ++turns_[block] > kMostTurns)
                 return fail(evaluate::error_at(
                     program_.places[program_.blocks[block].place],
@@ -186,6 +194,13 @@ class Unroller {
             result.slots[slot] = builder_.make({.code = kJoined, .field = ways, .scalar = scalar}, operands);
         }
         return result;
+    }
+
+    /// How many conditions it stands behind.
+    [[nodiscard]] std::size_t depth_of(std::uint32_t context) {
+        std::size_t depth = 0;
+        for (; context != 0; context = expressions().contexts[context].parent) ++depth;
+        return depth;
     }
 
     void run_block(const Block& block, State& state) {

@@ -118,19 +118,12 @@ void ConstantReader::loop() {
 
 void ConstantReader::declaration() {
     bool is_constant = false;
-    bool is_specialised = false;  // by the application: compilers do not know the value
     while (sees("const") || sees("layout") || is_qualifier(peek().text)) {
         is_constant = is_constant || sees("const");
         const bool has_brackets = sees("layout");
-        const std::size_t first = ++at_;
-        if (!has_brackets || !sees("(")) continue;
-        skip_brackets();
-        is_specialised =
-            is_specialised || std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(first),
-                                          tokens_.begin() + static_cast<std::ptrdiff_t>(at_),
-                                          [](const Token& token) { return token.text == "constant_id"; });
+        ++at_;
+        if (has_brackets && sees("(")) skip_brackets();
     }
-    is_constant = is_constant && !is_specialised;
     if (take("struct")) {
         structure();
     } else if (peek().is_name() && sees("{", 1)) {  // a block of uniforms

@@ -146,7 +146,6 @@ struct UndefinedOutput {
 
 constexpr std::string_view kReadUnwritten = "a value is read before it is written";
 constexpr std::uint64_t kMostIterations = 65536;  ///< of a loop; a GPU's driver gives up long before
-constexpr std::string_view kEndless = "a loop is not left after 65536 iterations";
 constexpr std::string_view kNoReturn = "a function returns no value on some path";
 
 /// Watches every operation of a run. Cheap where no trap happens: whole rows of lanes are screened, and only

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostic.hpp"
@@ -12,6 +13,9 @@
 #include "lab/sanitize/machine.hpp"
 
 namespace gobo::sanitize {
+
+/// The message of a loop that is given up.
+inline constexpr std::string_view kEndless = "a loop is not left after 65536 iterations";
 
 /// What one invocation was given.
 using Point = evaluate::EvalPoint;
