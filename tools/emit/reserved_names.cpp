@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/text.hpp"
+#include "emit/global_names.hpp"
 
 namespace gobo {
 namespace {
@@ -164,45 +165,6 @@ constexpr std::string_view kStandardMacros =
     "XATTR_NAME_MAX XATTR_SIZE_MAX X_OK alloca assert assert_perror errno issubnormal math_errhandling "
     "offsetof setjmp sigmask sigsetjmp stderr stdin stdout strdupa strndupa va_arg va_copy va_end va_star";
 
-/// Functions and structs at global scope in the headers of C that C++'s include (glibc 2.36), as far as
-/// somebody may call a family so.
-constexpr std::string_view kGlobalNames =
-    "abort abs access acct acos acosh alarm asctime asin asinh atan atan2 atanh atexit atof atoi atol "
-    "basename brk "
-    "bsearch bzero cabs calloc carg cbrt ccos ceil cexp chdir chown clearerr clock clog clone close confstr "
-    "conj "
-    "copysign cos cosh cpow cproj creal crypt csin csqrt ctan ctermid ctime daddl daemon daylight ddivl "
-    "difftime div "
-    "dmull drem dsubl dup dup2 ecvt environ erf erfc exception execl execv execve exit exp exp10 exp2 expm1 "
-    "fabs fadd "
-    "fclose fcvt fdim fdiv fdopen feof ferror fflush ffma ffs fgetc fgets fileno finite floor fma fmax fmin "
-    "fmod fmul "
-    "fopen fork fprintf fputc fputs fread free freopen frexp fscanf fseek fsqrt fsub fsync ftell fwide "
-    "fwrite gamma "
-    "gcvt getc getchar getcpu getcwd getenv getline getopt getpid getuid getw glm gmtime gobo hypot ilogb "
-    "index "
-    "isalnum isalpha isascii isatty isblank iscntrl isdigit isgraph isinf islower isnan isprint ispunct "
-    "isspace "
-    "isupper isxdigit itimerspec j0 j1 jn kill labs lchown lconv ldexp ldiv lgamma link llabs lldiv llrint "
-    "llround "
-    "localtime lockf log log10 log1p log2 logb longjmp lrint lround lseek main malloc mblen memchr memcmp "
-    "memcpy "
-    "memmove memset mktemp mktime modf nan nanosleep nearbyint nextafter nextdown nextup nice pause pclose "
-    "perror "
-    "pipe popen pow pread printf profil psignal putc putchar putenv puts pwrite qsort raise rand random read "
-    "readlink "
-    "realloc realpath remainder remove remquo rename revoke rewind rindex rint rmdir round roundeven sbrk "
-    "scalb "
-    "scalbn scanf select setbuf setenv setjmp setlocale sigaction sigevent siginfo sigjmp signal signgam "
-    "significand "
-    "sigpause sigstack sigval sigwait sin sincos sinh sleep snprintf sprintf sqrt srand srandom sscanf std "
-    "stpcpy "
-    "strcat strchr strcmp strcpy strdup strlen strstr strtod strtok strtol swab symlink sync syscall sysconf "
-    "system "
-    "tan tanh tgamma time timespec timeval timezone tm tmpfile tmpnam tolower toupper trunc truncate ttyname "
-    "tzname "
-    "tzset ualarm ungetc unlink unshare usleep valloc vfork vprintf wait wcslen wctob wctype write y0 y1 yn";
-
 std::set<std::string, std::less<>> names_in(std::initializer_list<std::string_view> lists) {
     std::set<std::string, std::less<>> names;
     for (const std::string_view list : lists) {
@@ -221,7 +183,7 @@ bool is_reserved_name(std::string_view name) {
 }
 
 bool is_global_name(std::string_view name) {
-    static const std::set<std::string, std::less<>> global = names_in({kGlobalNames});
+    static const std::set<std::string, std::less<>> global = names_in({global_names()});
     return global.contains(name);
 }
 
