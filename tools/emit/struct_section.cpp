@@ -404,6 +404,19 @@ std::string member_checks(const NamedMember& named, const Spot& parent,
     return body.empty() ? body : head + body + tail;
 }
 
+bool names_member_of(const Constraint& constraint, const std::string& block) {
+    return std::ranges::any_of(constraint.names,
+                               [&](const std::string& name) { return name.starts_with(block + "."); });
+}
+
+/// Whether the checks hold the constraint: the order of two members that order_checks() knows.
+bool is_among(const std::string& checks, const Constraint& constraint) {
+    if (!constraint.is_comparison() || constraint.has_number()) return false;
+    const auto call = checks.find(fmt::format("check_order(found, {},", cpp_literal(constraint.names[0])));
+    return call != std::string::npos &&
+           checks.find(fmt::format(", {});", cpp_literal(constraint.names[1])), call) != std::string::npos;
+}
+
 Result<std::string> block_check(const NamedBlock& block, const StructText& structure,
                                 const std::vector<Domain>& domains, const TextTemplate& check) {
     const Member* last = last_array(block.layout);
@@ -420,7 +433,16 @@ Result<std::string> block_check(const NamedBlock& block, const StructText& struc
         extent = fmt::format(", as far as the first `count` of `{}`", last->name);
         count = fmt::format(", [[maybe_unused]] int count = {}", last->array.front());
     }
+    std::vector<std::string> unchecked;
+    for (const Constraint& constraint : constraints_of(domains))
+        if (names_member_of(constraint, block.name) && !is_among(body, constraint))
+            unchecked.push_back(constraint.text);
+    const std::string rest = unchecked.empty()
+                                 ? ""
+                                 : fmt::format("/// Constraints that it does not look at: {}.\n",
+                                               cpp_comment(fmt::format("{}", fmt::join(unchecked, "; "))));
     return fill(check, {{"block", cpp_comment(block.name)},
+                        {"unchecked", rest},
                         {"extent", cpp_comment(extent)},
                         {"unused", body.empty() ? "[[maybe_unused]] " : ""},
                         {"type", structure.name},

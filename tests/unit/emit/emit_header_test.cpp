@@ -143,6 +143,34 @@ TEST(EmitHeader, AFeatureWithAnEnumOfItsOwnLeavesABlockItsName) {
     EXPECT_NE(header.find("struct Fog {"), std::string::npos);
 }
 
+struct ConstraintRow {
+    const char* name;
+    const char* constraint;
+    const char* comment;  ///< of check(block); empty where it looks at the constraint
+};
+
+class UncheckedConstraints : public testing::TestWithParam<ConstraintRow> {};
+
+TEST_P(UncheckedConstraints, AreNamed) {
+    Built built = sample::lit();
+    built.family.domains.push_back({GetParam().constraint, 0, 0, false, {}, {}, {}});
+    const std::string header = header_of(built);
+    const auto at = header.find("/// Constraints that it does not look at: ");
+    const std::string found =
+        at == std::string::npos ? "" : header.substr(at + 42, header.find('\n', at) - at - 42);
+    EXPECT_EQ(found, GetParam().comment);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, UncheckedConstraints,
+                         testing::Values(ConstraintRow{"an_order", "Fog.near < Fog.far", ""},
+                                         ConstraintRow{"an_order_of_components", "Fog.color.x < Fog.color.y",
+                                                       "Fog.color.x < Fog.color.y."},
+                                         ConstraintRow{"not_zero", "not_zero(Fog.color)",
+                                                       "not_zero(Fog.color)."},
+                                         ConstraintRow{"a_number", "Fog.far >= 8", "Fog.far >= 8."},
+                                         ConstraintRow{"of_an_input", "unit(normal)", ""}),
+                         [](const auto& row) { return row.param.name; });
+
 TEST(EmitHeader, AKeyWithTheTopBitSetIsAnUnsignedLiteral) {
     Built built = sample::lit();  // 17 bits
     for (int bit = 17; bit < 64; ++bit) built.family.features.push_back(sample::define(std::to_string(bit)));

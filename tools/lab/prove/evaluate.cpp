@@ -46,8 +46,8 @@ Range also_in_half(Range range) {
                                          : moved;
     };
     Range wider{outwards(range.low, false), outwards(range.high, true), 0, kFinestGrid, true, range.nan};
-    if (range.low >= 0) wider.low = 0;
-    if (range.high <= 0) wider.high = 0;
+    if (range.low >= 0) wider.low = std::max(wider.low, 0.0);
+    if (range.high <= 0) wider.high = std::min(wider.high, 0.0);
     return tidy(wider);
 }
 
@@ -76,14 +76,14 @@ Known Ranges::evaluate(std::uint32_t index) const {
             return known;
         case kHalf: {
             const Known& whole = known_[operands[0]];
-            const bool is_read = expression.part == 1;
+            const bool is_passed_on = expression.part == 1;
             known.range = also_in_half(whole.range);
-            const Range finite = !is_infinite(whole.range) ? whole.range
-                                 : !is_read                ? whole.of_finite
-                                 : is_half(operands[0])    ? kNothing
-                                                           : finite_part(whole.range);
-            known.makes_infinity = (whole.makes_infinity && !is_read) || is_infinite(also_in_half(finite));
-            known.makes_nan = whole.makes_nan && !is_read;
+            known.makes_infinity =
+                is_passed_on
+                    ? overflows_half(operands[0])
+                    : whole.makes_infinity ||
+                          is_infinite(also_in_half(is_infinite(whole.range) ? whole.of_finite : whole.range));
+            known.makes_nan = whole.makes_nan && !is_passed_on;
             return known;
         }
         case kJoined:
@@ -131,6 +131,10 @@ bool Ranges::is_half(std::uint32_t expression, int depth) const {
     if (one.code != kJoined || depth > kDeepest) return false;
     const std::uint32_t* ways = expressions_.operands_of(expression);
     return std::all_of(ways, ways + one.count, [&](std::uint32_t way) { return is_half(way, depth + 1); });
+}
+
+bool Ranges::overflows_half(std::uint32_t expression) const {
+    return !is_half(expression) && is_infinite(also_in_half(finite_part(known_[expression].range)));
 }
 
 void Ranges::evaluate_join(const Expression& expression, const std::uint32_t* operands, Known& known) const {

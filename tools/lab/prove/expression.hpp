@@ -21,11 +21,11 @@ enum Code : std::uint32_t {
     kTexel,              ///< what a texture function answers; known to lie in Expression::known
     kKept,               ///< the operand, as it is under the conditions of a context
     kPlain,              ///< the operand, of which no variant of arithmetic knows how it was computed
-    kHalf,               ///< the operand, or the 16-bit float nearest to it; of what is only read `part` is 1
-    kJoined,             ///< of its operands, each from a context of its own, the one whose way was taken
-    kIndexed,            ///< first operand: the offset; then what stands at the offsets Expression::offsets
-    kReplaced,           ///< operands: an offset, a new value, the old one; new where the offset is `part`
-    kSumOfProducts,      ///< of dot() and matrices: the factors on the left, then those on the right
+    kHalf,      ///< the operand, or the 16-bit float nearest to it; `part` is 1 where it is only passed on
+    kJoined,    ///< of its operands, each from a context of its own, the one whose way was taken
+    kIndexed,   ///< first operand: the offset; then what stands at the offsets Expression::offsets
+    kReplaced,  ///< operands: an offset, a new value, the old one; new where the offset is `part`
+    kSumOfProducts,  ///< of dot() and matrices: the factors on the left, then those on the right
 };
 
 /// The code of an instruction of GLSL.std.450.

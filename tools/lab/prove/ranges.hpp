@@ -104,6 +104,11 @@ class Ranges {
     [[nodiscard]] Range sum_of_products(const std::uint32_t* left, const std::uint32_t* right,
                                         std::uint32_t terms) const;
 
+    /// Whether it holds 16-bit floats wherever what is mediump does.
+    [[nodiscard]] bool is_half(std::uint32_t expression, int depth = 0) const;
+    /// Whether, finite, it may be more than a 16-bit float holds.
+    [[nodiscard]] bool overflows_half(std::uint32_t expression) const;
+
     [[nodiscard]] const sanitize::InputSpace& space() const { return space_; }
 
     /// To be called when an expression has been added to the list.
@@ -147,8 +152,6 @@ class Ranges {
     [[nodiscard]] double sine_limit(std::uint32_t square_of_cross, std::uint32_t square) const;
     /// Whether each product scales its component of a vector, which all have, by 1 / length.
     [[nodiscard]] bool makes_unit(const std::uint32_t* products, std::uint32_t count) const;
-    /// Whether it holds 16-bit floats wherever what is mediump does.
-    [[nodiscard]] bool is_half(std::uint32_t expression, int depth = 0) const;
     void leave_to(std::uint32_t context);
     void push(std::uint32_t context);
     [[nodiscard]] Known evaluate(std::uint32_t expression) const;

@@ -218,6 +218,11 @@ bool makes_no(View& view) {
     return true;
 }
 
+/// Of a store whose place is computed, which has no results.
+bool stores_no_infinity(View& view) {
+    return each(view, 1, [&](std::uint32_t c) { return !view.ranges.overflows_half(view.operand(0, c)); });
+}
+
 bool index_is_within(View& view) {
     const evaluate::Operation& operation = view.program.operations[view.site.operation];
     const std::uint32_t code = evaluate::row_of(operation).code;
@@ -452,7 +457,9 @@ std::vector<std::vector<Rule>> rules_of(const evaluate::Program& program) {
                                                                          : 4U});
         add_image_rules(program, program.operations[at], all[at]);
         const bool has_floats = program.infos[at].result.scalar == Scalar::float32;
-        if (has_floats && (row.kind <= Kind::matrix || sanitize::reads_mediump_input(program, at)))
+        if (has_floats && row.code == evaluate::kScatter && sanitize::narrows_to_half(program, at))
+            all[at].push_back({kMakesInfinity, stores_no_infinity, 1, true});
+        else if (has_floats && (row.kind <= Kind::matrix || sanitize::narrows_to_half(program, at)))
             all[at].push_back({kMakesInfinity, makes_no<&Known::makes_infinity>, ~0U, true});
         if (has_floats && row.kind <= Kind::matrix) {
             all[at].push_back({kMakesNaN, makes_no<&Known::makes_nan>, ~0U, true});

@@ -288,13 +288,18 @@ class Unroller {
         for (const Slice& operand : info.operands)
             for (std::uint32_t i = 0; i < operand.count; ++i) before.push_back(state.slots[operand.slot + i]);
         std::vector<Id> results = operations_.results_of(operation, info, row, before, state.slots);
-        const bool is_read = row.kind == evaluate::Kind::load || row.kind == evaluate::Kind::store;
+        using Kind = evaluate::Kind;
+        const bool narrows = sanitize::narrows_to_half(program_, at);
+        const bool is_passed_on = narrows && row.kind != Kind::convert && row.kind != Kind::derivative;
         if (info.is_relaxed && info.result.scalar == Scalar::float32)
             for (Id& result : results)
-                result = builder_.make({.code = kHalf, .part = is_read ? 1U : 0U}, {result});
+                result = builder_.make({.code = kHalf, .part = is_passed_on ? 1U : 0U}, {result});
         if (row.code != evaluate::kScatter)
             for (std::uint32_t i = 0; i < results.size(); ++i) state.slots[operation.result + i] = results[i];
-        if (row.is_bookkeeping || (is_read && !sanitize::reads_mediump_input(program_, at))) return;
+        const bool is_wide =
+            narrows && std::ranges::any_of(before, [&](Id id) { return !builder_.ranges().is_half(id); });
+        const bool is_silent = row.is_bookkeeping || row.kind == Kind::load || row.kind == Kind::store;
+        if (is_silent && !is_wide) return;
         Site site;
         site.operation = at;
         site.context = builder_.context();

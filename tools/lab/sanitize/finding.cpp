@@ -94,6 +94,19 @@ bool may_narrow(const evaluate::Row& row) {
     }
 }
 
+/// Whether the operation reads what is mediump of an input or a uniform, which may be given more than a
+/// 16-bit float holds.
+bool reads_mediump_input(const evaluate::Program& program, std::size_t operation) {
+    const evaluate::OperationInfo& info = program.infos[operation];
+    if (code_of(program.operations[operation]) != spv::OpLoad || !info.is_relaxed || info.operands.empty())
+        return false;
+    const auto holds = [&](const evaluate::Port& port) {
+        return port.slot <= info.operands.front().slot &&
+               info.operands.front().slot < port.slot + port.components;
+    };
+    return std::ranges::any_of(program.inputs, holds) || std::ranges::any_of(program.uniforms, holds);
+}
+
 /// The lanes in which what is stored is a number that no 16-bit float holds.
 Lanes beyond_half(const Step& step) {
     const Slice& stored = step.info().operands.front();
@@ -162,7 +175,7 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.has_silent = std::any_of(watch.rules.begin(), watch.rules.end(),
                                            [](const TrapRule& rule) { return rule.is_silent; });
             const evaluate::OperationInfo& info = run.program.infos[at];
-            watch.narrows = run.machine == Machine::mediump && info.is_relaxed && may_narrow(row);
+            watch.narrows = run.machine == Machine::mediump && narrows_to_half(run.program, at);
             // The other operations pass on what these made.
             watch.reads_mediump_input =
                 run.machine == Machine::mediump && reads_mediump_input(run.program, at);
@@ -598,15 +611,8 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
 
 }  // namespace
 
-bool reads_mediump_input(const evaluate::Program& program, std::size_t operation) {
-    const evaluate::OperationInfo& info = program.infos[operation];
-    if (code_of(program.operations[operation]) != spv::OpLoad || !info.is_relaxed || info.operands.empty())
-        return false;
-    const auto holds = [&](const evaluate::Port& port) {
-        return port.slot <= info.operands.front().slot &&
-               info.operands.front().slot < port.slot + port.components;
-    };
-    return std::ranges::any_of(program.inputs, holds) || std::ranges::any_of(program.uniforms, holds);
+bool narrows_to_half(const evaluate::Program& program, std::size_t operation) {
+    return program.infos[operation].is_relaxed && may_narrow(evaluate::row_of(program.operations[operation]));
 }
 
 Result<std::vector<Finding>> find_traps(const evaluate::Program& program,

@@ -50,9 +50,9 @@ struct Finding {
 /// The finding's message with the operation's values.
 [[nodiscard]] std::string to_text(const Finding& finding);
 
-/// Whether the operation reads what is mediump of an input or a uniform, which may be given more than a
-/// 16-bit float holds.
-[[nodiscard]] bool reads_mediump_input(const evaluate::Program& program, std::size_t operation);
+/// Whether the operation, which does not compute floats, makes 16-bit ones of those that it passes on where
+/// these are what is mediump: it reads, stores, chooses or converts them.
+[[nodiscard]] bool narrows_to_half(const evaluate::Program& program, std::size_t operation);
 
 /// The traps of one stage at the given points; the stage's kind is left to the caller. An output that nothing
 /// ever stores to has no place. `bounds` are those of OutputBounds::at(), or empty: points that trap are not
