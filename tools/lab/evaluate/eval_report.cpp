@@ -45,7 +45,8 @@ std::vector<double> differences(const EvalOutput& output) {
 std::string columns(const char* label, const std::vector<double>& numbers, const char* format) {
     std::string line = fmt::format("  {:<12}", label);
     for (const double number : numbers)
-        line += fmt::format("{:<25}", fmt::format(fmt::runtime(format), number));
+        line += fmt::format("{:<25}",
+                            fmt::format(fmt::runtime(format), std::isnan(number) ? std::nan("") : number));
     return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
@@ -133,7 +134,8 @@ template class Trace<double>;
 
 std::string to_text(const std::vector<double>& components) {
     std::vector<std::string> numbers;
-    for (const double component : components) numbers.push_back(number_text(component, Digits::of_float));
+    for (const double component : components)  // the sign of a NaN means nothing, and differs by machine
+        numbers.push_back(std::isnan(component) ? "nan" : number_text(component, Digits::of_float));
     if (numbers.size() == 1) return numbers.front();
     return fmt::format("({})", fmt::join(numbers, ", "));
 }
@@ -233,6 +235,7 @@ Result<EvalReport> evaluate_once(const Program& program, const Invocations& invo
     Options in_floats = options.arithmetic;
     in_floats.count = true;
     in_floats.is_single = program.has_wide;
+    in_floats.iteration_limit = kMostIterations;  // as the sanitizer, whose inputs are replayed here
     GOBO_TRY(const Outputs in_float, program.has_wide
                                          ? traced<double>(program, invocations, in_floats, options, trace)
                                          : traced<float>(program, invocations, in_floats, options, trace));

@@ -99,6 +99,9 @@ enum class NaNs {
     dropped,        ///< a number wherever one is given
 };
 
+/// Of a loop, where a shader is looked at: a GPU's driver gives up long before.
+inline constexpr std::uint64_t kMostIterations = 65536;
+
 struct Options {
     bool flush_denormals = false;  ///< fp32 only: denormal operands and results are taken as 0
     Errors errors = Errors::none;

@@ -41,11 +41,8 @@ Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
 /// "depth = 0", "(1, 0.5, 0.25)".
 std::string value_text(const Step& step, const Slice& slice, std::size_t lane) {
     std::vector<double> components;
-    for (std::uint32_t component = 0; component < slice.count; ++component) {
-        const double value = step.value(slice, component, lane);
-        // The sign of a NaN means nothing, and is not the same on every machine.
-        components.push_back(std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value);
-    }
+    for (std::uint32_t component = 0; component < slice.count; ++component)
+        components.push_back(step.value(slice, component, lane));
     const std::string numbers = evaluate::to_text(components);
     const std::string& name = step.program.names[slice.name];
     return name.empty() ? numbers : fmt::format("{} = {}", name, numbers);
@@ -158,7 +155,6 @@ struct UndefinedOutput {
 };
 
 constexpr std::string_view kReadUnwritten = "a value is read before it is written";
-constexpr std::uint64_t kMostIterations = 65536;  ///< of a loop; a GPU's driver gives up long before
 constexpr std::string_view kNoReturn = "a function returns no value on some path";
 
 /// Watches every operation of a run. Cheap where no trap happens: whole rows of lanes are screened, and only
@@ -621,7 +617,7 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
     const Run run{program, invocations, machine};
     TrapObserver observer(run, also);
     evaluate::Options options = options_of(machine);
-    options.iteration_limit = kMostIterations;
+    options.iteration_limit = evaluate::kMostIterations;
     GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, options, &observer));
     observer.finish();
     observer.judge_outputs(outputs);
