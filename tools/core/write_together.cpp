@@ -161,7 +161,11 @@ class MadeFolders {
     Result<void> make_for(const std::string& path) {
         std::vector<fs::path> missing;
         std::error_code error;
-        for (fs::path folder = fs::path(path).parent_path(); !folder.empty() && !fs::exists(folder, error);
+        // A link to nowhere is there, and is not ours.
+        const auto is_there = [&](const fs::path& folder) {
+            return fs::exists(fs::symlink_status(folder, error));
+        };
+        for (fs::path folder = fs::path(path).parent_path(); !folder.empty() && !is_there(folder);
              folder = folder.parent_path())
             missing.push_back(folder);
         made_.insert(made_.end(), missing.rbegin(), missing.rend());
