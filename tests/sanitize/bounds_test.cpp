@@ -23,21 +23,13 @@ std::string shader_writing(const std::string& value) {
            value + "; }\n";
 }
 
-Domain domain_of(const std::string& name, double low, double high) {
-    Domain domain;
-    domain.name = name;
-    domain.low = low;
-    domain.high = high;
-    return domain;
-}
-
 Lines found_within(const std::vector<Domain>& domains, const std::string& value) {
     return found_lines(sanitized_text("bounds.frag", shader_writing(value), {}, domains));
 }
 
 TEST(DeclaredBounds, HoldOutputsToTheirDomain) {
-    const std::vector<Domain> narrow = {domain_of("cosine", -1, 1), domain_of("strength", 0, 2),
-                                        domain_of("color", 0, 1)};
+    const std::vector<Domain> narrow = {domain("cosine", -1, 1), domain("strength", 0, 2),
+                                        domain("color", 0, 1)};
     EXPECT_EQ(found_within(narrow, kLight), Lines{"5: the output 'color' is above what its inputs allow"});
     EXPECT_EQ(found_within(narrow, "vec4(min(cosine, 0.5))"), Lines{"5: the output 'color' is negative"});
     EXPECT_EQ(found_within(narrow, "min(" + kLight + ", 1.0)"), Lines{});
@@ -50,7 +42,7 @@ TEST(DeclaredBounds, AreAllThatIsFiniteWhereNoneIsDeclared) {
 }
 
 TEST(DeclaredBounds, AreNotAskedWhereATrapMadeTheOutput) {
-    EXPECT_EQ(found_within({domain_of("color", 0, 1)}, "vec4(clamp(1.0 / cosine, 0.0, 1.0))"),
+    EXPECT_EQ(found_within({domain("color", 0, 1)}, "vec4(clamp(1.0 / cosine, 0.0, 1.0))"),
               Lines{"5: division by zero"});
 }
 
@@ -60,7 +52,7 @@ TEST(DepthPromise, IsKeptWhereDenormalNumbersAreFlushed) {
         "#version 450\n"
         "layout(depth_unchanged) out float gl_FragDepth;\n"
         "void main() { gl_FragDepth = gl_FragCoord.z; }\n";
-    const Domain denormal = domain_of("gl_FragCoord", 0, 1e-40);
+    const Domain denormal = domain("gl_FragCoord", 0, 1e-40);
     EXPECT_EQ(found_lines(sanitized_text("depth.frag", unchanged, {}, {denormal})), Lines{});
 }
 
