@@ -196,9 +196,15 @@ Diagnostics report_picture(const World& world, const std::string& folder, const 
                            const raster::PictureReport& report) {
     Diagnostic error;
     error.subject = key;
+    const bool cannot_be_judged = report.wrong == 0 && report.root_mean_square <= raster::kRmsLimit;
     error.message =
-        fmt::format("{} of {} pixels are not what the evaluation gives, {} at an edge, rms {:.1e}",
-                    report.wrong, report.pixels, report.edges, report.root_mean_square);
+        cannot_be_judged
+            ? fmt::format(
+                  "{} of {} pixels lie at an edge, or where surfaces are as deep as others: too many "
+                  "to judge the picture by the rest, which is right",
+                  report.edges, report.pixels)
+            : fmt::format("{} of {} pixels are not what the evaluation gives, {} at an edge, rms {:.1e}",
+                          report.wrong, report.pixels, report.edges, report.root_mean_square);
     for (const raster::WrongPixel& pixel : report.worst)
         error.message +=
             fmt::format("\n  pixel ({}, {}): drawn {:.7g}, evaluated {:.7g}, {:.3g} times the limit", pixel.x,
@@ -228,10 +234,10 @@ std::string totals_text(const raster::PictureReport& totals, std::size_t drawn, 
     };
     return fmt::format(
         "{} x {} pixels: {:.1f} % drawn, {} ({:.3f} %) decided at an edge; at most {:.2f} of the limit\n"
-        "{}{} permutations drawn by {}, max {:.1e}, rms {:.1e}\n",
+        "{}{} permutations drawn{}, max {:.1e}, rms {:.1e}\n",
         kSide, kSide, share(totals.drawn), totals.edges, share(totals.edges), totals.largest_ratio,
-        drawn < permutations ? fmt::format("{} of ", drawn) : "", permutations, renderer,
-        totals.largest_error, totals.root_mean_square);
+        drawn < permutations ? fmt::format("{} of ", drawn) : "", permutations,
+        renderer.empty() ? "" : " by " + renderer, totals.largest_error, totals.root_mean_square);
 }
 
 /// What there is to say of a picture that passes: its values, and an error where it shows nothing.
