@@ -216,6 +216,13 @@ if (ulimit -v 4000000; "$gobo" --version >/dev/null 2>&1); then  # AddressSaniti
 else
   skipped "$what"
 fi
+wrong=0 tried=0
+for stack in 64 256 1024 unlimited; do
+  prepare 1
+  tried=$((tried + 1))
+  (ulimit -s $stack; build) && new_outputs 1 || wrong=$((wrong + 1))
+done
+row 'little stack, and stack without end (ulimit -s): new outputs' $tried $wrong
 (cd work && "$gobo" list lit --cover 2 >../expected_keys)
 wrong=0 tried=0
 for locale in C POSIX C.UTF-8 de_DE.UTF-8 tr_TR.ISO-8859-9 no_such '' /; do

@@ -6,14 +6,18 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <new>
 #include <set>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include "core/child_processes.hpp"
 #include "core/shipped_files.hpp"
 #include "core/text.hpp"
 #include "core/write_together.hpp"
@@ -32,6 +36,38 @@ void prepare_process() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) < 0)
             static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+/// What threads get, and what the first one must have, in bytes.
+constexpr std::size_t kLeastStack = std::size_t{8} << 20;
+
+/// Runs it on a stack of at least kLeastStack, whatever `ulimit -s` says. False where the system gives none.
+bool run_with_stack(std::function<void()> work) {
+    pthread_attr_t attributes;
+    if (pthread_getattr_default_np(&attributes) != 0) return false;
+    std::size_t size = 0;
+    pthread_attr_getstacksize(&attributes, &size);
+    if (size < kLeastStack) {
+        pthread_attr_setstacksize(&attributes, kLeastStack);
+        pthread_setattr_default_np(&attributes);
+    }
+    rlimit limit{};
+    getrlimit(RLIMIT_STACK, &limit);
+    if (limit.rlim_cur >= kLeastStack) {
+        pthread_attr_destroy(&attributes);
+        work();
+        return true;
+    }
+    // Child processes go on with the stack of the thread that starts them.
+    pthread_attr_setstacksize(&attributes, ChildLimits{}.stack);
+    pthread_t thread{};
+    const auto start = [](void* given) -> void* {
+        (*static_cast<std::function<void()>*>(given))();
+        return nullptr;
+    };
+    const int error = pthread_create(&thread, &attributes, start, &work);
+    pthread_attr_destroy(&attributes);
+    return error == 0 && pthread_join(thread, nullptr) == 0;
 }
 
 /// The machine's files, where --follow says so without a look at where links lead. What was read is not
@@ -233,13 +269,19 @@ int run_application(const Application& application, int count, char** arguments)
     const auto report_fault = [&](Fault fault, std::string message) {
         return report(fail(fault, std::move(message)).value(), messages, application.name);
     };
-    try {
-        return run(application, words, messages);
-    } catch (const std::bad_alloc&) {
-        return report_fault(Fault::file, "the system gives no more memory");
-    } catch (const std::exception& error) {
-        return report_fault(Fault::internal, fmt::format("internal fault: {}", error.what()));
-    }
+    int status = 0;
+    const auto run_here = [&] {
+        try {
+            status = run(application, words, messages);
+        } catch (const std::bad_alloc&) {
+            status = report_fault(Fault::file, "the system gives no more memory");
+        } catch (const std::exception& error) {
+            status = report_fault(Fault::internal, fmt::format("internal fault: {}", error.what()));
+        }
+    };
+    if (!run_with_stack(run_here))
+        status = report_fault(Fault::file, "the system gives no memory for a stack");
+    return status;
 }
 
 }  // namespace gobo
