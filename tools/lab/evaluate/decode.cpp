@@ -257,7 +257,13 @@ void Decoder::decode_call(const Instruction& instruction) {
         if (given.type != (is_pointer ? type(declared).element : declared))
             report(instruction, "a call has arguments of the wrong types");
         given.allocation = -1;  // the caller gives it back
+        given.is_relaxed = given.is_relaxed || (is_pointer && is_relaxed(parameter));
         if (!is_pointer) given.variable = -1;
+        if (!is_pointer && is_relaxed(parameter) && !is_relaxed(instruction.id(index + 4))) {
+            const Value narrow{declared, permanent(type(declared).scalars), -1, -1, given.name};
+            store_relaxed(instruction, narrow, given);
+            given = narrow;
+        }
         new_frame.values[parameter] = given;
     }
     if (error_) return;
@@ -298,7 +304,10 @@ void Decoder::decode_terminator(const BasicBlock& basic, const Instruction& inst
                 program_.undefined.push_back(
                     {returned.slot, count, function.line, name.substr(0, name.find('('))});
             }
-            copy(instruction, count, frame().result.slot, returned);
+            if (is_relaxed(frame().function->id) && !is_relaxed(instruction.id(1)))
+                store_relaxed(instruction, frame().result, returned);
+            else
+                copy(instruction, count, frame().result.slot, returned);
             [[fallthrough]];
         }
         case spv::OpReturn:

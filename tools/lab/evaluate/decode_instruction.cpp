@@ -295,6 +295,12 @@ void Decoder::store(const Instruction& instruction, const Value& target, const V
     program_.infos.back().is_relaxed = target.is_relaxed;
 }
 
+/// Into a mediump or lowp parameter or result of a function.
+void Decoder::store_relaxed(const Instruction& instruction, Value target, const Value& from) {
+    target.is_relaxed = true;
+    store(instruction, target, from);
+}
+
 /// One level down by an index known now. False (and reported) where there is no such part.
 bool Decoder::step_into(const Instruction& instruction, Id& id, std::uint32_t& slot, std::uint32_t index) {
     const Id part = part_type(id, index);

@@ -122,9 +122,8 @@ std::optional<Value> Decoder::new_variable(const Instruction& instruction, const
     }
     const auto index = static_cast<int>(is_read_only_.size());
     is_read_only_.push_back(is_read_only);
-    const bool is_relaxed =
-        module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
-    const Value variable{id, permanent(slots), -1, index, intern(name), true, 0, is_relaxed};
+    const Value variable{
+        id, permanent(slots), -1, index, intern(name), true, 0, is_relaxed(instruction.result)};
     return variable;
 }
 

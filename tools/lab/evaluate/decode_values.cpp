@@ -250,10 +250,9 @@ void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::u
     if (program_.operations.size() >= kLargestProgram)
         report(instruction, "the stage is too long to evaluate");
     const Row& known = instruction_table()[row];
-    const bool is_relaxed =
-        module_.decoration(instruction.result, spv::DecorationRelaxedPrecision).has_value();
     Values operands = given;
-    if (is_relaxed && known.kind < Kind::move)
+    const bool computes_relaxed = is_relaxed(instruction.result);
+    if (computes_relaxed && known.kind < Kind::move)
         for (Value& operand : operands) operand = of_relaxed(operand);
     Operation operation{row, count, result, {}, length_of(program_.words), 0};
     for (std::size_t index = 0; index < operands.size() && index < operation.operands.size(); ++index)
@@ -267,7 +266,7 @@ void Decoder::emit_row(std::uint32_t row, const Instruction& instruction, std::u
     info.place = instruction.line;
     info.result.slot = result;
     info.is_precise = module_.decoration(instruction.result, spv::DecorationNoContraction).has_value();
-    info.is_relaxed = is_relaxed;
+    info.is_relaxed = computes_relaxed;
     if (instruction.type != Id::none)
         info.result = slice({instruction.type, result, -1, -1, intern(module_.name(instruction.result))});
     for (const Value& operand : operands) info.operands.push_back(slice(operand));

@@ -120,6 +120,9 @@ class Decoder {
     void initialise_globals();
 
     // decode_values.cpp: slots and lookups.
+    [[nodiscard]] bool is_relaxed(Id id) const {
+        return module_.decoration(id, spv::DecorationRelaxedPrecision).has_value();
+    }
     [[nodiscard]] const Type& type(Id id) const { return module_.type(id); }
     [[nodiscard]] const Type& type(const Value& value) const { return module_.type(value.type); }
     [[nodiscard]] bool is_one(const Value& value, bool (*fits)(Scalar)) const;
@@ -171,6 +174,7 @@ class Decoder {
     void decode_load(const Instruction& instruction);
     void decode_store(const Instruction& instruction);
     void store(const Instruction& instruction, const Value& target, const Value& value);
+    void store_relaxed(const Instruction& instruction, Value target, const Value& value);
     void decode_access_chain(const Instruction& instruction);
     void share_or_copy(const Instruction& instruction, const Value& value);
     void decode_extract(const Instruction& instruction);
