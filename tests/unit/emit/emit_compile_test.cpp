@@ -62,6 +62,21 @@ TEST_P(GeneratedHeader, WithItsTablesInASourceFileAnswersTheSame) {
     EXPECT_EQ(compile_and_run("split_caller", fmt::format("'{}/split.cpp'", folder_)), "");
 }
 
+/// As a build that was killed between two renames leaves them.
+TEST_P(GeneratedHeader, DoesNotCompileWithASourceFileOfAnotherBuild) {
+    write_header(sample::lit(), "lit");
+    write_header(sample::lit(), "split", "split", true);
+    const Result<std::string> old_source = files_.read(folder_ + "/split.cpp");
+    ASSERT_TRUE(old_source);
+    sample::Built edited = sample::lit();
+    edited.composition.pieces.back().text += "\n";
+    write_header(edited, "split", "split", true);
+    ASSERT_TRUE(files_.write(folder_ + "/split.cpp", *old_source));
+    const std::string said = compile_and_run("split_caller", fmt::format("'{}/split.cpp'", folder_));
+    EXPECT_NE(said.find("split.hpp and this file are of two builds: run gobo again"), std::string::npos)
+        << said;
+}
+
 TEST_P(GeneratedHeader, CompilesWithoutWarningsAndAnswersAsItShould) {
     write_header(sample::lit(), "lit");
     write_header(sample::nasty(), "nasty");
