@@ -143,8 +143,9 @@ bool fits(std::string_view pattern, std::string_view name) {
 }
 
 const NameSince* find(std::span<const NameSince> names, std::string_view name) {
-    const auto found =
-        std::ranges::find_if(names, [&](const NameSince& since) { return fits(since.name, name); });
+    const auto found = std::ranges::find_if(names, [&](const NameSince& since) {
+        return !name.empty() && name.front() == since.name.front() && fits(since.name, name);
+    });
     return found == names.end() ? nullptr : &*found;
 }
 

@@ -26,7 +26,10 @@ std::size_t length_of_token(std::string_view rest) {
         };
         return static_cast<std::size_t>(std::ranges::find_if_not(rest, goes_on) - rest.begin());
     }
-    return std::ranges::find(kLongOperators, rest.substr(0, 2)) == kLongOperators.end() ? 1 : 2;
+    constexpr std::string_view kSecond = "&|=<>#";
+    const bool may_be_long = rest.size() > 1 && kSecond.find(rest[1]) != std::string_view::npos;
+    return may_be_long && std::ranges::find(kLongOperators, rest.substr(0, 2)) != kLongOperators.end() ? 2
+                                                                                                       : 1;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,10 +94,12 @@ class TextRows {
         for (const std::string_view part :
              is_cut ? lines_of(piece.text) : std::vector<std::string_view>{piece.text})
             for (const std::string_view text : cut_for_literals(part)) {
-                const std::string row = fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name),
-                                                    cpp_literal(text), text.size(), numbers.empty() ? 1 : 0);
-                const auto [place, is_new] = numbers_.try_emplace(row, rows_.size());
-                if (is_new) rows_.push_back(row);
+                const bool is_first = numbers.empty();
+                const auto [place, is_new] = numbers_.try_emplace(
+                    std::tuple(std::string_view(piece.name), text, is_first), rows_.size());
+                if (is_new)
+                    rows_.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name),
+                                                cpp_literal(text), text.size(), is_first ? 1 : 0));
                 numbers.push_back(place->second);
             }
         return numbers;
@@ -115,7 +118,7 @@ class TextRows {
     }
 
   private:
-    std::map<std::string, std::size_t> numbers_;
+    std::map<std::tuple<std::string_view, std::string_view, bool>, std::size_t> numbers_;
     std::vector<std::string> rows_;
 };
 

@@ -46,10 +46,9 @@ std::vector<Batch> batches_of(const std::vector<Program>& programs, int jobs) {
     for (const Program& program : programs) first_with.try_emplace(program.back(), program.front());
     std::vector<std::size_t> order(programs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t program) {
-        const int last = programs[program].back();
-        return std::pair(first_with[last], last);
-    });
+    std::vector<std::pair<int, int>> places;
+    for (const Program& program : programs) places.emplace_back(first_with[program.back()], program.back());
+    std::ranges::stable_sort(order, {}, [&](std::size_t program) { return places[program]; });
     const std::size_t size = std::clamp(programs.size() / (static_cast<std::size_t>(jobs) * kBatchesPerJob),
                                         std::size_t{1}, kMostPrograms);
     std::vector<Batch> batches;

@@ -287,7 +287,8 @@ Diagnostics GlslangStage::parse() {
     without_formats_ = false;
     const std::string prologue = without_requirements(pieces_.front()->text);
     const bool has_switches = has_strict_switches(pieces_);
-    further_messages_ = has_switches || asks_for_tree(pieces_) ? EShMsgAST : EShMsgDefault;
+    const bool asks = asks_for_tree(pieces_);
+    further_messages_ = has_switches || asks ? EShMsgAST : EShMsgDefault;
     Diagnostics found = parse_by_glslang(prologue);
     // That a macro gives `defined` is an error to glslang alone; it can be told to go on.
     const bool is_relaxed = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
@@ -314,7 +315,7 @@ Diagnostics GlslangStage::parse() {
         more = check_language(kind_, pieces_, text, dialect_);
         std::ranges::move(more, std::back_inserter(found));
     }
-    if (!is_spirv(dialect_)) {
+    if (asks && !is_spirv(dialect_)) {
         more = check_calls(shader_->shader.getInfoDebugLog(), pieces_);
         std::ranges::move(more, std::back_inserter(found));
     }

@@ -76,6 +76,7 @@ class LanguageCheck {
         int line = 0;
         for (const std::string& text : split(prologue_, '\n')) {
             ++line;
+            if (text.find("require") == std::string::npos) continue;
             const std::vector<std::string_view> tokens = tokens_of(text);
             if (tokens.size() != 5 || tokens[1] != "extension" || tokens[4] != "require") continue;
             const ExtensionOf owner = owner_of_extension(tokens[2]);

@@ -193,6 +193,7 @@ std::string without_formats(std::string_view text) {
 }
 
 bool is_image_format(std::string_view word) {
+    if (!word.starts_with('r')) return false;
     for (const std::string_view format :
          {"rgba32f",     "rgba16f",    "rg32f",     "rg16f",     "r11f_g11f_b10f",
           "r32f",        "r16f",       "rgba16",    "rgb10_a2",  "rgba8",

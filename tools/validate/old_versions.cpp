@@ -148,6 +148,7 @@ std::string raised_for_spirv(std::string_view prologue, const std::string& funct
 }
 
 std::string without_requirements(std::string prologue) {
+    if (prologue.find(" : require\n") == std::string::npos) return prologue;
     const auto relax = [&](std::string_view extension) {
         const std::string required = fmt::format("#extension {} : require\n", extension);
         if (const auto at = prologue.find(required); at != std::string::npos)
