@@ -16,12 +16,12 @@
 
 namespace gobo {
 
-/// A number outside its range.
+/// A number outside its range, or one that breaks a constraint.
 struct OutOfRange {
     std::string member;   ///< "PointLights.lights[2].attenuation.y"; without the component where the range is
                           ///< of a vector's length
-    double value;         ///< of the component, or the length; may be NaN
-    std::string allowed;  ///< "[1e-06, 1000], or 0", as the header's comments have it
+    double value;         ///< of the component, the length, or what else `allowed` names; may be NaN
+    std::string allowed;  ///< "[1e-06, 1000], or 0", "< Fog.end", "a length of 1"
 };
 
 /// "PointLights.lights[2].attenuation.y is -1, allowed is [1e-06, 1000], or 0".
@@ -100,6 +100,13 @@ inline std::string with_indices(std::string_view path, std::initializer_list<int
     return text;
 }
 
+/// The name of one of `count` numbers of what has that name: "Fog.color.y", "Camera.projection[5]".
+inline std::string element_name(std::string name, int number, int count) {
+    if (count > 4) return name + '[' + std::to_string(number) + ']';
+    if (count > 1) name.append(1, '.').append(1, "xyzw"[number]);
+    return name;
+}
+
 /// Written so that a NaN is within no range.
 inline bool is_within(const Range& range, bool is_single, double number) {
     const auto as_held = [is_single](double bound) {
@@ -125,14 +132,8 @@ inline void check_numbers(std::vector<OutOfRange>& found, std::string_view path,
     }
     for (int i = 0; i < components.count; ++i) {
         if (is_within(range, components.are_single, components.values[i])) continue;
-        std::string member = with_indices(path, indices);
-        if (components.count > 1 && components.count <= 4) {
-            member += '.';
-            member += "xyzw"[i];
-        } else if (components.count > 4) {
-            member += '[' + std::to_string(i) + ']';
-        }
-        found.push_back({member, components.values[i], allowed});
+        found.push_back(
+            {element_name(with_indices(path, indices), i, components.count), components.values[i], allowed});
     }
 }
 
@@ -155,29 +156,6 @@ void check_component(std::vector<OutOfRange>& found, std::string_view path,
     one.are_single = all.are_single;
     one.values[one.count++] = all.values[component];
     check_numbers(found, path, indices, one, range);
-}
-
-/// Adds what of `less` is not below `more` ("<"), not above it ("<=") or equal to it ("!="); a single number
-/// is compared with each of a vector. A NaN is never in order.
-template <class Less, class More>
-void check_order(std::vector<OutOfRange>& found, std::string_view path, std::initializer_list<int> indices,
-                 const Less& less, const More& more, std::string_view sign, std::string_view other) {
-    Components lefts;
-    Components rights;
-    lefts.add(less);
-    rights.add(more);
-    for (int i = 0; i < lefts.count && (i < rights.count || rights.count == 1); ++i) {
-        const double left = lefts.values[i];
-        const double right = rights.values[rights.count == 1 ? 0 : i];
-        if (sign == "<" ? left < right : sign == "<=" ? left <= right : left < right || left > right)
-            continue;
-        std::string member = with_indices(path, indices);
-        if (lefts.count > 1 && lefts.count <= 4) {
-            member += '.';
-            member += "xyzw"[i];
-        }
-        found.push_back({member, left, std::string(sign) + ' ' + with_indices(other, indices)});
-    }
 }
 
 }  // namespace runtime

@@ -38,6 +38,8 @@ const Row kRows[] = {
     {"not_zero", "color.rgb = normalize(v);", "not_zero(v)", "normalize() of a zero vector"},
     {"distinct", "color.r = v == normal ? 1.0 / (v.x - normal.x) : 0.0;", "distinct(v, normal)",
      "division by zero"},
+    {"distinct_of_two_sizes", "color.rgb = normalize(lamp.xyz - v);", "distinct(lamp, v)",
+     "normalize() of a zero vector"},
     {"distinct_in_all_pixels", "color.rgb = normalize(directions[1] - v) + dFdx(v);",
      "distinct(directions[], v)", "normalize() of a zero vector"},
     {"orthonormal", "color.rgb = normalize(tbn * vec3(0.0, 0.0, 1.0));", "orthonormal(tbn)",
@@ -59,7 +61,8 @@ std::string shader_with(const std::string& statement) {
            "in vec3 v; in vec3 normal;\n"
            "uniform float near; uniform float far; uniform vec3 directions[2];\n"
            "uniform mat3 tbn; uniform mat3 normalMatrix; uniform mat4 modelView;\n"
-           "out vec4 color;\n"
+           "out vec4 color;\n" +
+           std::string(statement.find("lamp") == std::string::npos ? "" : "uniform vec4 lamp; ") +
            "void main() {\n"
            "    color = vec4(modelView[0].x * 1e-30 + normalMatrix[0].x * 1e-30);\n    " +
            statement + "\n}\n";

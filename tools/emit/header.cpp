@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kHeaderNames =
     "Key Permutation SceneState Settings Stage State attribute attributes before bits block blocks canonical "
     "changed check combination count declared describe_missing detail find found glm gobo key key_text left "
-    "output outputs "
+    "other output outputs "
     "permutations position reason right sampler samplers select settings state std std140 storage_blocks "
     "uniform "
     "uniforms "
@@ -143,7 +143,9 @@ Result<EmittedCpp> emit_header(const EmitInput& input, const HeaderTemplates& te
     GOBO_TRY_DO(key_section(rules, key, templates, values));
     const Interface interface = with_places(input.interface);
     const Declarations declarations(input);
-    GOBO_TRY_DO(block_section(interface, family.domains, declarations, templates, scope, values));
+    GOBO_TRY(const std::vector<CppBlock> blocks,
+             block_section(interface, family.domains, declarations, templates, scope, values));
+    GOBO_TRY_DO(check_section(blocks, interface, family.domains, templates, values));
     interface_section(interface, family.domains, declarations, dialect, values);
     declaration_section(declarations, interface, values);
     GOBO_TRY_DO(permutation_section(input, key, declarations, templates, values));

@@ -99,13 +99,36 @@ void declaration_section(const Declarations& declarations, const Interface& inte
 void interface_section(const Interface& interface, const std::vector<Domain>& domains,
                        const Declarations& declarations, Dialect dialect, TemplateValues& values);
 
+/// A member of a block's struct as C++ names it, and its members where it is a struct itself.
+struct CppMember {
+    Member member;
+    std::string identifier;
+    std::vector<CppMember> members;
+};
+
+/// A layout of a block as a C++ struct.
+struct CppBlock {
+    std::string name;                ///< the block's, without the indices of an array of blocks
+    std::string type;                ///< the struct's
+    std::vector<CppMember> members;  ///< without an array that has no size
+    std::string counted;  ///< the array that ends it, of which a buffer may hold fewer elements; else empty
+};
+
 /// A struct for every layout of a block and for every struct within one, inner ones first, each name claimed
-/// in `scope`; and for each block `check(block)`: what of it lies outside the ranges that the family
-/// declares. Where the block ends in an array, `check(block, count)` looks at no more elements of it. A
-/// layout that no C++ struct can mirror is an error (Fault::input).
-[[nodiscard]] Result<void> block_section(const Interface& interface, const std::vector<Domain>& domains,
-                                         const Declarations& declarations, const HeaderTemplates& templates,
-                                         CppScope& scope, TemplateValues& values);
+/// in `scope`. A layout that no C++ struct can mirror is an error (Fault::input).
+[[nodiscard]] Result<std::vector<CppBlock>> block_section(const Interface& interface,
+                                                          const std::vector<Domain>& domains,
+                                                          const Declarations& declarations,
+                                                          const HeaderTemplates& templates, CppScope& scope,
+                                                          TemplateValues& values);
+
+/// For each block `check(block)`: what of it lies outside the ranges that the family declares, or breaks a
+/// constraint; and `check(block, other)` for each two that a constraint names. Where a block ends in an
+/// array, `check(block, count)` looks at no more elements of it. A comment names the constraints that neither
+/// sees.
+[[nodiscard]] Result<void> check_section(const std::vector<CppBlock>& blocks, const Interface& interface,
+                                         const std::vector<Domain>& domains, const HeaderTemplates& templates,
+                                         TemplateValues& values);
 
 /// A C++ type of known size, to be declared as `TYPE NAME EXTENTS`.
 struct CppMemberType {

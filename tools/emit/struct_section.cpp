@@ -1,4 +1,4 @@
-// Uniform and storage blocks as C++ structs, and the checks of their ranges.
+// Uniform and storage blocks as C++ structs.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "emit/sections.hpp"
-#include "family/constraint.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 
@@ -77,20 +76,13 @@ std::optional<CppMemberType> cpp_array_of(const std::string& element, int elemen
     return result;
 }
 
-/// A member as C++ names it, and its members where it is a struct.
-struct NamedMember {
-    Member member;
-    std::string identifier;
-    std::vector<NamedMember> members;
-};
-
 /// A C++ struct under way: members so far, and where they end.
 struct StructText {
     std::string name;
     CppScope scope = {};
     std::string members = {};
     std::string assertions = {};
-    std::vector<NamedMember> named = {};
+    std::vector<CppMember> named = {};
     int end = 0;
     int paddings = 0;
 
@@ -102,7 +94,7 @@ struct StructText {
     }
 
     void add(const Member& member, const CppMemberType& type, const std::string& comment,
-             std::vector<NamedMember> parts) {
+             std::vector<CppMember> parts) {
         pad_to(member.offset);
         const std::string identifier = scope.claim(cpp_identifier(member.name));
         members += fmt::format("    {} {}{};{}\n", type.type, identifier, type.extents, comment);
@@ -117,22 +109,6 @@ struct StructText {
         assertions += fmt::format("static_assert(sizeof({}) == {});\n", name, size);
     }
 };
-
-constexpr std::string_view kComponents = "xyzw";
-
-std::string range_text(const Domain& domain) {
-    std::string text =
-        fmt::format("{}[{}, {}]", domain.of_length ? "length in " : "", domain.low, domain.high);
-    for (const double value : domain.also) text += fmt::format(", or {}", value);
-    if (!domain.last.empty()) text += fmt::format("; last [{}, {}]", domain.last[0], domain.last[1]);
-    return text;
-}
-
-const Domain* domain_of(const std::vector<Domain>& domains, const std::string& path) {
-    const auto name = [](const Domain& domain) { return without_indices(domain.name); };
-    const auto domain = std::ranges::find(domains, without_indices(path), name);
-    return domain == domains.end() ? nullptr : &*domain;
-}
 
 /// A block, or an array of blocks with one layout.
 struct NamedBlock {
@@ -240,7 +216,7 @@ class StructWriter {
 
     /// The C++ type of a member. `parts` becomes what it holds, where it is a struct.
     Result<CppMemberType> type_of(const Member& member, const std::string& path, bool is_storage,
-                                  std::vector<NamedMember>& parts) {
+                                  std::vector<CppMember>& parts) {
         std::optional<CppMemberType> type = cpp_type_of(member);
         if (!member.members.empty()) {
             GOBO_TRY(StructText inner, struct_of(member, path + "." + member.name, is_storage));
@@ -258,9 +234,9 @@ class StructWriter {
 
     Result<void> add_members(StructText& structure, const std::vector<Member>& members,
                              const std::string& path, bool is_storage) {
-        std::vector<std::pair<CppMemberType, std::vector<NamedMember>>> types;
+        std::vector<std::pair<CppMemberType, std::vector<CppMember>>> types;
         for (const Member& member : members) {
-            std::vector<NamedMember> parts;
+            std::vector<CppMember> parts;
             GOBO_TRY(CppMemberType type, type_of(member, path, is_storage, parts));
             // A member may not have the name of a type that its struct uses.
             structure.scope.claim(type.type);
@@ -284,7 +260,7 @@ class StructWriter {
     /// A function of the block's struct that gives the elements of its array without a size.
     Result<std::string> elements_of(StructText& structure, Member tail, const NamedBlock& block) {
         tail.array.front() = 1;
-        std::vector<NamedMember> parts;
+        std::vector<CppMember> parts;
         GOBO_TRY(const CppMemberType type, type_of(tail, block.name, block.is_storage, parts));
         structure.scope.claim(type.type);
         return fill(templates_.at("elements"),
@@ -318,138 +294,6 @@ class StructWriter {
     std::string text_;
 };
 
-/// Where a member stands: for messages, in C++, and within which loops.
-struct Spot {
-    std::string path;        ///< "PointLights.lights[].color"
-    std::string expression;  ///< "block.lights[i0].color"
-    std::vector<std::string> indices;
-
-    [[nodiscard]] std::string indent() const { return std::string(4 * (indices.size() + 1), ' '); }
-};
-
-/// A call for the member's numbers; nothing where the family declares no range for them.
-std::string number_check(const Spot& spot, const std::vector<Domain>& domains) {
-    std::string checks;
-    const auto add = [&](const Domain& domain, std::string_view component, std::string_view call,
-                         const std::string& what) {
-        const std::string path = fmt::format("{}{}", spot.path, component);
-        const std::string text = (domain.of_length ? "a " : "") + range_text(domain);
-        checks += fmt::format(
-            "{0}gobo::runtime::check_{9}(found, {1}, {{{2}}}, {3},\n{0}                            "
-            "{{{4}, {5}, {6}, {{{7}}}, {8}}});\n",
-            spot.indent(), cpp_literal(path), fmt::join(spot.indices, ", "), what, domain.low, domain.high,
-            domain.of_length, fmt::join(domain.also, ", "), cpp_literal(text), call);
-    };
-    if (const Domain* const domain = domain_of(domains, spot.path))
-        add(*domain, "", "member", spot.expression);
-    for (std::size_t i = 0; i < kComponents.size(); ++i)
-        if (const Domain* const own = domain_of_component(domains, spot.path, i))
-            add(*own, fmt::format(".{}", kComponents[i]), "component",
-                fmt::format("{}, {}", spot.expression, i));
-    return checks;
-}
-
-/// A call for each order that a domain states of the member and another of its struct.
-std::string order_checks(const Spot& spot, const Spot& parent, const std::vector<NamedMember>& siblings,
-                         const std::vector<Domain>& domains) {
-    std::string checks;
-    for (const Constraint& constraint : constraints_of(domains)) {
-        if (!constraint.is_comparison() || constraint.has_number() ||
-            without_indices(constraint.names[0]) != without_indices(spot.path))
-            continue;
-        for (const NamedMember& other : siblings) {
-            const std::string path = parent.path + "." + other.member.name;
-            if (without_indices(constraint.names[1]) != without_indices(path) ||
-                !other.member.array.empty() || !glsl_type(other.member.type))
-                continue;
-            checks += fmt::format(
-                "{0}gobo::runtime::check_order(found, {1}, {{{2}}}, {3},\n"
-                "{0}                           {4}.{5}, \"{6}\", {7});\n",
-                spot.indent(), cpp_literal(spot.path), fmt::join(spot.indices, ", "), spot.expression,
-                parent.expression, other.identifier,
-                constraint.kind == Constraint::Kind::less         ? "<"
-                : constraint.kind == Constraint::Kind::less_equal ? "<="
-                                                                  : "!=",
-                cpp_literal(path));
-        }
-    }
-    return checks;
-}
-
-/// The checks of a member, within a loop for each extent of its array; `count` is the outermost loop's bound
-/// where it is given.
-std::string member_checks(const NamedMember& named, const Spot& parent,
-                          const std::vector<NamedMember>& siblings, const std::vector<Domain>& domains,
-                          const std::string& count) {
-    Spot spot{parent.path + "." + named.member.name, parent.expression + "." + named.identifier,
-              parent.indices};
-    std::string head;
-    std::string tail;
-    for (std::size_t extent = 0; extent < named.member.array.size(); ++extent) {
-        const std::string index = fmt::format("i{}", spot.indices.size());
-        const std::string bound =
-            extent == 0 && !count.empty() ? count : std::to_string(named.member.array[extent]);
-        head += fmt::format("{0}for (int {1} = 0; {1} < {2}; ++{1}) {{\n", spot.indent(), index, bound);
-        tail = spot.indent() + "}\n" + tail;
-        spot.path += "[]";
-        spot.expression += "[" + index + "]";
-        spot.indices.push_back(index);
-    }
-    const std::optional<GlslType> type = glsl_type(named.member.type);
-    const bool is_number = type && type->scalar != Scalar::float16;  // of which there are only the bits
-    std::string body = is_number ? number_check(spot, domains) : "";
-    if (is_number && named.member.array.empty()) body += order_checks(spot, parent, siblings, domains);
-    for (const NamedMember& part : named.members)
-        body += member_checks(part, spot, named.members, domains, "");
-    return body.empty() ? body : head + body + tail;
-}
-
-bool names_member_of(const Constraint& constraint, const std::string& block) {
-    return std::ranges::any_of(constraint.names,
-                               [&](const std::string& name) { return name.starts_with(block + "."); });
-}
-
-/// Whether the checks hold the constraint: the order of two members that order_checks() knows.
-bool is_among(const std::string& checks, const Constraint& constraint) {
-    if (!constraint.is_comparison() || constraint.has_number()) return false;
-    const auto call = checks.find(fmt::format("check_order(found, {},", cpp_literal(constraint.names[0])));
-    return call != std::string::npos &&
-           checks.find(fmt::format(", {});", cpp_literal(constraint.names[1])), call) != std::string::npos;
-}
-
-Result<std::string> block_check(const NamedBlock& block, const StructText& structure,
-                                const std::vector<Domain>& domains, const TextTemplate& check) {
-    const Member* last = last_array(block.layout);
-    if (last != nullptr && last->array.front() == 0) last = nullptr;
-    std::string body;
-    for (const NamedMember& named : structure.named) {
-        const bool is_counted = last != nullptr && &named == &structure.named.back();
-        body += member_checks(named, {block.name, "block", {}}, structure.named, domains,
-                              is_counted ? "count" : "");
-    }
-    std::string extent;
-    std::string count;
-    if (last != nullptr) {
-        extent = fmt::format(", as far as the first `count` of `{}`", last->name);
-        count = fmt::format(", [[maybe_unused]] int count = {}", last->array.front());
-    }
-    std::vector<std::string> unchecked;
-    for (const Constraint& constraint : constraints_of(domains))
-        if (names_member_of(constraint, block.name) && !is_among(body, constraint))
-            unchecked.push_back(constraint.text);
-    const std::string rest = unchecked.empty()
-                                 ? ""
-                                 : fmt::format("/// Constraints that it does not look at: {}.\n",
-                                               cpp_comment(fmt::format("{}", fmt::join(unchecked, "; "))));
-    return fill(check, {{"block", cpp_comment(block.name)},
-                        {"unchecked", rest},
-                        {"extent", cpp_comment(extent)},
-                        {"unused", body.empty() ? "[[maybe_unused]] " : ""},
-                        {"type", structure.name},
-                        {"count", count},
-                        {"checks", body}});
-}
-
 }  // namespace
 
 std::optional<CppMemberType> cpp_type_of(const Member& member) {
@@ -459,24 +303,15 @@ std::optional<CppMemberType> cpp_type_of(const Member& member) {
     return element ? cpp_array_of(element->type, element->size, member) : std::nullopt;
 }
 
-std::string domain_text(const std::vector<Domain>& domains, const std::string& path) {
-    std::vector<std::string> parts;
-    if (const Domain* const domain = domain_of(domains, path)) parts.push_back(range_text(*domain));
-    for (std::size_t i = 0; i < kComponents.size(); ++i)
-        if (const Domain* const own = domain_of_component(domains, path, i))
-            parts.push_back(fmt::format("{} {}", kComponents[i], range_text(*own)));
-    return fmt::format("{}", fmt::join(parts, "; "));
-}
-
 namespace {
 
 constexpr std::string_view kPushConstants = "push constant block";
 
-/// Adds the structs of a list of blocks, and their checks. The elements of an array of blocks share a struct
+/// Adds the structs of a list of blocks. The elements of an array of blocks share a struct
 /// where they have one layout.
 Result<void> add_blocks(const std::vector<Block>& blocks, std::string_view kind,
-                        const std::vector<Domain>& domains, const Declarations& declarations,
-                        const TextTemplate& check, StructWriter& writer, std::string& checks) {
+                        const Declarations& declarations, StructWriter& writer,
+                        std::vector<CppBlock>& written) {
     struct Layout {
         NamedBlock block;
         std::string users;
@@ -510,29 +345,28 @@ Result<void> add_blocks(const std::vector<Block>& blocks, std::string_view kind,
     for (const auto& [name, layouts] : by_name)
         for (std::size_t i = 0; i < layouts.size(); ++i) {
             const Layout& layout = layouts[i];
-            GOBO_TRY(const StructText written,
+            GOBO_TRY(StructText structure,
                      writer.write_block(layout.block, static_cast<int>(i) + 1, layout.users));
-            GOBO_TRY(const std::string text, block_check(layout.block, written, domains, check));
-            checks += text;
+            const Member* const last = last_array(layout.block.layout);
+            written.push_back({name, structure.name, std::move(structure.named),
+                               last != nullptr && last->array.front() != 0 ? last->name : ""});
         }
     return {};
 }
 
 }  // namespace
 
-Result<void> block_section(const Interface& interface, const std::vector<Domain>& domains,
-                           const Declarations& declarations, const HeaderTemplates& templates,
-                           CppScope& scope, TemplateValues& values) {
+Result<std::vector<CppBlock>> block_section(const Interface& interface, const std::vector<Domain>& domains,
+                                            const Declarations& declarations,
+                                            const HeaderTemplates& templates, CppScope& scope,
+                                            TemplateValues& values) {
     StructWriter writer(domains, templates, scope);
-    std::string& checks = values["checks"] = "";
-    GOBO_TRY_DO(add_blocks(interface.blocks, "uniform block", domains, declarations, templates.at("check"),
-                           writer, checks));
-    GOBO_TRY_DO(add_blocks(interface.storage_blocks, "storage block", domains, declarations,
-                           templates.at("check"), writer, checks));
-    GOBO_TRY_DO(add_blocks(interface.push_constants, kPushConstants, domains, declarations,
-                           templates.at("check"), writer, checks));
+    std::vector<CppBlock> written;
+    GOBO_TRY_DO(add_blocks(interface.blocks, "uniform block", declarations, writer, written));
+    GOBO_TRY_DO(add_blocks(interface.storage_blocks, "storage block", declarations, writer, written));
+    GOBO_TRY_DO(add_blocks(interface.push_constants, kPushConstants, declarations, writer, written));
     values["structs"] = writer.text();
-    return {};
+    return written;
 }
 
 }  // namespace gobo

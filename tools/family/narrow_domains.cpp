@@ -53,7 +53,8 @@ Result<Domain> range_left_by(const Domain& stated, const Constraint& constraint,
     return range;
 }
 
-/// Of what check(block) looks at, a range or the order of two numbers; else an error that says why not.
+/// Of what the search for the largest error keeps, a range or the order of two numbers; else an error that
+/// says why not.
 Result<Domain> checkable(const std::vector<Domain>& domains, const Domain& stated) {
     const Constraint constraint = constraint_of(stated.name).value();
     std::vector<std::string> names = constraint.names;
@@ -73,8 +74,10 @@ Result<Domain> checkable(const std::vector<Domain>& domains, const Domain& state
             if (constraint.has_number()) return range_left_by(stated, constraint, range);
             if (component_name(names[0]) || component_name(names[1]) ||
                 struct_of(names[0]) != struct_of(names[1]) || struct_of(names[0]).empty())
-                return refused(stated, "check(block) compares members of one struct, and these are not",
-                               "state it in the family's [domain], or ranges that keep them apart");
+                return refused(
+                    stated,
+                    "the search for the largest error orders members of one struct, and these are not",
+                    "state it in the family's [domain], or ranges that keep them apart");
             return stated;
         case Constraint::Kind::unit:
             if (!range.of_length)
@@ -95,7 +98,7 @@ Result<Domain> checkable(const std::vector<Domain>& domains, const Domain& state
                            "state it in the family's [domain]: gobo sanitize and prove keep it");
         case Constraint::Kind::orthonormal:
         case Constraint::Kind::inverse_transpose:
-            return refused(stated, "check(block) tells no matrix from another",
+            return refused(stated, "the search for the largest error keeps ranges and orders",
                            "state it in the family's [domain]: gobo sanitize and prove keep it");
     }
     return stated;

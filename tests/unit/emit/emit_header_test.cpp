@@ -146,30 +146,47 @@ TEST(EmitHeader, AFeatureWithAnEnumOfItsOwnLeavesABlockItsName) {
 struct ConstraintRow {
     const char* name;
     const char* constraint;
-    const char* comment;  ///< of check(block); empty where it looks at the constraint
+    const char* comment;  ///< empty where a check() looks at the constraint
 };
 
 class UncheckedConstraints : public testing::TestWithParam<ConstraintRow> {};
 
-TEST_P(UncheckedConstraints, AreNamed) {
+TEST_P(UncheckedConstraints, AreNamedWithTheReason) {
     Built built = sample::lit();
+    built.interface.storage_blocks = {
+        sample::block("Marks", 0, 16, {sample::array(sample::member("marks", "vec4", 0), {0}, 16)})};
     built.family.domains.push_back({GetParam().constraint, 0, 0, false, {}, {}, {}});
     const std::string header = header_of(built);
-    const auto at = header.find("/// Constraints that it does not look at: ");
-    const std::string found =
-        at == std::string::npos ? "" : header.substr(at + 42, header.find('\n', at) - at - 42);
-    EXPECT_EQ(found, GetParam().comment);
+    const std::string_view begin = "// Constraints of the family that no check() looks at:\n";
+    const auto at = header.find(begin);
+    EXPECT_EQ(at == std::string::npos
+                  ? ""
+                  : header.substr(at + begin.size(), header.find("\n\n", at) - at - begin.size()),
+              GetParam().comment);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rows, UncheckedConstraints,
-                         testing::Values(ConstraintRow{"an_order", "Fog.near < Fog.far", ""},
-                                         ConstraintRow{"an_order_of_components", "Fog.color.x < Fog.color.y",
-                                                       "Fog.color.x < Fog.color.y."},
-                                         ConstraintRow{"not_zero", "not_zero(Fog.color)",
-                                                       "not_zero(Fog.color)."},
-                                         ConstraintRow{"a_number", "Fog.far >= 8", "Fog.far >= 8."},
-                                         ConstraintRow{"of_an_input", "unit(normal)", ""}),
-                         [](const auto& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Rows, UncheckedConstraints,
+    testing::Values(
+        ConstraintRow{"checked", "Fog.near < Fog.far", ""},
+        ConstraintRow{"of_a_block_that_is_not_here", "unit(Sun.axis)", ""},
+        ConstraintRow{"of_an_attribute", "unit(normal)",
+                      "//     unit(normal): normal is of each vertex; gobo::is_unit() tells"},
+        ConstraintRow{"of_a_component_of_one", "normal.x < 1",
+                      "//     normal.x < 1: normal.x is of each vertex"},
+        ConstraintRow{"of_a_plain_uniform", "exposure > 0",
+                      "//     exposure > 0: exposure is a uniform outside blocks"},
+        ConstraintRow{"of_a_block_and_an_attribute", "distinct(Fog.color, position)",
+                      "//     distinct(Fog.color, position): position is of each vertex"},
+        ConstraintRow{"between_stages", "orthonormal(frame)",
+                      "//     orthonormal(frame): frame is between stages; gobo::is_orthonormal() tells"},
+        ConstraintRow{"of_an_array_without_a_size", "Marks.marks[].w > 0",
+                      "//     Marks.marks[].w > 0: Marks.marks[].w is of an array without a size"},
+        ConstraintRow{
+            "of_what_is_no_square_matrix", "orthonormal(Fog.color)",
+            "//     orthonormal(Fog.color): Fog.color is no square matrix; gobo::is_orthonormal() tells"},
+        ConstraintRow{"of_no_such_member", "unit(Fog.axis)", ""}),
+    [](const auto& row) { return row.param.name; });
 
 TEST(EmitHeader, AKeyWithTheTopBitSetIsAnUnsignedLiteral) {
     Built built = sample::lit();  // 17 bits

@@ -52,6 +52,12 @@ std::optional<Part> part_of(const InputField& field, const std::string& stated) 
     return Part{component->component, 1};
 }
 
+/// Of vectors of two sizes, as far as both go.
+bool are_equal(std::span<const double> one, std::span<const double> other) {
+    const std::size_t count = std::min(one.size(), other.size());
+    return std::ranges::equal(one.first(count), other.first(count));
+}
+
 class Keeper {
   public:
     Keeper(const InputSpace& space, std::span<double> point) : space_(space), point_(point) {}
@@ -95,7 +101,7 @@ class Keeper {
                     numbers(field).front() = std::max(field.domain_of(0).high, 1e-6);
                 return;
             case Constraint::Kind::distinct:
-                if (std::ranges::equal(numbers(field), numbers(*other))) move(*other);
+                if (are_equal(numbers(field), numbers(*other))) move(*other);
                 return;
             case Constraint::Kind::orthonormal:
                 return make_orthonormal(field);
