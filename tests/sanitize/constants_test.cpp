@@ -106,5 +106,34 @@ TEST_P(Folded, IsFoundAtItsLine) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Folded, testing::ValuesIn(kRows), row_name);
 
+struct TextRow {
+    std::string name;
+    std::string statement;
+    std::string text;
+};
+
+std::ostream& operator<<(std::ostream& stream, const TextRow& row) {
+    return stream << row.name;
+}
+
+class FoldedText : public testing::TestWithParam<TextRow> {};
+
+/// Integers have all their digits, floats as many as tell them apart.
+TEST_P(FoldedText, SaysWithWhatItHappens) {
+    const Row row{"", "", GetParam().statement, {}};
+    const sanitize::SanitizeReport report = sanitized_text("folded.frag", shader_with(row), {});
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings.front().finding.operation, GetParam().text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, FoldedText,
+    testing::Values(TextRow{"least_int", "result = float((-2147483647 - 1) / -1);",
+                            "SDiv -2147483648, -1 -> -2147483648"},
+                    TextRow{"large_int", "result = float(2147483647 / 0);", "SDiv 2147483647, 0 -> 0"},
+                    TextRow{"large_uint", "result = float(4294967295u % 0u);", "UMod 4294967295, 0 -> 0"},
+                    TextRow{"float", "result = 16777216.0 / 0.0;", "FDiv 16777216, 0 -> inf"}),
+    row_name);
+
 }  // namespace
 }  // namespace gobo

@@ -28,7 +28,9 @@ double wrapped(std::int64_t number, Scalar scalar) {
 std::string text_of(const ConstantValue& value) {
     std::vector<std::string> texts;
     for (const double number : value.numbers)
-        texts.push_back(std::isnan(number) ? "nan" : fmt::format("{}", static_cast<float>(number)));
+        texts.push_back(std::isnan(number) ? "nan"
+                        : value.is_float() ? fmt::format("{}", static_cast<float>(number))
+                                           : fmt::format("{:.0f}", number));
     return texts.size() == 1 ? texts.front() : fmt::format("({})", fmt::join(texts, ", "));
 }
 
