@@ -68,12 +68,6 @@ std::string shader_with(const std::string& statement) {
            statement + "\n}\n";
 }
 
-Domain stated(const std::string& constraint) {
-    Domain domain;
-    domain.name = constraint;
-    return domain;
-}
-
 class Contract : public testing::TestWithParam<Row> {};
 
 TEST_P(Contract, SilencesWhatItExcludes) {
@@ -82,8 +76,9 @@ TEST_P(Contract, SilencesWhatItExcludes) {
     if (!GetParam().message.empty()) {
         EXPECT_TRUE(without.contains("8: " + GetParam().message)) << text;
     }
-    EXPECT_EQ(found_lines(sanitized_text("contract.frag", text, {}, {stated(GetParam().constraint)})),
-              Lines{});
+    EXPECT_EQ(
+        found_lines(sanitized_text("contract.frag", text, {}, {plain_domain(GetParam().constraint, 0, 0)})),
+        Lines{});
 }
 
 /// A hazard that the contract says nothing of is found as before, and its input keeps the contract.
@@ -91,7 +86,8 @@ TEST_P(Contract, LeavesWhatItSaysNothingOf) {
     const std::string text = shader_with(
         "color.r = 1.0 / v.x + 0.0 * (near + far + tbn[0].x + normal.x + "
         "directions[0].x + directions[1].x);");
-    const auto report = sanitized_text("contract.frag", text, {}, {stated(GetParam().constraint)});
+    const auto report =
+        sanitized_text("contract.frag", text, {}, {plain_domain(GetParam().constraint, 0, 0)});
     EXPECT_EQ(found_lines(report), Lines{"8: division by zero"});
     EXPECT_EQ(not_replayed("contract.frag", text, report), Lines{});
     const auto& point = report.findings.front().finding.point;
@@ -105,7 +101,7 @@ TEST(Contracts, ThatContradictOneAnotherAreErrors) {
     const evaluate::Program program = program_of("contract.frag", shader_with("color.r = far - near;"));
     const auto contradiction = [&](const std::vector<std::string>& constraints) {
         std::vector<Domain> domains;
-        for (const std::string& constraint : constraints) domains.push_back(stated(constraint));
+        for (const std::string& constraint : constraints) domains.push_back(plain_domain(constraint, 0, 0));
         const sanitize::InputSpace space = sanitize::input_space_of(program, domains, true);
         const Constraint* const found = sanitize::contradiction_in(space);
         return found == nullptr ? "" : found->text;

@@ -10,6 +10,7 @@
 #include "compose/search_path.hpp"
 #include "core/file_system.hpp"
 #include "core/text.hpp"
+#include "family/constraint.hpp"
 #include "lab/evaluate/eval_file.hpp"
 #include "lab/evaluate/program.hpp"
 #include "lab/sanitize/bounds.hpp"
@@ -149,11 +150,7 @@ Lines not_replayed(const std::string& name, const std::string& text, const sanit
 }
 
 Domain domain(const std::string& name, double low, double high) {
-    Domain of;
-    of.name = name;
-    of.low = low;
-    of.high = high;
-    return of;
+    return plain_domain(name, low, high);
 }
 
 namespace {

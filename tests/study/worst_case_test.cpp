@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "budget/budget.hpp"
+#include "family/constraint.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
 #include "lab/oracle/model.hpp"
@@ -248,14 +249,6 @@ TEST(WorstCase, OfAVariableInMediumpIsFoundWhereItOverflows) {
               0x1p-10);  // within [0, 1], and then squared
 }
 
-Domain stated(const std::string& name, double low, double high) {
-    Domain domain;
-    domain.name = name;
-    domain.low = low;
-    domain.high = high;
-    return domain;
-}
-
 struct PrecisionCase {
     const char* name;
     const char* effects;
@@ -290,14 +283,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(PrecisionCase{"whole_domain", "directional=1", {}, kInfinite, kInfinite},
                     PrecisionCase{"light_of_a_game",
                                   "directional=1",
-                                  {stated("DirectionalLights.lights[].color", 0, 10)},
+                                  {plain_domain("DirectionalLights.lights[].color", 0, 10)},
                                   0x1p-13,
                                   0x1p-10},
                     PrecisionCase{"lights_of_a_game",
                                   "directional=1 spot=1",
-                                  {stated("DirectionalLights.lights[].color", 0, 10),
-                                   stated("SpotLights.lights[].color", 0, 10),
-                                   stated("SpotLights.lights[].attenuation", 0.1, 1)},
+                                  {plain_domain("DirectionalLights.lights[].color", 0, 10),
+                                   plain_domain("SpotLights.lights[].color", 0, 10),
+                                   plain_domain("SpotLights.lights[].attenuation", 0.1, 1)},
                                   0x1p-12,
                                   0x1p-9}),
     [](const auto& row) { return row.param.name; });

@@ -53,6 +53,11 @@ struct ComponentName {
 [[nodiscard]] const Domain* domain_of_component(const std::vector<Domain>& domains, std::string_view name,
                                                 std::size_t component);
 
+/// The range of that name, and nothing else about it.
+[[nodiscard]] inline Domain plain_domain(const std::string& name, double low, double high) {
+    return {name, low, high, false, {}, {}, {}};
+}
+
 /// What the name is a member of: "Fog" of "Fog.start"; empty where it is none.
 [[nodiscard]] std::string_view struct_of(std::string_view name);
 

@@ -5,6 +5,7 @@
 #include "emit/cpp_text.hpp"
 #include "emit/emit.hpp"
 #include "emit/sections.hpp"
+#include "family/constraint.hpp"
 #include "sample_family.hpp"
 
 namespace gobo {
@@ -155,7 +156,7 @@ TEST_P(UncheckedConstraints, AreNamedWithTheReason) {
     Built built = sample::lit();
     built.interface.storage_blocks = {
         sample::block("Marks", 0, 16, {sample::array(sample::member("marks", "vec4", 0), {0}, 16)})};
-    built.family.domains.push_back({GetParam().constraint, 0, 0, false, {}, {}, {}});
+    built.family.domains.push_back(plain_domain(GetParam().constraint, 0, 0));
     const std::string header = header_of(built);
     const std::string_view begin = "// Constraints of the family that no check() looks at:\n";
     const auto at = header.find(begin);

@@ -12,14 +12,6 @@
 namespace gobo::sanitize {
 namespace {
 
-Domain plain_domain(const std::string& name, double low, double high) {
-    Domain domain;
-    domain.name = name;
-    domain.low = low;
-    domain.high = high;
-    return domain;
-}
-
 /// The domain of a stage's input or uniform: the family's where it declares one ("lights[]" is every
 /// element); of built-in inputs what OpenGL gives; otherwise [-100, 100].
 Domain range_of(const evaluate::Port& port, const std::vector<Domain>& domains) {
