@@ -481,7 +481,7 @@ std::vector<CaseFault> faults_of(const Case& tested, const Overlay& overlay, std
     for (std::size_t permutation = 0; permutation < lit.size(); ++permutation)
         for (std::size_t point = 0; point < tested.points.size(); ++point)
             for (const sanitize::Machine machine : sanitize::kMachines) {
-                if (machine == sanitize::Machine::mediump) continue;  // the library says highp throughout
+                if (sanitize::options_of(machine).is_half) continue;  // the library says highp throughout
                 const Shaded shaded = lit.shade(permutation, tested.points[point], machine);
                 std::vector<std::string> found = general_faults(shaded);
                 if (has_tolerance(machine)) {

@@ -20,9 +20,10 @@ enum class Setting {
     fragment,
     no_color,  ///< the body alone writes the colour
     vertex,
-    vulkan,         ///< Vulkan's GLSL, without uniforms
-    mediump,        ///< GLSL ES, floats of 16 bits
-    every_machine,  ///< on all variants of arithmetic
+    vulkan,           ///< Vulkan's GLSL, without uniforms
+    mediump,          ///< GLSL ES, floats of 16 bits
+    mediump_flushed,  ///< and also with those below 2^-14 taken as 0
+    every_machine,    ///< on all variants of arithmetic
 };
 
 struct Hazard {
@@ -41,6 +42,7 @@ std::ostream& operator<<(std::ostream& stream, const Hazard& hazard);
 [[nodiscard]] std::vector<Hazard> undefined_value_hazards();
 [[nodiscard]] std::vector<Hazard> constant_hazards();
 [[nodiscard]] std::vector<Hazard> precision_hazards();
+[[nodiscard]] std::vector<Hazard> lost_number_hazards();
 [[nodiscard]] std::vector<Hazard> arithmetic_hazards();
 
 }  // namespace gobo

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lab/sanitize/lost_numbers.hpp"
+
 namespace gobo {
 namespace {
 
@@ -13,7 +15,7 @@ std::string shader_of(const Hazard& row, const HazardSource& source) {
         return "#version 450\nlayout(location = 0) in float x; layout(location = 0) out vec4 c;\n" +
                source.declarations + "\nvoid main() {\nc = vec4(0);\n" + source.body + "\n}\n";
     const bool is_vertex = row.setting == Setting::vertex;
-    const bool is_es = row.setting == Setting::mediump;
+    const bool is_es = row.setting == Setting::mediump || row.setting == Setting::mediump_flushed;
     const std::string flat = is_vertex ? "in int" : "flat in int";
     std::string text =
         is_es ? "#version 300 es\nprecision mediump float;\nprecision highp int;\n" : "#version 450\n";
@@ -31,14 +33,22 @@ std::string shader_of(const Hazard& row, const HazardSource& source) {
            source.body + "\n}\n";
 }
 
-std::set<std::string> messages_of(const Hazard& row, const HazardSource& source) {
+std::string file_of(const Hazard& row) {
+    return row.setting == Setting::vertex ? "hazard.vert" : "hazard.frag";
+}
+
+sanitize::SanitizeReport report_of(const Hazard& row, const HazardSource& source) {
     sanitize::SanitizeOptions options;
     if (row.message.starts_with("a loop")) options.points = 64;  // each takes 65,536 turns
     if (row.setting == Setting::mediump) options.machines = {sanitize::Machine::mediump};
+    if (row.setting == Setting::mediump_flushed)
+        options.machines = {sanitize::Machine::mediump, sanitize::Machine::mediump_flushed};
     if (row.setting == Setting::every_machine)
         options.machines.assign(sanitize::kMachines.begin(), sanitize::kMachines.end());
-    const auto report = sanitized_text(row.setting == Setting::vertex ? "hazard.vert" : "hazard.frag",
-                                       shader_of(row, source), options, row.domains);
+    return sanitized_text(file_of(row), shader_of(row, source), options, row.domains);
+}
+
+std::set<std::string> messages_of(const sanitize::SanitizeReport& report) {
     std::set<std::string> messages;
     for (const sanitize::SharedFinding& shared : report.findings) messages.insert(shared.finding.message);
     return messages;
@@ -47,15 +57,21 @@ std::set<std::string> messages_of(const Hazard& row, const HazardSource& source)
 class Hazards : public testing::TestWithParam<Hazard> {};
 
 TEST_P(Hazards, IsFoundUnlessGuarded) {
-    const std::set<std::string> found = messages_of(GetParam(), GetParam().hazard);
-    EXPECT_TRUE(found.contains(GetParam().message)) << testing::PrintToString(found);
-    EXPECT_EQ(messages_of(GetParam(), GetParam().guarded), std::set<std::string>());
+    const Hazard& row = GetParam();
+    const sanitize::SanitizeReport report = report_of(row, row.hazard);
+    const std::set<std::string> found = messages_of(report);
+    EXPECT_TRUE(found.contains(row.message)) << testing::PrintToString(found);
+    EXPECT_EQ(messages_of(report_of(row, row.guarded)), std::set<std::string>());
+    if (row.message == sanitize::kLostNumber) {
+        EXPECT_EQ(not_replayed(file_of(row), shader_of(row, row.hazard), report), Lines{});
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Texture, Hazards, testing::ValuesIn(texture_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(UndefinedValue, Hazards, testing::ValuesIn(undefined_value_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(Constant, Hazards, testing::ValuesIn(constant_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(Precision, Hazards, testing::ValuesIn(precision_hazards()), row_name);
+INSTANTIATE_TEST_SUITE_P(LostNumber, Hazards, testing::ValuesIn(lost_number_hazards()), row_name);
 INSTANTIATE_TEST_SUITE_P(Arithmetic, Hazards, testing::ValuesIn(arithmetic_hazards()), row_name);
 
 }  // namespace

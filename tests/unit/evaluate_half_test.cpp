@@ -71,6 +71,54 @@ TEST_P(RelaxedFunctions, RoundWhatPasses) {
     EXPECT_EQ(value(relaxed(words, row.relaxed)), 1);
 }
 
+struct SmallCase {
+    const char* name;
+    double input;
+    double gradual, flushed, kept;  ///< its square
+};
+
+void PrintTo(const SmallCase& row, std::ostream* out) {
+    *out << row.name;
+}
+
+constexpr double kOdd = 1 + 0x1p-5;
+const SmallCase kSmall[] = {
+    {"normal", 0x1p-7 * kOdd, 0x1p-14 * kOdd* kOdd, 0x1p-14 * kOdd* kOdd, 0x1p-14 * kOdd* kOdd},
+    {"denormal", 0x1p-8 * kOdd, 0x1p-16 * (kOdd * kOdd - 0x1p-10), 0, 0x1p-16 * kOdd* kOdd},
+    {"least", 0x1p-12, 0x1p-24, 0, 0x1p-24},
+    {"too_small", 0x1p-13, 0, 0, 0x1p-26},
+    {"far_too_small", 0x1p-40 * kOdd, 0, 0, 0x1p-80 * kOdd* kOdd},
+    {"negative", -0x1p-40, 0, 0, 0x1p-80},
+};
+
+class SmallNumbers : public ::testing::TestWithParam<SmallCase> {};
+
+TEST_P(SmallNumbers, AreRoundedAsTheArithmeticSays) {
+    const SmallCase& row = GetParam();
+    const auto words = relaxed(compile(ShaderStage::fragment,
+                                       "#version 450\nlayout(location = 0) in vec4 a;\n"
+                                       "layout(location = 0) out vec4 r;\nvoid main() { r = a * a; }\n"),
+                               spv::OpFMul);
+    const Result<Program> program = decode(words);
+    ASSERT_TRUE(program);
+    Invocations invocations;
+    invocations.count = 2;
+    invocations.values = {{"a", {row.input, row.input, row.input, row.input}}};
+    const auto squares = [&](Options options) {
+        options.is_half = true;
+        const auto outputs = run<float>(*program, invocations, options);
+        return std::pair(outputs->values.at("r")[0], outputs->values.at("r")[1]);
+    };
+    using Pair = std::pair<double, double>;
+    EXPECT_EQ(squares({}), Pair(row.gradual, row.gradual));
+    EXPECT_EQ(squares({.flush_denormals = true}), Pair(row.flushed, row.flushed));
+    const auto all = static_cast<std::uint32_t>(program->constants.size() + program->operations.size());
+    const std::vector<std::uint32_t> one_of_two{0, all};
+    EXPECT_EQ(squares({.loses_small = &one_of_two}), Pair(row.kept, row.gradual));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, SmallNumbers, ::testing::ValuesIn(kSmall),
+                         [](const auto& one) { return std::string(one.param.name); });
 INSTANTIATE_TEST_SUITE_P(Rows, RelaxedFunctions, ::testing::ValuesIn(kFunctions),
                          [](const auto& one) { return std::string(one.param.name); });
 

@@ -6,6 +6,7 @@
 
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "lab/sanitize/lost_numbers.hpp"
 
 namespace gobo {
 
@@ -58,17 +59,19 @@ Diagnostics report_finding(const World& world, const FindingOptions& options, co
             "compilers fold it, each to a value of its own: guard the operation, or change a constant";
         return diagnostics;
     }
+    const std::string_view cure = finding.message == sanitize::kLostNumber
+                                      ? "declare it highp, or scale what it is made of"
+                                      : "guard the operation";
     if (options.folder.empty()) {
-        error.help =
-            "guard the operation; keep an input that shows it with -o DIR, and follow it with gobo eval "
-            "--trace";
+        error.help = fmt::format(
+            "{}; keep an input that shows it with -o DIR, and follow it with gobo eval --trace", cure);
         return diagnostics;
     }
     const std::string name = finding.place.file.substr(finding.place.file.rfind('/') + 1);
     const std::string path =
         fmt::format("{}/{}.{}.{}.toml", options.folder, number, name, finding.place.line);
     const std::string follow = fmt::format("gobo eval {} --inputs {} --trace", what, shell_word(path));
-    error.help = "guard the operation; follow the input with: " + follow;
+    error.help = fmt::format("{}; follow the input with: {}", cure, follow);
     append(diagnostics, keep_file(world, path, sanitize::eval_input(finding, follow)));
     return diagnostics;
 }

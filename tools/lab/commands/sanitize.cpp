@@ -99,7 +99,7 @@ Command sanitize_command() {
           "nan_kept, "
           "nan_dropped (by min, max, clamp); fused (a * b + c); regrouped, reordered (sums); "
           "errors_up, errors_down (of division, sqrt, normalize, pow, exp, log, sin and their like); "
-          "mediump (16-bit floats where the shader allows them); all",
+          "mediump (16-bit floats where the shader allows them), mediump_flushed (denormal ones are 0); all",
           &options->machines, kOneOf},
          domains_option(*options),
          dialect_option(options->dialect),

@@ -206,12 +206,20 @@ class Evaluation {
         }
     }
 
+    /// What is mediump, for the invocations from `first` on.
+    void fill_half_constants(std::size_t first) {
+        for (std::size_t i = 0; i < program_.constants.size(); ++i)
+            for (std::size_t lane = 0; lane < kLanes && program_.constants[i].is_relaxed; ++lane)
+                registers_.floats(program_.constants[i].slot)[lane] =
+                    static_cast<T>(rounded_to_half(std::bit_cast<float>(program_.constants[i].bits),
+                                                   small_halves(options_, i, first + lane)));
+    }
+
     [[nodiscard]] T float_constant(const ConstantSlot& constant) const {
         if (constant.scalar == Scalar::float64)
             return static_cast<T>(std::bit_cast<double>(std::uint64_t{constant.high} << 32U | constant.bits));
         if (constant.scalar == Scalar::float16) return static_cast<T>(Half::unpack(constant.bits & 0xffffU));
         const float value = std::bit_cast<float>(constant.bits);
-        if (constant.is_relaxed && options_.is_half) return static_cast<T>(rounded_to_half(value));
         const bool is_exact = sizeof(T) == 4 || options_.is_single;
         return is_exact ? static_cast<T>(value) : static_cast<T>(shortest_decimal(value));
     }
@@ -227,6 +235,7 @@ class Evaluation {
         for (const Port& port : program_.uniforms)
             if (port.is_written) std::fill_n(registers_.ints(port.slot), port.components * kLanes, Int<T>{0});
         registers_.first_invocation = first;
+        if (options_.is_half) fill_half_constants(first);
         if (observer_ != nullptr) observer_->begins(first);
         registers_.callers_lanes = lanes_where([&](std::size_t lane) {
             const std::size_t at = first + lane;

@@ -103,11 +103,15 @@ enum class NaNs {
 inline constexpr std::uint64_t kMostIterations = 65536;
 
 struct Options {
-    bool flush_denormals = false;  ///< fp32 only: denormal operands and results are taken as 0
+    bool flush_denormals =
+        false;  ///< fp32 only: denormal operands and results are taken as 0, of 16 bits too
     Errors errors = Errors::none;
     Sums sums = Sums::as_written;
     NaNs nans = NaNs::by_comparison;
-    bool is_half = false;    ///< fp32 only: what is mediump or lowp is a 16-bit float after each operation
+    bool is_half = false;  ///< fp32 only: what is mediump or lowp is a 16-bit float after each operation
+    /// With `is_half`: of each invocation, how many of the program's constants and operations, in this order,
+    /// lose what is too small for 16-bit floats; the others keep it. Null: all lose it.
+    const std::vector<std::uint32_t>* loses_small = nullptr;
     bool is_single = false;  ///< fp64 only: what is a 32-bit float is one after each operation
     /// fp64 only: of each operation, the one invocation in which its results are rounded to floats, or -1.
     const std::vector<std::int64_t>* rounded_in = nullptr;

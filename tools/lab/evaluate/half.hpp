@@ -41,15 +41,26 @@ struct Half {
     }
 };
 
+/// What becomes of numbers below 2^-14, of which a 16-bit float does not keep all 11 bits.
+enum class SmallHalves {
+    gradual,  ///< they are spaced by 2^-24
+    flushed,  ///< they are 0, as GLSL ES allows
+    kept,     ///< they have 11 bits, as in no hardware: to compare with
+};
+
 /// The nearest 16-bit float; beyond 65,504 an infinity.
-inline float rounded_to_half(float number) {
+inline float rounded_to_half(float number, SmallHalves small = SmallHalves::gradual) {
     const float size = std::fabs(number);
     if (!(size > 0) || std::isinf(size)) return number;
     if (size >= 65520.0F) return std::copysign(std::numeric_limits<float>::infinity(), number);
-    // Numbers are spaced by 2^-10 of the power of two below them, the smallest by 2^-24.
-    const int exponent = std::max(static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U) - 127, -14);
+    // Numbers are spaced by 2^-10 of the power of two below them, the smallest by 2^-24; where they are kept,
+    // by the smallest normal float.
+    const int least = small == SmallHalves::kept ? -116 : -14;
+    const int exponent = std::max(static_cast<int>(std::bit_cast<std::uint32_t>(size) >> 23U) - 127, least);
     const float spacing = std::bit_cast<float>(static_cast<std::uint32_t>(exponent - 10 + 127) << 23U);
-    return std::nearbyint(number / spacing) * spacing;
+    const float rounded = std::nearbyint(number / spacing) * spacing;
+    const bool is_flushed = small == SmallHalves::flushed && std::fabs(rounded) < 0x1p-14F;
+    return is_flushed ? std::copysign(0.0F, number) : rounded;
 }
 
 }  // namespace gobo::evaluate

@@ -198,6 +198,14 @@ class Regrouping {
     std::vector<LaneMask> known_;  ///< of each slot: lanes with parts
 };
 
+/// What becomes of small numbers in the `number`-th of the constants and operations.
+inline SmallHalves small_halves(const Options& options, std::size_t number, std::size_t invocation) {
+    const std::vector<std::uint32_t>* const lose = options.loses_small;
+    if (lose != nullptr && number >= (*lose)[std::min(invocation, lose->size() - 1)])
+        return SmallHalves::kept;
+    return options.flush_denormals ? SmallHalves::flushed : SmallHalves::gradual;
+}
+
 /// How the row runs in the arithmetic of these options.
 inline const Execution& execution_of(const Row& row, const Options& options) {
     const Liberties& liberties = row.liberties;
@@ -306,30 +314,36 @@ class Scheduler {
                                   options_.errors == Errors::largest_up);
         if (!options_.is_half || !program_.infos[at].is_relaxed) return;
         if (row_of(operation).code == kScatter)
-            make_half_at_addresses(operation, program_.infos[at].result);
+            make_half_at_addresses(at, program_.infos[at].result);
         else
-            make_half(program_.infos[at].result);
+            make_half(at, program_.infos[at].result);
+    }
+
+    [[nodiscard]] T half_of(T number, std::uint32_t at, std::size_t lane) const {
+        const SmallHalves small =
+            small_halves(options_, program_.constants.size() + at, registers_.first_invocation + lane);
+        return static_cast<T>(rounded_to_half(static_cast<float>(number), small));
     }
 
     void execute(const Operation& operation) { rows_[operation.row](operation, registers_); }
 
-    void make_half(const Slice& result) {
+    void make_half(std::uint32_t at, const Slice& result) {
         if (result.scalar != Scalar::float32) return;
         T* const row = registers_.floats(result.slot);
         for (std::size_t i = 0; i < result.count * kLanes; ++i)
-            if (registers_.is_active(i % kLanes))
-                row[i] = static_cast<T>(rounded_to_half(static_cast<float>(row[i])));
+            if (registers_.is_active(i % kLanes)) row[i] = half_of(row[i], at, i % kLanes);
     }
 
     /// Of a store whose place each lane computes.
-    void make_half_at_addresses(const Operation& store, const Slice& variable) {
+    void make_half_at_addresses(std::uint32_t at, const Slice& variable) {
         if (variable.scalar != Scalar::float32) return;
+        const Operation& store = program_.operations[at];
         for (std::uint32_t component = 0; component < store.count; ++component)
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 if (!registers_.is_active(lane)) continue;
                 const auto offset = static_cast<std::uint32_t>(registers_.ints(store.operands[1])[lane]);
                 T& cell = registers_.floats(store.result + offset + component)[lane];
-                cell = static_cast<T>(rounded_to_half(static_cast<float>(cell)));
+                cell = half_of(cell, at, lane);
             }
     }
 
@@ -346,7 +360,7 @@ class Scheduler {
         if (row.code == kExtended + GLSLstd450FrexpStruct) result.count = program_.operations[at].count;
         if (result.scalar == Scalar::float16 && (sizeof(T) == 4 || options_.is_single)) {
             result.scalar = Scalar::float32;
-            return make_half(result);
+            return make_half(at, result);
         }
         if (result.scalar == Scalar::float32 && options_.is_single)
             for (T* cell = registers_.floats(result.slot);

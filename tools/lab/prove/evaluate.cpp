@@ -46,8 +46,9 @@ Range also_in_half(Range range) {
                                          : moved;
     };
     Range wider{outwards(range.low, false), outwards(range.high, true), 0, kFinestGrid, true, range.nan};
-    if (range.low >= 0) wider.low = std::max(wider.low, 0.0);
-    if (range.high <= 0) wider.high = std::min(wider.high, 0.0);
+    // Those below 2^-14 may be 0.
+    if (range.low >= 0) wider.low = range.low < 0x1p-14 ? 0 : std::max(wider.low, 0.0);
+    if (range.high <= 0) wider.high = range.high > -0x1p-14 ? 0 : std::min(wider.high, 0.0);
     return tidy(wider);
 }
 

@@ -14,7 +14,9 @@
 #include "lab/evaluate/half.hpp"
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/image_rules.hpp"
+#include "lab/sanitize/lost_numbers.hpp"
 #include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/step_text.hpp"
 #include "lab/sanitize/taint.hpp"
 
 namespace gobo::sanitize {
@@ -36,27 +38,6 @@ Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
         for (std::uint32_t component = 0; component < slice.count && (lanes >> lane & 1U) != 0; ++component)
             if (std::isnan(float_row(step, slice, component)[lane])) result |= Lanes{1} << lane;
     return result;
-}
-
-/// "depth = 0", "(1, 0.5, 0.25)".
-std::string value_text(const Step& step, const Slice& slice, std::size_t lane) {
-    std::vector<double> components;
-    for (std::uint32_t component = 0; component < slice.count; ++component)
-        components.push_back(step.value(slice, component, lane));
-    const std::string numbers = evaluate::to_text(components);
-    const std::string& name = step.program.names[slice.name];
-    return name.empty() ? numbers : fmt::format("{} = {}", name, numbers);
-}
-
-/// "FDiv 1, depth = 0 -> inf".
-std::string operation_text(const Step& step, std::size_t lane) {
-    std::vector<std::string> operands;
-    if (step.row().code == evaluate::kScatter)  // the variable's own slots are not what was written
-        return fmt::format("{} {} in {}", step.name(), value_text(step, step.info().operands.front(), lane),
-                           step.program.names[step.info().result.name]);
-    for (const Slice& operand : step.info().operands) operands.push_back(value_text(step, operand, lane));
-    return fmt::format("{} {} -> {}", step.name(), fmt::join(operands, ", "),
-                       value_text(step, step.info().result, lane));
 }
 
 /// One stage run on one machine.
@@ -171,10 +152,10 @@ class TrapObserver final : public evaluate::Observer<float> {
             watch.has_silent = std::any_of(watch.rules.begin(), watch.rules.end(),
                                            [](const TrapRule& rule) { return rule.is_silent; });
             const evaluate::OperationInfo& info = run.program.infos[at];
-            watch.narrows = run.machine == Machine::mediump && narrows_to_half(run.program, at);
+            const bool is_half = options_of(run.machine).is_half;
+            watch.narrows = is_half && narrows_to_half(run.program, at);
             // The other operations pass on what these made.
-            watch.reads_mediump_input =
-                run.machine == Machine::mediump && reads_mediump_input(run.program, at);
+            watch.reads_mediump_input = is_half && reads_mediump_input(run.program, at);
             watch.makes_floats =
                 (row.kind <= Kind::matrix || watch.narrows) && evaluate::is_float(info.result.scalar);
             watch.first_decider = first_decider(row);
@@ -507,6 +488,20 @@ void TrapObserver::judge_outputs(const evaluate::Outputs& outputs) {
     }
 }
 
+/// Numbers that 16 bits lose, at points that do not trap.
+Result<std::vector<Finding>> lost_numbers(const Run& run, const evaluate::Options& options,
+                                          const evaluate::Outputs& outputs, const TrapObserver& observer) {
+    const auto is_judged = [&](std::size_t invocation) { return !observer.trapped(invocation); };
+    GOBO_TRY(const auto lost, find_lost_numbers(run.program, run.invocations, options, outputs, is_judged));
+    std::vector<Finding> findings;
+    for (const LostNumber& one : lost) {
+        Finding& finding = findings.emplace_back();
+        run.show(finding, kLostNumber, one.text, one.invocation, one.operation);
+        finding.points = one.points;
+    }
+    return findings;
+}
+
 /// Which way an output left its bounds; nothing where it did not.
 std::string_view fault_of(double value, const Interval& bounds) {
     if (std::isnan(value)) return "is not a number";
@@ -571,6 +566,17 @@ std::vector<char> unwritten_in(const TrapObserver& observer, std::size_t output,
     return unwritten;
 }
 
+/// What 16-bit floats may pass a bound by: some thirty roundings.
+constexpr double kRoundingsOfHalf = 1 + 32 * 0x1p-11;
+
+/// What the machine may give where exact numbers are within the bounds.
+Interval with_roundings(Interval bounds, Machine machine) {
+    if (!options_of(machine).is_half || bounds.promise != DepthPromise::none) return bounds;
+    if (bounds.low < 0) bounds.low = std::max(bounds.low * kRoundingsOfHalf, Interval{}.low);
+    bounds.high = std::min(bounds.high * kRoundingsOfHalf, Interval{}.high);
+    return bounds;
+}
+
 /// Outputs beyond their bounds at points that write them, and neither trap nor are discarded.
 void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& observer,
                        std::span<const Interval> all, OutputFindings& findings) {
@@ -586,7 +592,7 @@ void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& obs
         for (std::uint32_t c = 0; c < port.components; ++c, ++component)
             for (std::size_t i = 0; i < outputs.count; ++i) {
                 const double value = values[c * outputs.count + i];
-                const Interval& bounds = all[i * components + component];
+                const Interval bounds = with_roundings(all[i * components + component], findings.run.machine);
                 if (value >= bounds.low && value <= bounds.high) continue;
                 if (is_left_out || unwritten[i] != 0 || outputs.discarded[i] || observer.trapped(i)) continue;
                 const auto low = static_cast<float>(bounds.low);
@@ -628,6 +634,10 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
     for (auto& [message, finding] : of_outputs.by_message) findings.push_back(std::move(finding));
     for (const Finding& finding : observer.findings())
         if (finding.points > 0) findings.push_back(finding);
+    if (options.is_half) {
+        GOBO_TRY(const auto lost, lost_numbers(run, options, outputs, observer));
+        findings.insert(findings.end(), lost.begin(), lost.end());
+    }
     return findings;
 }
 

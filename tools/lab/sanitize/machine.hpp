@@ -10,16 +10,17 @@
 namespace gobo::sanitize {
 
 enum class Machine {
-    ieee,         ///< fp32, round to nearest
-    flushed,      ///< denormal operands and results are 0
-    nan_kept,     ///< min, max and clamp give a NaN wherever they are given one
-    nan_dropped,  ///< min, max and clamp give a number wherever they are given one
-    fused,        ///< a * b + c is rounded once
-    regrouped,    ///< (a + b) + c is computed as a + (b + c), and what cancels is gone
-    reordered,    ///< (a + b) + c is computed as (a + c) + b, and what cancels is gone
-    errors_up,    ///< divisions, roots, powers, exponentials, angles too large by all that is allowed
-    errors_down,  ///< too small by as much
-    mediump,      ///< what the shader says is mediump or lowp is a 16-bit float
+    ieee,             ///< fp32, round to nearest
+    flushed,          ///< denormal operands and results are 0
+    nan_kept,         ///< min, max and clamp give a NaN wherever they are given one
+    nan_dropped,      ///< min, max and clamp give a number wherever they are given one
+    fused,            ///< a * b + c is rounded once
+    regrouped,        ///< (a + b) + c is computed as a + (b + c), and what cancels is gone
+    reordered,        ///< (a + b) + c is computed as (a + c) + b, and what cancels is gone
+    errors_up,        ///< divisions, roots, powers, exponentials, angles too large by all that is allowed
+    errors_down,      ///< too small by as much
+    mediump,          ///< what the shader says is mediump or lowp is a 16-bit float
+    mediump_flushed,  ///< and denormal ones, below 2^-14, are 0
 };
 
 struct MachineRow {
@@ -38,6 +39,7 @@ inline constexpr MachineRow kMachineRows[] = {
     {Machine::errors_up, "errors_up", {.errors = evaluate::Errors::largest_up}},
     {Machine::errors_down, "errors_down", {.errors = evaluate::Errors::largest_down}},
     {Machine::mediump, "mediump", {.is_half = true}},
+    {Machine::mediump_flushed, "mediump_flushed", {.flush_denormals = true, .is_half = true}},
 };
 
 [[nodiscard]] constexpr std::string_view name_of(Machine machine) {
