@@ -203,7 +203,9 @@ Result<Outcome> answer(const Application& application, const World& world, const
     // While gobo watches, folders come and go.
     if (line.command->title.name != "watch") GOBO_TRY_DO(refuse_absent_folders(world.options));
     Diagnostics warnings;
-    GOBO_TRY(Outcome outcome, run_with_cache(*line.command, world, application.name, arguments, warnings));
+    World chosen = world;
+    chosen.given = line.given;
+    GOBO_TRY(Outcome outcome, run_with_cache(*line.command, chosen, application.name, arguments, warnings));
     append(outcome.diagnostics, warnings);
     for (const OutputFile& file : outcome.files) GOBO_TRY_DO(disk.spare(file.path));
     return with_files_written(std::move(outcome));

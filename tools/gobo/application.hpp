@@ -31,7 +31,8 @@ inline constexpr const char* kExitStatus =
 /// `text`.
 struct CommandLine {
     const Command* command = nullptr;
-    std::string text;
+    std::string text = {};
+    GivenOptions given = {};
 };
 /// Fault::usage for what no command has.
 [[nodiscard]] Result<CommandLine> read_command_line(const Application& application,

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>  // commands share their options with what runs them
 #include <string>
 #include <variant>
@@ -47,6 +48,9 @@ inline const OptionRule kPositive = {.least = std::numeric_limits<double>::min()
 [[nodiscard]] inline OptionRule between(double least, double most) {
     return {.least = least, .most = most};
 }
+
+/// The options that a command line gives, by their last name, with their values.
+using GivenOptions = std::map<std::string, std::string>;
 
 /// Options that several commands share, under a heading of their own.
 struct OptionGroup {

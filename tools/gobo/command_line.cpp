@@ -208,7 +208,11 @@ Result<CommandLine> read_command_line(const Application& application,
     }
     const auto chosen = std::ranges::find_if(
         application.commands, [&](const Command& command) { return app.got_subcommand(command.title.name); });
-    return CommandLine{&*chosen, {}};
+    CommandLine line{&*chosen};
+    for (const CLI::Option* option : app.get_subcommands().front()->get_options())
+        if (option->count() > 0 && !option->get_positional())
+            line.given[option->get_name()] = join(option->results(), " ");
+    return line;
 }
 
 }  // namespace gobo

@@ -11,7 +11,6 @@
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
 #include "compose/specialized_counts.hpp"
-#include "core/digest.hpp"
 #include "core/text.hpp"
 #include "family/cover.hpp"
 #include "family/key.hpp"
@@ -20,6 +19,7 @@
 #include "gobo/literal_counts.hpp"
 #include "gobo/name_lists.hpp"
 #include "gobo/shader_files.hpp"
+#include "gobo/shard_run.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/scene_domains.hpp"
 #include "scene/scene_keys.hpp"
@@ -368,11 +368,7 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                    const SelectionOptions& options) {
     GOBO_TRY(const Selection selection, load_selection(world, family, options));
     GOBO_TRY(std::vector<Key> keys, select(family.family, selection, name_of(family.dialect)));
-    if (!options.shard.empty()) {
-        std::string run = fmt::format("{} {}\n", family.family.name, name_of(family.dialect));
-        for (const Key& key : keys) run += key_text(family.family, key) + "\n";
-        family.run = hex(digest_of(run));
-    }
+    if (!options.shard.empty()) family.run = run_of_shards(world, family, keys);
     return shard_of(std::move(keys), options.shard);
 }
 

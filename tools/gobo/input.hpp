@@ -55,6 +55,7 @@ struct World {
     ResultCache* cache = nullptr;  ///< where results are kept from one run to the next; null: nowhere
     /// Writes what is told and the summary at once, for a command that goes on.
     std::function<void(const Outcome&)> tell = nullptr;
+    GivenOptions given = {};  ///< of the command line
 
     [[nodiscard]] int jobs() const {
         return options.jobs > 0 ? options.jobs
@@ -80,7 +81,7 @@ struct LoadedFamily {
     std::map<int, std::string> count_constants = {};
     Dialect dialect = Dialect::own;
     Comments comments = Comments::remove;
-    /// What the shards of one run have in common: their family, dialect and all keys; empty without --shard.
+    /// run_of_shards(); empty without --shard.
     std::string run = {};
 };
 

@@ -8,6 +8,7 @@
 
 #include "core/csv.hpp"
 #include "gobo/commands.hpp"
+#include "gobo/shard_run.hpp"
 
 namespace gobo {
 namespace {
@@ -21,7 +22,7 @@ struct Shard {
     std::string path;
     std::string text;
     std::string number = {};  ///< "1/2"; empty where it states none
-    std::string run = {};     ///< what shards of one run have in common
+    std::string run = {};     ///< run_of_shards()
 };
 
 /// Shards take turns: the first key is the first one's, the next the second one's. `groups` are each shard's
@@ -68,10 +69,10 @@ Result<void> check_shards(const std::vector<Shard>& shards) {
         if (!shard.number.empty() && shard.number != wanted)
             return fail(Place{shard.path}, {}, fmt::format("is shard {}, not {}", shard.number, wanted),
                         kInOrder);
-        if (shard.run != shards.front().run)
+        if (const std::string difference = difference_of_runs(shards.front().run, shard.run);
+            !difference.empty())
             return fail(Place{shard.path}, {},
-                        fmt::format("is of another run than {}: of other keys, or another dialect",
-                                    shards.front().path),
+                        fmt::format("is of another run than {}: of {}", shards.front().path, difference),
                         "merge the shards of one run");
     }
     return {};

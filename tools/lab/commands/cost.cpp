@@ -194,7 +194,7 @@ Result<void> refuse_other_files(const StageNumbers& stages) {
 /// What tells shards of a run from other files: gobo merge takes it out again.
 json of_shard(json costs, const std::string& shard, const std::string& run) {
     if (shard.empty()) return costs;
-    json whole = {{"shard", shard}, {"run", run}};
+    json whole = {{"shard", shard}, {"run", json::parse(run)}};
     whole.update(costs);
     return whole;
 }

@@ -331,8 +331,7 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
 std::string figures_of_shard(std::string figures, const std::string& shard, const std::string& run) {
     constexpr std::string_view first_member = "{\n";
     if (!shard.empty())
-        figures.insert(first_member.size(),
-                       fmt::format(" \"shard\": \"{}\",\n \"run\": \"{}\",\n", shard, run));
+        figures.insert(first_member.size(), fmt::format(" \"shard\": \"{}\",\n \"run\": {},\n", shard, run));
     return figures;
 }
 
