@@ -49,7 +49,9 @@ std::vector<int> ordered(std::vector<int> order, const std::vector<char>& is_fix
         }
         for (std::size_t i = 0; i < order.size(); ++i)
             if (pulls[i] > 0) position[i] = pulled[i] / pulls[i];
-        std::ranges::stable_sort(order, {}, [&](int feature) { return position[feature]; });
+        const auto place = [&](int feature) { return position[feature]; };
+        if (std::ranges::is_sorted(order, {}, place)) break;  // every further round would begin alike
+        std::ranges::stable_sort(order, {}, place);
     }
     std::stable_partition(order.begin(), order.end(), [&](int feature) { return is_fixed[feature] != 0; });
     return order;

@@ -9,12 +9,16 @@
 
 #include <fmt/format.h>
 
+#include "compose/piece_marks.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "spirv/glsl_type.hpp"
 
 namespace gobo {
 namespace {
+
+/// How many errors of a stage, and how many warnings, are told. Nobody reads more, and each is looked up.
+constexpr int kMostTold = 100;
 
 /// glslang has read on to the next line, or further, where it finds a directive wrong: the directive's line.
 int line_of_directive(std::string_view message, const Piece& piece, int line) {
@@ -90,14 +94,18 @@ void explain_constant_id(Diagnostic& diagnostic, const Piece& prologue) {
 void name_other_uniforms(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
     if (!diagnostic.message.starts_with("a uniform outside of blocks")) return;
     std::vector<std::string> others;
-    for (const Piece* const piece : pieces)
-        for (int number = 1; number <= std::ranges::count(piece->text, '\n'); ++number) {
-            const std::vector<std::string_view> tokens = tokens_of(line_of(piece->text, number));
+    for (const Piece* const piece : pieces) {
+        int number = 0;
+        for_each_line(piece->text, [&](std::string_view line) {
+            ++number;
+            const std::vector<std::string_view> tokens = tokens_of(line);
             const auto uniform = std::ranges::find(tokens, "uniform");
             const bool is_plain = tokens.end() - uniform > 2 && tokens.back() == ";" && glsl_type(uniform[1]);
             if (is_plain && !(piece->path == diagnostic.place.file && number == diagnostic.place.line))
                 others.push_back(fmt::format("{}:{}", piece->path, number));
-        }
+            return true;
+        });
+    }
     if (!others.empty()) diagnostic.help += fmt::format("; so must those of {}", join(others, ", "));
 }
 
@@ -213,17 +221,22 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
                (!all && gave_up && holds("'#extension' : extra tokens"));
     };
     Diagnostics diagnostics;
+    int errors = 0;
+    int warnings = 0;
+    bool is_told = false;
     for (const std::string& full_line : split(log, '\n')) {
         const std::string_view line = full_line;
         if (says_nothing(line)) continue;
         const bool is_error = line.starts_with("ERROR: ");
         if (is_error || line.starts_with("WARNING: ")) {
+            is_told = ++(is_error ? errors : warnings) <= kMostTold;
+            if (!is_told) continue;
             Diagnostic& diagnostic = diagnostics.emplace_back();
             diagnostic.severity = is_error ? Severity::error : Severity::warning;
             diagnostic.place = otherwise;
             diagnostic.message = trim(line.substr(line.find(' ')));
             locate(diagnostic, pieces);
-        } else if (!diagnostics.empty()) {  // a message that goes on
+        } else if (is_told) {  // a message that goes on
             diagnostics.back().message += fmt::format(" {}", line);
         }
     }
@@ -232,6 +245,14 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
         return diagnostic.message == "'' : missing #endif";
     };
     if (!std::ranges::all_of(diagnostics, is_missing_end)) std::erase_if(diagnostics, is_missing_end);
+    const auto add_rest = [&](Severity severity, const char* what, int count) {
+        if (count > kMostTold)
+            diagnostics.push_back({.severity = severity,
+                                   .place = otherwise,
+                                   .message = fmt::format("{} more {}", count - kMostTold, what)});
+    };
+    add_rest(Severity::error, "errors", errors);
+    add_rest(Severity::warning, "warnings", warnings);
     for (Diagnostic& diagnostic : diagnostics) {
         explain(diagnostic);
         name_other_uniforms(diagnostic, pieces);
@@ -253,17 +274,23 @@ void explain_crash(Diagnostic& error, const std::vector<const Piece*>& pieces) {
     std::vector<std::string_view> constants;
     for (const Piece* const piece : pieces)
         std::ranges::copy(specialization_constants_in(piece->text), std::back_inserter(constants));
-    for (const Piece* const piece : pieces)
-        for (int line = 1; line <= std::ranges::count(piece->text, '\n'); ++line) {
-            const std::vector<std::string_view> tokens = tokens_of(line_of(piece->text, line));
+    for (const Piece* const piece : pieces) {
+        int number = 0;
+        bool is_found = false;
+        for_each_line(piece->text, [&](std::string_view line) {
+            ++number;
+            const std::vector<std::string_view> tokens = tokens_of(line);
             const auto label = std::ranges::find(tokens, "case");
             const auto end = std::find(label, tokens.end(), ":");
             const auto constant = std::find_first_of(label, end, constants.begin(), constants.end());
-            if (constant == end) continue;
-            error.message += fmt::format(": '{}' is a specialisation constant", *constant);
-            error.help = "a case label is a number: compare with the constant by if";
-            return put_at(error, *piece, line);
-        }
+            is_found = constant != end;
+            if (is_found) error.message += fmt::format(": '{}' is a specialisation constant", *constant);
+            return !is_found;
+        });
+        if (!is_found) continue;
+        error.help = "a case label is a number: compare with the constant by if";
+        return put_at(error, *piece, number);
+    }
 }
 
 }  // namespace gobo
