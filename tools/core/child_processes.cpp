@@ -80,14 +80,6 @@ void limit_time(int seconds) {
     limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 + seconds));
 }
 
-void write_all(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = write(file, bytes.data(), bytes.size());
-        if (written < 0 && errno != EINTR) _exit(1);
-        bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
-    }
-}
-
 class Pool {
   public:
     Pool(int jobs, std::size_t count, const ChildWork& work, const ChildLimits& limits)
@@ -177,8 +169,8 @@ class Pool {
             if (limits_.processor_seconds > 0) limit_time(limits_.processor_seconds);
             const std::string bytes = work_.work(task, self.note);
             const Head head{task, bytes.size()};
-            write_all(file, {reinterpret_cast<const char*>(&head), sizeof head});
-            write_all(file, bytes);
+            write_or_exit(file, {reinterpret_cast<const char*>(&head), sizeof head});
+            write_or_exit(file, bytes);
             self.task = kNoTask;
             if (self.note == kStartAnew) break;
         }
@@ -261,6 +253,14 @@ class Pool {
 };
 
 }  // namespace
+
+void write_or_exit(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = write(file, bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR) _exit(1);
+        bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+    }
+}
 
 std::vector<std::size_t> run_in_children(int jobs, std::size_t count, const ChildWork& work,
                                          const ChildLimits& limits) {

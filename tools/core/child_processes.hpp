@@ -51,4 +51,7 @@ struct ChildWork {
 [[nodiscard]] std::vector<std::size_t> run_in_children(int jobs, std::size_t count, const ChildWork& work,
                                                        const ChildLimits& limits = {});
 
+/// In a child: writes all of it, or ends the process where that fails.
+void write_or_exit(int file, std::string_view bytes);
+
 }  // namespace gobo

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/numbers.hpp"
 #include "emit/sections.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
@@ -15,10 +16,6 @@ namespace {
 
 /// std140 rounds structs and whole blocks up to the size of a vec4.
 constexpr int kStructAlignment = 16;
-
-int rounded_up(int size, int alignment = kStructAlignment) {
-    return (size + alignment - 1) / alignment * alignment;
-}
 
 /// In the order of Scalar. C++17 has no float of 16 bits: its bits, as glm::packHalf1x16() makes them.
 constexpr std::string_view kNumbers[] = {"float",        "std::int32_t",  "std::uint32_t", "std140::Bool32",
@@ -153,9 +150,10 @@ class StructWriter {
             members.pop_back();
         }
         GOBO_TRY_DO(add_members(structure, members, block.name, block.is_storage));
-        int size = is_pushed          ? block.layout.size
-                   : block.is_storage ? rounded_up(structure.end, alignment_of(members))
-                                      : rounded_up(std::max(structure.end, block.layout.size));
+        int size = is_pushed ? block.layout.size
+                   : block.is_storage
+                       ? rounded_up(structure.end, alignment_of(members))
+                       : rounded_up(std::max(structure.end, block.layout.size), kStructAlignment);
         if (tail) {
             size = tail->offset;
             structure.pad_to(size);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -37,12 +38,6 @@ bool is_name(std::string_view text) {
            });
 }
 
-double next_float(double number, int direction) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    return static_cast<double>(
-        std::nextafter(static_cast<float>(number), direction > 0 ? kInfinity : -kInfinity));
-}
-
 std::optional<Constraint> comparison_of(std::string_view text) {
     const auto at = text.find_first_of("<>=!");
     const std::string_view sign = text.substr(at, text.substr(at + 1).starts_with('=') ? 2 : 1);
@@ -68,6 +63,11 @@ std::optional<Constraint> comparison_of(std::string_view text) {
 }
 
 }  // namespace
+
+double Constraint::bound() const {
+    if (kind != Kind::less) return number;
+    return is_upper() ? float_below(number) : float_above(number);
+}
 
 std::optional<ComponentName> component_name(std::string_view name) {
     constexpr std::string_view kLetters = "xyzwrgbastpq";
@@ -132,12 +132,11 @@ const Constraint* contradiction_in(const std::vector<Constraint>& constraints,
         for (const Constraint& constraint : constraints) {
             const bool is_strict = constraint.kind == Constraint::Kind::less;
             if (constraint.has_number()) {
-                const bool is_upper = !constraint.names[0].empty();
+                const bool is_upper = constraint.is_upper();
                 const auto of = ranges.find(constraint.names[is_upper ? 0 : 1]);
                 if (of == ranges.end()) continue;
                 auto& [low, high, is_float] = of->second;
-                const double bound =
-                    is_strict ? next_float(constraint.number, is_upper ? -1 : 1) : constraint.number;
+                const double bound = constraint.bound();
                 if (constraint.kind == Constraint::Kind::differ) {
                     if (low == high && low == constraint.number) return &constraint;
                     continue;
@@ -195,7 +194,7 @@ Result<void> refuse_contradictions(const std::vector<Domain>& domains) {
                 ranges.emplace(name,
                                whole == ranges.end() ? NumberRange{-kLargest, kLargest} : whole->second);
         }
-    const auto step = [](double number, bool) { return next_float(number, 1) - number; };
+    const auto step = [](double number, bool) { return float_above(number) - number; };
     if (const Constraint* const found = contradiction_in(constraints, std::move(ranges), step))
         return fail(contradiction_error(*found));
     return {};

@@ -35,6 +35,10 @@ struct Constraint {
     [[nodiscard]] bool has_number() const {
         return is_comparison() && (names[0].empty() || names[1].empty());
     }
+    /// Where a side is a number: whether the other is at most that, not at least.
+    [[nodiscard]] bool is_upper() const { return !names[0].empty(); }
+    /// Where a side is a number: the last float that the other may be.
+    [[nodiscard]] double bound() const;
 };
 
 /// What can be written, for messages.

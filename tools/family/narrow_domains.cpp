@@ -1,7 +1,5 @@
 // Domains narrower than a family's, as --domain states them.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -27,10 +25,6 @@ Result<Domain> refused(const Domain& stated, const std::string& reason, std::str
                 std::move(help));
 }
 
-double next_float(double number, float towards) {
-    return static_cast<double>(std::nextafter(static_cast<float>(number), towards));
-}
-
 /// The range that a comparison with a number leaves.
 Result<Domain> range_left_by(const Domain& stated, const Constraint& constraint, Domain range) {
     if (range.of_length) {
@@ -40,11 +34,8 @@ Result<Domain> range_left_by(const Domain& stated, const Constraint& constraint,
     }
     if (constraint.kind == Constraint::Kind::differ)
         return refused(stated, "a range has no hole", "state the side that the numbers are on: < or >");
-    const bool is_upper = !constraint.names[0].empty();
-    const bool is_strict = constraint.kind == Constraint::Kind::less;
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const double bound =
-        is_strict ? next_float(constraint.number, is_upper ? -kInfinity : kInfinity) : constraint.number;
+    const bool is_upper = constraint.is_upper();
+    const double bound = constraint.bound();
     (is_upper ? range.high : range.low) = is_upper ? std::min(range.high, bound) : std::max(range.low, bound);
     std::erase_if(range.also, [&](double also) { return is_upper ? also > bound : also < bound; });
     if (range.low > range.high)

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.hpp"
 #include "core/stage.hpp"
 #include "core/text.hpp"
 
@@ -78,10 +79,6 @@ bool is_laid_out(const Module& module, Id structure) {
     return result;
 }
 
-std::int64_t rounded_up(std::int64_t value, std::int64_t multiple) {
-    return (value + multiple - 1) / multiple * multiple;
-}
-
 /// From the start of what contains the members to the end of the one that ends last.
 std::int64_t end_of(const std::vector<Member>& members) {
     std::int64_t end = 0;
@@ -93,7 +90,7 @@ std::int64_t end_of(const std::vector<Member>& members) {
 /// as UNIFORM_BLOCK_DATA_SIZE; push constants are as large as a struct of C++, in whole words, as Vulkan
 /// wants them. An array without a size counts as empty.
 std::int64_t block_size(const std::vector<Member>& members, bool is_pushed) {
-    return rounded_up(end_of(members), is_pushed ? std::max(alignment_of(members), 4) : 16);
+    return rounded_up<std::int64_t>(end_of(members), is_pushed ? std::max(alignment_of(members), 4) : 16);
 }
 
 /// Locations between stages. A vertex attribute of three or four doubles takes one, elsewhere two.
@@ -460,7 +457,8 @@ int alignment_of(const std::vector<Member>& members) {
 
 std::int64_t size_of(const Member& member) {
     if (!member.array.empty()) return std::int64_t{member.array_stride} * member.array.front();
-    if (!member.members.empty()) return rounded_up(end_of(member.members), alignment_of(member.members));
+    if (!member.members.empty())
+        return rounded_up<std::int64_t>(end_of(member.members), alignment_of(member.members));
     const GlslType type = glsl_type(member.type).value_or(GlslType{});
     if (!type.is_matrix()) return type.column_size();
     return std::int64_t{member.matrix_stride} * (member.row_major ? type.rows : type.columns);

@@ -9,6 +9,7 @@
 
 #include "compose/dialect.hpp"
 #include "compose/tokens.hpp"
+#include "core/numbers.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
@@ -166,7 +167,7 @@ class StageCheck {
                 !(usage_.reads(variable.id) || usage_.writes(variable.id)))
                 continue;
             const Extent extent = extent_of(variable.type);
-            shared = aligned(shared, extent.alignment) + extent.size;
+            shared = rounded_up(shared, extent.alignment) + extent.size;
             if (extent.size > most) largest = variable.id;
             most = std::max(most, extent.size);
         }
@@ -189,16 +190,13 @@ class StageCheck {
         std::int64_t size = 0;
         std::int64_t alignment = 1;
     };
-    static std::int64_t aligned(std::int64_t offset, std::int64_t alignment) {
-        return (offset + alignment - 1) / alignment * alignment;
-    }
     [[nodiscard]] Extent extent_of(Id id) const {
         constexpr std::int64_t kMost = std::int64_t{1} << 40;  // no sum of these overflows
         const spirv::Type& type = module_.type(id);
         if (type.is_array()) {
             const Extent element = extent_of(type.element);
             const std::int64_t last = type.count > 0 ? std::int64_t{type.count} - 1 : 0;
-            const std::int64_t stride = aligned(element.size, element.alignment);
+            const std::int64_t stride = rounded_up(element.size, element.alignment);
             const bool is_huge = stride > 0 && last > kMost / stride;
             return {is_huge ? kMost : last * stride + element.size, element.alignment};
         }
@@ -209,10 +207,10 @@ class StageCheck {
         Extent all;
         for (const Id member : type.members) {
             const Extent extent = extent_of(member);
-            all.size = std::min(aligned(all.size, extent.alignment) + extent.size, kMost);
+            all.size = std::min(rounded_up(all.size, extent.alignment) + extent.size, kMost);
             all.alignment = std::max(all.alignment, extent.alignment);
         }
-        all.size = aligned(all.size, all.alignment);
+        all.size = rounded_up(all.size, all.alignment);
         return all;
     }
 

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "core/bytes.hpp"
+#include "core/child_processes.hpp"
 #include "core/text.hpp"
 
 namespace gobo::cost {
@@ -49,14 +50,6 @@ std::optional<std::string> take_message(std::string& received) {
 }
 
 // The process that is asked.
-
-void write_all(int file, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ::ssize_t written = ::write(file, bytes.data(), bytes.size());
-        if (written < 0 && errno != EINTR) ::_exit(1);
-        bytes.remove_prefix(static_cast<std::size_t>(std::max<::ssize_t>(written, 0)));
-    }
-}
 
 // The process that asks.
 
@@ -107,7 +100,7 @@ void lift_limits() {
     arguments.push_back(nullptr);
     ::execv(first.c_str(), arguments.data());
     const std::string reason = fmt::format("{} cannot be run: {}\n", first, std::strerror(errno));
-    write_all(STDERR_FILENO, reason);
+    write_or_exit(STDERR_FILENO, reason);
     ::_exit(127);
 }
 
@@ -149,13 +142,13 @@ void serve_pipelines(const std::string& library) {
     const int out = ::dup(STDOUT_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     const Result<Driver> driver = Driver::open(library);
-    write_all(out, message_of(to_bytes(driver ? Result<std::string>(driver->name())
-                                              : tl::unexpected(driver.error()))));
+    write_or_exit(out, message_of(to_bytes(driver ? Result<std::string>(driver->name())
+                                                  : tl::unexpected(driver.error()))));
     if (!driver) return;
     std::string received;
     while (read_some(STDIN_FILENO, received))
         while (const auto request = take_message(received))
-            write_all(out, message_of(to_bytes(driver->compile(from_bytes<Pipeline>(*request).value()))));
+            write_or_exit(out, message_of(to_bytes(driver->compile(from_bytes<Pipeline>(*request).value()))));
     // Without the driver's own clean-up, which may crash.
     ::_exit(0);
 }

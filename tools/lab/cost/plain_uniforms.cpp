@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 
 namespace gobo::cost {
@@ -21,10 +22,6 @@ struct Extent {
     std::uint32_t size = 0;
     std::uint32_t alignment = 4;
 };
-
-std::uint32_t rounded_up(std::uint32_t number, std::uint32_t to) {
-    return (number + to - 1) / to * to;
-}
 
 bool holds_image(const Module& module, Id id) {
     const Type& type = module.type(id);
@@ -150,7 +147,7 @@ class Gathering {
         const Type& type = module_.type(id);
         if (type.is_array()) {
             const Extent element = lay_out(type.element);
-            const std::uint32_t stride = rounded_up(element.size, 16);
+            const std::uint32_t stride = rounded_up(element.size, 16U);
             const Id array = in_block(id);
             if (!module_.decoration(id, spv::DecorationArrayStride) && laid_out_.emplace(array, 0).second)
                 decorate(array, spv::DecorationArrayStride, {stride});
@@ -182,11 +179,11 @@ class Gathering {
             if (is_new && module_.type(column).opcode == spv::OpTypeMatrix) {
                 decorate_member(structure, i, spv::DecorationColMajor);
                 decorate_member(structure, i, spv::DecorationMatrixStride,
-                                {rounded_up(static_cast<std::uint32_t>(value.column_alignment()), 16)});
+                                {static_cast<std::uint32_t>(rounded_up(value.column_alignment(), 16))});
             }
             offset += extent.size;
         }
-        return {rounded_up(offset, 16), 16};
+        return {rounded_up(offset, 16U), 16};
     }
 
     void declare_block() {
@@ -211,7 +208,7 @@ class Gathering {
         }
         std::vector<std::uint32_t> named = {word(structure)};
         std::string text = name_ + '\0';
-        text.resize(rounded_up(static_cast<std::uint32_t>(text.size()), 4));
+        text.resize(rounded_up(text.size(), std::size_t{4}));
         for (std::size_t i = 0; i < text.size(); i += 4)
             named.push_back(static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])) |
                             static_cast<std::uint32_t>(static_cast<unsigned char>(text[i + 1])) << 8 |

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "core/numbers.hpp"
 
 namespace gobo::prove {
 
@@ -16,19 +17,6 @@ inline constexpr double kSmallestFloat = std::numeric_limits<float>::denorm_min(
 inline constexpr double kRounding = 0x1p-24;
 /// Every float is a multiple of 2 to this power.
 inline constexpr int kFinestGrid = -149;
-
-/// The float nearest to a number; infinite beyond the largest.
-[[nodiscard]] inline double nearest_float(double number) {
-    return static_cast<double>(static_cast<float>(number));
-}
-/// The float next to a number, which need not be one.
-[[nodiscard]] inline double float_above(double number) {
-    return static_cast<double>(
-        std::nextafter(static_cast<float>(number), std::numeric_limits<float>::infinity()));
-}
-[[nodiscard]] inline double float_below(double number) {
-    return -float_above(-number);
-}
 
 /// The numbers between low and high; of these not 0 unless `zero`, and nothing nearer to 0 than `least` but 0
 /// itself. Multiples of 2^grid. NaN too where `nan`. Integers and booleans as their values. On the variant

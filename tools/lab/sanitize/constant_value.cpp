@@ -11,12 +11,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/numbers.hpp"
+
 namespace gobo::sanitize {
 namespace {
-
-double as_float(double number) {
-    return static_cast<double>(static_cast<float>(number));
-}
 
 /// What 32 bits hold of a whole number.
 double wrapped(std::int64_t number, Scalar scalar) {
@@ -58,7 +56,7 @@ class Judge {
         if (!all_finite(operands_)) return result;
         if (result.is_float())
             for (double& number : result.numbers) {
-                number = as_float(number);
+                number = nearest_float(number);
                 note(std::isnan(number), "a NaN made from finite numbers");
                 note(std::isinf(number), "an infinity made from finite numbers");
             }
@@ -332,7 +330,8 @@ Constant by_component(const Function& function, std::vector<Constant> arguments,
 
 double square_of(const ConstantValue& vector) {
     double square = 0;
-    for (const double number : vector.numbers) square = as_float(square + as_float(number * number));
+    for (const double number : vector.numbers)
+        square = nearest_float(square + nearest_float(number * number));
     return square;
 }
 
@@ -360,7 +359,7 @@ Constant geometric(std::string_view function, const std::vector<Constant>& argum
         Judge judge("Dot", arguments, report);
         double sum = 0;
         for (std::size_t i = 0; i < a.numbers.size(); ++i)
-            sum = as_float(sum + as_float(a.numbers[i] * arguments[1]->numbers[i]));
+            sum = nearest_float(sum + nearest_float(a.numbers[i] * arguments[1]->numbers[i]));
         return judge.finish({{Scalar::float32, 1, 1}, 0, {sum}});
     }
     if (arguments.size() != 1) return std::nullopt;
@@ -380,7 +379,7 @@ Constant geometric(std::string_view function, const std::vector<Constant>& argum
 /// A number given to a constructor of that scalar.
 double made(double number, Scalar from, Scalar to, Judge& judge) {
     if (to == Scalar::boolean) return number != 0 ? 1 : 0;
-    if (to == Scalar::float32) return as_float(number);
+    if (to == Scalar::float32) return nearest_float(number);
     if (from != Scalar::float32) return wrapped(static_cast<std::int64_t>(number), to);
     const double whole = std::trunc(number);
     if (to == Scalar::int32) {
@@ -490,7 +489,7 @@ Constant converted(const Constant& value, const GlslType& type) {
     ConstantValue result{type, 0, {}};
     for (const double number : value->numbers)
         result.numbers.push_back(type.scalar == Scalar::float32
-                                     ? as_float(number)
+                                     ? nearest_float(number)
                                      : wrapped(static_cast<std::int64_t>(number), type.scalar));
     return result;
 }

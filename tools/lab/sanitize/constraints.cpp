@@ -6,6 +6,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "lab/sanitize/input_space.hpp"
 #include "lab/verify/random_points.hpp"
@@ -13,19 +14,15 @@
 namespace gobo::sanitize {
 namespace {
 
-double as_float(double number) {
-    return static_cast<double>(static_cast<float>(number));
-}
-
 /// As little as inputs of that size differ.
 double step_of(double number, bool is_float) {
     return is_float ? std::max(kSmallest, std::abs(number) * 0x1p-22) : 1;
 }
 double above(double number, bool is_float) {
-    return is_float ? as_float(number + step_of(number, true)) : std::floor(number) + 1;
+    return is_float ? nearest_float(number + step_of(number, true)) : std::floor(number) + 1;
 }
 double below(double number, bool is_float) {
-    return is_float ? as_float(number - step_of(number, true)) : std::ceil(number) - 1;
+    return is_float ? nearest_float(number - step_of(number, true)) : std::ceil(number) - 1;
 }
 
 /// What stands between the first brackets of a name: which element it is of.
@@ -170,7 +167,7 @@ class Keeper {
     static void normalise(std::span<double> vector, std::size_t axis) {
         const double length = length_of(vector);
         for (std::size_t i = 0; i < vector.size(); ++i)
-            vector[i] = length == 0 ? (i == axis ? 1 : 0) : as_float(vector[i] / length);
+            vector[i] = length == 0 ? (i == axis ? 1 : 0) : nearest_float(vector[i] / length);
     }
 
     /// Column by column, each without its part along the earlier ones.
@@ -213,7 +210,7 @@ class Keeper {
             for (std::size_t row = 0; row < 3; ++row) {
                 const auto c = static_cast<int>(column);
                 const auto r = static_cast<int>(row);
-                numbers(field)[column * 3 + row] = as_float(result[c][r]);
+                numbers(field)[column * 3 + row] = nearest_float(result[c][r]);
                 if (is_singular) numbers(of)[column * rows + row] = matrix[c][r];
             }
     }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/numbers.hpp"
+
 namespace gobo::sanitize {
 namespace {
 
@@ -46,7 +48,7 @@ class PointMaker {
         for (std::size_t relations = random_.index(4); relations > 0; --relations) relate();
         for (const InputField& field : space_.fields)
             if (field.is_float())
-                for (double& number : value(field)) number = static_cast<double>(static_cast<float>(number));
+                for (double& number : value(field)) number = nearest_float(number);
     }
 
   private:

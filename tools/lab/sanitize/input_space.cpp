@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "lab/evaluate/image_call.hpp"
 #include "lab/evaluate/images.hpp"
@@ -194,7 +195,7 @@ double drawn_texture_number(const InputField& field, std::size_t number, double 
     const bool is_color = number < 4 * kTexelColors;
     const bool is_hard = random.unit() < hardness && is_color;
     const double drawn = is_hard ? random.pick(hard_numbers(domain)) : ordinary_number(domain, random);
-    return is_color && field.is_float() ? static_cast<double>(static_cast<float>(drawn)) : std::round(drawn);
+    return is_color && field.is_float() ? nearest_float(drawn) : std::round(drawn);
 }
 
 void bring_into_domain(const InputField& field, std::span<double> all) {
@@ -202,13 +203,12 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             const double allowed = nearest_allowed(domain_of_number(field, i), all[i]);
             const bool is_whole = i >= 4 * kTexelColors || !field.is_float();
-            all[i] = is_whole ? std::round(allowed) : static_cast<double>(static_cast<float>(allowed));
+            all[i] = is_whole ? std::round(allowed) : nearest_float(allowed);
         }
         return;
     }
     if (field.ranged() < all.size())
-        all.back() =
-            static_cast<double>(static_cast<float>(nearest_allowed(field.last_domain(), all.back())));
+        all.back() = nearest_float(nearest_allowed(field.last_domain(), all.back()));
     const std::span<double> numbers = all.first(field.ranged());
     if (field.domain.of_length) {
         const double length = length_of(numbers);
@@ -220,8 +220,7 @@ void bring_into_domain(const InputField& field, std::span<double> all) {
         for (std::size_t i = 0; i < numbers.size(); ++i)
             numbers[i] = nearest_allowed(field.domain_of(i), numbers[i]);
     }
-    for (double& number : numbers)
-        number = field.is_float() ? static_cast<double>(static_cast<float>(number)) : std::round(number);
+    for (double& number : numbers) number = field.is_float() ? nearest_float(number) : std::round(number);
 }
 
 evaluate::Invocations invocations_of(const InputSpace& space, const PointSet& points) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_features.hpp"
@@ -157,7 +158,7 @@ void draw_depth(const Object& object, const ShadowCamera& camera, double* texels
         const double depth = fragment.weights.depth + (kSlopes * slope + kLeastOffset);
         double& texel = texels[static_cast<std::ptrdiff_t>(fragment.y) * kShadowSide + fragment.x];
         // Maps are floats.
-        texel = std::min(texel, static_cast<double>(static_cast<float>(std::clamp(depth, 0.0, 1.0))));
+        texel = std::min(texel, nearest_float(std::clamp(depth, 0.0, 1.0)));
     }
 }
 
