@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "family/read_features.hpp"
+#include "family/read_rules.hpp"
 
 namespace gobo {
 namespace {

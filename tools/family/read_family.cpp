@@ -11,6 +11,7 @@
 #include "family/key.hpp"
 #include "family/left_out.hpp"
 #include "family/read_features.hpp"
+#include "family/read_rules.hpp"
 #include "family/toml_reader.hpp"
 
 namespace gobo {

@@ -1,4 +1,4 @@
-// The tables of a family file that are about features: [features], [renamed], [[rules]], [[relations]].
+// The tables of a family file that say what can be chosen: [features], [renamed].
 #pragma once
 
 #include <string_view>
@@ -14,20 +14,13 @@ namespace gobo {
 /// Whether a macro may be defined as the text: one line that ends nowhere else, without comments.
 [[nodiscard]] bool is_macro_text(std::string_view text);
 
+/// The choice between the templates of [programs].
+inline constexpr const char* kProgramFeature = "program";
+
 // Errors go to the reader.
 
 /// Sorted by name, with the names of [renamed]; with [programs] also the choice `program` between them.
 [[nodiscard]] std::vector<Feature> read_features(const TomlTable& root);
-
-/// Rules and relations in the order of the file, their conditions parsed; before them the rules by which a
-/// program has only the features that it names.
-[[nodiscard]] std::vector<Rule> read_rules(const TomlTable& root, const std::vector<Feature>& features);
-[[nodiscard]] std::vector<Relation> read_relations(const TomlTable& root,
-                                                   const std::vector<Feature>& features);
-
-/// The condition in an entry of a table, which has it.
-Expression read_condition(const TomlTable& table, std::string_view entry,
-                          const std::vector<Feature>& features);
 
 /// The index of a feature that an entry of a table names; 0 and an error where there is none.
 int read_feature_name(const TomlTable& table, std::string_view entry, const std::string& name,

@@ -9,7 +9,7 @@
 #include "lab/evaluate/image_call.hpp"
 #include "lab/sanitize/finding.hpp"
 #include "lab/sanitize/image_rules.hpp"
-#include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 namespace gobo::prove {
 namespace {

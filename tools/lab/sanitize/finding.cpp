@@ -15,9 +15,9 @@
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/lost_numbers.hpp"
-#include "lab/sanitize/rules.hpp"
 #include "lab/sanitize/step_text.hpp"
 #include "lab/sanitize/taint.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -27,10 +27,6 @@ using evaluate::kLanes;
 using evaluate::Operation;
 using evaluate::Slice;
 using Step = evaluate::Step<float>;
-
-std::uint32_t code_of(const Operation& operation) {
-    return evaluate::instruction_table()[operation.row].code;
-}
 
 Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
     Lanes result = 0;
@@ -76,7 +72,8 @@ bool may_narrow(const evaluate::Row& row) {
 /// 16-bit float holds.
 bool reads_mediump_input(const evaluate::Program& program, std::size_t operation) {
     const evaluate::OperationInfo& info = program.infos[operation];
-    if (code_of(program.operations[operation]) != spv::OpLoad || !info.is_relaxed || info.operands.empty())
+    if (row_of(program.operations[operation]).code != spv::OpLoad || !info.is_relaxed ||
+        info.operands.empty())
         return false;
     const auto holds = [&](const evaluate::Port& port) {
         return port.slot <= info.operands.front().slot &&
@@ -102,7 +99,7 @@ std::optional<std::uint32_t> last_store(const evaluate::Program& program, const 
     std::optional<std::uint32_t> found;
     for (std::uint32_t at = 0; at < program.operations.size(); ++at) {
         const Slice& to = program.infos[at].result;
-        const std::uint32_t code = code_of(program.operations[at]);
+        const std::uint32_t code = row_of(program.operations[at]).code;
         const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
         const bool may_be_within = code == evaluate::kScatter && port.is_written && to.slot <= port.slot;
         if ((code == spv::OpStore && is_within) || may_be_within) found = at;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lab/sanitize/hard_points.hpp"
-#include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 namespace gobo::sanitize {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 namespace gobo::sanitize {
 

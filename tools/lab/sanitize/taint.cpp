@@ -20,10 +20,6 @@ using Step = evaluate::Step<float>;
 
 constexpr Lanes kAll = ~Lanes{0};
 
-std::uint32_t code_of(const Operation& operation) {
-    return evaluate::instruction_table()[operation.row].code;
-}
-
 bool has(Lanes lanes, std::size_t lane) {
     return (lanes >> lane & 1U) != 0;
 }
@@ -140,7 +136,7 @@ void Taint::copied(const Operation& one, Lanes lanes) {
 void Taint::mark(const Step& step, Lanes lanes, const Cause& cause) {
     const CauseId id = id_of(cause);
     const Operation& operation = program_.operations[step.operation];
-    if (code_of(operation) == evaluate::kScatter) {
+    if (row_of(operation).code == evaluate::kScatter) {
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             for (std::uint32_t i = 0; i < operation.count && has(lanes, lane); ++i) {
                 State& known = states_[address(step, operation.result, operation.operands[1], lane) + i];
@@ -150,7 +146,8 @@ void Taint::mark(const Step& step, Lanes lanes, const Cause& cause) {
             }
         return;
     }
-    const bool is_address = code_of(operation) == spv::OpAccessChain;  // whose result is told as a variable
+    const bool is_address =
+        row_of(operation).code == spv::OpAccessChain;  // whose result is told as a variable
     const Slice& result = step.info().result;
     const std::uint32_t first = is_address ? operation.result : result.slot;
     const std::uint32_t count = is_address ? 1 : result.count;
@@ -189,7 +186,7 @@ void Taint::move(const Step& step, const Operation& operation) {
     const std::uint32_t* words = program_.words.data() + operation.extra;
     const auto& operands = operation.operands;
     scratch_.clear();
-    switch (code_of(operation)) {
+    switch (row_of(operation).code) {
         case spv::OpStore:
             return copy(operation.result, operands[0], operation.count, step.lanes);
         case spv::OpLoad:

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 namespace gobo::sanitize {
 

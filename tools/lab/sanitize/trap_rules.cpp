@@ -1,4 +1,4 @@
-#include "lab/sanitize/rules.hpp"
+#include "lab/sanitize/trap_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
