@@ -27,9 +27,12 @@ if(GOBO_SANITIZE)
   target_link_options(gobo_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 17)
+  # It warns of what std::stable_sort calls in the headers of g++ 12.
+  target_compile_options(gobo_options INTERFACE -Wno-deprecated-declarations)
+endif()
 if(GOBO_FUZZ)
-  # clang 19 warns of what the headers of g++ 12 hold.
-  target_compile_options(gobo_options INTERFACE -fsanitize=fuzzer-no-link -Wno-deprecated-declarations)
+  target_compile_options(gobo_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # gobo_folder(FOLDER USES folder ... LINK lib ...): a folder of tools/ as a static library, lab/study as gobo_lab_study. Its files
