@@ -74,7 +74,7 @@ std::set<std::string> subroutines_of_all_keys(const Family& family, const Search
     const bool may_have_some = std::ranges::any_of(family.features, [](const Feature& feature) {
         return feature.kind == FeatureKind::choice && !feature.macro.empty();
     });
-    if (!may_have_some) return {};
+    if (!may_have_some || !search.may_hold("subroutine")) return {};
     Composition composition;
     composition.dialect = dialect;
     PieceLibrary library(family, search, Comments::remove, composition);

@@ -47,6 +47,10 @@ std::optional<std::string> section_of(const std::string& text, const std::string
     return is_piece ? std::optional(std::move(section)) : std::nullopt;
 }
 
+std::string path_in(const std::string& folder, const std::string& file) {
+    return folder.empty() ? file : folder + "/" + file;
+}
+
 /// "a/b.frag" -> "b.frag"
 std::string name_of_file(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
@@ -146,7 +150,7 @@ std::vector<std::string> SearchPath::all_include_paths() const {
             paths.insert(file);
             if (!file.ends_with(kExtension)) continue;
             const std::string stem = file.substr(0, file.size() - kExtension.size());
-            const Result<std::string> text = root.files->read(folder.empty() ? file : folder + "/" + file);
+            const Result<std::string> text = root.files->read(path_in(folder, file));
             for_each_line(text.value_or(""), [&](std::string_view line) {
                 if (const auto mark = marked(line))
                     paths.insert(fmt::format("{}/{}{}", stem, *mark, kExtension));
@@ -155,6 +159,15 @@ std::vector<std::string> SearchPath::all_include_paths() const {
         }
     }
     return {paths.begin(), paths.end()};
+}
+
+bool SearchPath::may_hold(std::string_view text) const {
+    return std::ranges::any_of(roots_, [&](const Root& root) {
+        const auto holds_it = [&](const std::string& file) {
+            return root.files->read(path_in(root.folder, file)).value_or("").find(text) != std::string::npos;
+        };
+        return root.on_disk || std::ranges::any_of(root.files->files_below(root.folder), holds_it);
+    });
 }
 
 bool is_shader_file(const std::string& path) {

@@ -34,6 +34,8 @@ class SearchPath {
     [[nodiscard]] std::vector<std::string> folders() const;
     /// The include paths of all files and pieces, sorted, each once.
     [[nodiscard]] std::vector<std::string> all_include_paths() const;
+    /// Whether a file may hold the text: those on disk are not read for it.
+    [[nodiscard]] bool may_hold(std::string_view text) const;
 
   private:
     struct Root {

@@ -13,9 +13,26 @@
 namespace gobo {
 namespace {
 
+/// Whether `);` stands anywhere outside of functions: most stages declare none without a body.
+bool may_declare_functions(const std::vector<const Piece*>& pieces) {
+    int braces = 0;
+    for (const Piece* const piece : pieces) {
+        const std::string& text = piece->text;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] == '{') ++braces;
+            if (text[i] == '}') --braces;
+            if (text[i] != ')' || braces != 0) continue;
+            const std::size_t next = text.find_first_not_of(" \t\n", i + 1);
+            if (next != std::string::npos && text[next] == ';') return true;
+        }
+    }
+    return false;
+}
+
 /// The names of functions that a stage declares by `float f(float x);`.
 std::set<std::string_view> declared_functions(const std::vector<const Piece*>& pieces) {
     std::set<std::string_view> names;
+    if (!may_declare_functions(pieces)) return names;
     int braces = 0;
     for (const Piece* const piece : pieces) {
         const std::vector<std::string_view> tokens = tokens_of(piece->text);
