@@ -35,13 +35,7 @@ void main() {
 END
 
 # measure COMMAND...: "processor seconds, seconds by the clock, MB of the largest process".
-measure() {
-  python3 -c 'import resource, subprocess, sys, time
-start = time.monotonic()
-subprocess.run(sys.argv[1:], check=True, stdin=sys.stdin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-used = resource.getrusage(resource.RUSAGE_CHILDREN)
-print(f"{used.ru_utime + used.ru_stime:.2f} s ({time.monotonic() - start:.1f} s by the clock), {used.ru_maxrss // 1024} MB")' "$@"
-}
+measure() { tools/measure.py "$@" | awk '{ printf "%s s (%s s by the clock), %s MB", $1, $2, $3 }'; }
 
 "$bin/bin/gobo" list "$scratch/big.toml" --all >"$scratch/keys"
 mkdir "$scratch/stages"

@@ -51,7 +51,7 @@ def every_permutation_is_what_the_interpreter_says(driver):
         assert found, (key, error_text(driver))
         print(" ", key, *found.groups())
         # SwiftShader places vertices on sixteenths of a pixel, so a pixel shows what lies up to half of one beside it.
-    assert float(found[1]) <= 1e-3 and float(found[2]) <= 2e-2, (key, error_text(driver))
+        assert float(found[1]) <= 1e-3 and float(found[2]) <= 2e-2, (key, error_text(driver))
 
 
 def another_value_is_another_picture(driver):
