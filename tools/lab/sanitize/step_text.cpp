@@ -1,5 +1,6 @@
 #include "lab/sanitize/step_text.hpp"
 
+#include <span>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -32,8 +33,8 @@ bool is_scatter(const Step& step) {
 std::string operands_text(const Step& step, std::size_t lane) {
     const auto& slices = step.info().operands;
     std::vector<std::string> operands;
-    for (std::size_t i = 0; i < (is_scatter(step) ? 1 : slices.size()); ++i)
-        operands.push_back(value_text(step, slices[i], lane));
+    for (const evaluate::Slice& slice : std::span(slices).first(is_scatter(step) ? 1 : slices.size()))
+        if (slice.count > 0) operands.push_back(value_text(step, slice, lane));
     return fmt::format("{} {}", step.name(), fmt::join(operands, ", "));
 }
 
