@@ -49,6 +49,8 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/shader_lib" "${PROJECT_SOURCE_DIR}/temp
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT gobo)
 install(FILES "${PROJECT_BINARY_DIR}/share/man/man1/gobo.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT gobo)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/share/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT gobo)
+# Debian's zsh looks here, not into /usr/share/zsh/site-functions.
+install(FILES "${PROJECT_SOURCE_DIR}/share/zsh/site-functions/_gobo" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT gobo)
 if(GOBO_LAB)
   install(TARGETS gobo-lab RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT lab)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}-lab" RENAME copyright COMPONENT lab)

@@ -34,6 +34,7 @@ case $way in
     mkdir -p "$prefix"
     for package in "$scratch"/packages/*.deb; do dpkg-deb -x "$package" "$prefix"; done
     [ "$(ls "$scratch"/packages/*.deb | wc -l)" = 2 ] || { echo "FAILED: not two packages"; exit 1; }
+    [ -e "$prefix/usr/share/zsh/vendor-completions/_gobo" ] || { echo "FAILED: Debian's zsh finds no completion"; exit 1; }
     grep -q "gobo eval" <<<"$("$prefix/usr/bin/gobo" eval --help)" || { echo "FAILED: gobo does not find gobo-lab beside itself"; exit 1; }
     options=(-D WAY=find_package -D "CMAKE_PREFIX_PATH=$prefix/usr") ;;
 esac
