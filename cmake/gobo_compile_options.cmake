@@ -31,6 +31,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION
   # It warns of what std::stable_sort calls in the headers of g++ 12.
   target_compile_options(gobo_options INTERFACE -Wno-deprecated-declarations)
 endif()
+
+if(GOBO_SANITIZE_THREADS)
+  target_compile_options(gobo_options INTERFACE -fsanitize=thread)
+  target_link_options(gobo_options INTERFACE -fsanitize=thread)
+endif()
+
 if(GOBO_FUZZ)
   target_compile_options(gobo_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
