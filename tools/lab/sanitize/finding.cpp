@@ -15,6 +15,7 @@
 #include "lab/evaluate/instruction_table.hpp"
 #include "lab/sanitize/image_rules.hpp"
 #include "lab/sanitize/lost_numbers.hpp"
+#include "lab/sanitize/output_findings.hpp"
 #include "lab/sanitize/step_text.hpp"
 #include "lab/sanitize/taint.hpp"
 #include "lab/sanitize/trap_rules.hpp"
@@ -35,24 +36,6 @@ Lanes is_nan(const Step& step, const Slice& slice, Lanes lanes) {
             if (std::isnan(float_row(step, slice, component)[lane])) result |= Lanes{1} << lane;
     return result;
 }
-
-/// One stage run on one machine.
-struct Run {
-    const evaluate::Program& program;
-    const evaluate::Invocations& invocations;
-    Machine machine;
-
-    /// Fills a finding in at the first invocation that showed it. `at` is the operation where it happens.
-    void show(Finding& finding, std::string_view message, std::string text, std::size_t invocation,
-              std::optional<std::uint32_t> at) const {
-        finding.message = message;
-        finding.operation = std::move(text);
-        finding.machine = machine;
-        if (at) finding.place = program.place_of(*at);
-        finding.point = point_of(program, invocations, invocation);
-        if (machine != Machine::ieee) finding.point.machine = name_of(machine);
-    }
-};
 
 /// Whether the operation, which does not compute floats, makes 16-bit ones of those that it passes on where
 /// they are mediump.
@@ -92,45 +75,6 @@ Lanes beyond_half(const Step& step) {
                 result |= Lanes{1} << lane;
     return result & step.lanes;
 }
-
-/// The operation that last stores to the output, or to an array by an index that may lead to it; nothing
-/// where none does.
-std::optional<std::uint32_t> last_store(const evaluate::Program& program, const evaluate::Port& port) {
-    std::optional<std::uint32_t> found;
-    for (std::uint32_t at = 0; at < program.operations.size(); ++at) {
-        const Slice& to = program.infos[at].result;
-        const std::uint32_t code = row_of(program.operations[at]).code;
-        const bool is_within = to.slot < port.slot + port.components && port.slot < to.slot + to.count;
-        const bool may_be_within = code == evaluate::kScatter && port.is_written && to.slot <= port.slot;
-        if ((code == spv::OpStore && is_within) || may_be_within) found = at;
-    }
-    return found;
-}
-
-/// Outputs of OpenGL's own may be left alone, and vertex outputs that the fragment stage does not read.
-bool must_be_written(const evaluate::Program& program, const evaluate::Port& port) {
-    if (port.is_written || last_store(program, port)) return true;
-    return program.is_fragment && !port.name.starts_with("gl_");
-}
-
-/// The outputs, and what storage blocks and counters hold.
-std::vector<const evaluate::Port*> written_ports(const evaluate::Program& program) {
-    std::vector<const evaluate::Port*> ports;
-    for (const evaluate::Port& port : program.outputs) ports.push_back(&port);
-    for (const evaluate::Port& port : program.uniforms)
-        if (port.is_written) ports.push_back(&port);
-    return ports;
-}
-
-/// Lanes of a batch in which a component of an output is undefined.
-struct UndefinedOutput {
-    std::size_t first_invocation = 0;  ///< of lane 0
-    std::size_t output = 0;            ///< index into written_ports()
-    Lanes lanes = 0;
-    Cause cause;
-    std::optional<std::uint32_t> first_use;  ///< the operation that first computed with it
-    bool is_unwritten = false;               ///< the output itself was not written
-};
 
 constexpr std::string_view kReadUnwritten = "a value is read before it is written";
 constexpr std::string_view kNoReturn = "a function returns no value on some path";
@@ -499,115 +443,6 @@ Result<std::vector<Finding>> lost_numbers(const Run& run, const evaluate::Option
     return findings;
 }
 
-/// Which way an output left its bounds; nothing where it did not.
-std::string_view fault_of(double value, const Interval& bounds) {
-    if (std::isnan(value)) return "is not a number";
-    if (value < bounds.low && bounds.low == kLeastAboveZero) return "is not above 0";
-    if (value < bounds.low) return bounds.low == 0 ? "is negative" : "is below what its inputs allow";
-    if (value > bounds.high) return std::isinf(value) ? "is infinite" : "is above what its inputs allow";
-    return {};
-}
-
-/// What a value outside of its bounds breaks, as GLSL spells it; nothing where it is no promise.
-std::string_view broken_promise(double value, const Interval& bounds) {
-    switch (bounds.promise) {
-        case DepthPromise::greater:
-            return value < bounds.low ? "depth_greater" : "";
-        case DepthPromise::less:
-            return value > bounds.high ? "depth_less" : "";
-        case DepthPromise::unchanged:
-            return "depth_unchanged";
-        default:
-            return "";
-    }
-}
-
-/// Findings about outputs, each at the first invocation that showed it.
-struct OutputFindings {
-    const Run& run;
-    std::map<std::string, Finding> by_message = {};
-
-    Finding& add(const evaluate::Port& port, std::string_view fault, std::size_t index,
-                 std::string text = {}) {
-        const std::string message = fmt::format("the output '{}' {}", port.name, fault);
-        Finding& finding = by_message[message];
-        if (finding.points++ == 0)
-            run.show(finding, message, std::move(text), index, last_store(run.program, port));
-        return finding;
-    }
-};
-
-/// Outputs that some invocation, not discarded, leaves unwritten.
-void add_unwritten(const evaluate::Outputs& outputs, const TrapObserver& observer, OutputFindings& findings) {
-    for (const UndefinedOutput& unwritten : observer.undefined_outputs()) {
-        const evaluate::Port& port = findings.run.program.outputs[unwritten.output];
-        if (!unwritten.is_unwritten || !must_be_written(findings.run.program, port)) continue;
-        const bool is_stored = last_store(findings.run.program, port).has_value();
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const std::size_t index = unwritten.first_invocation + lane;
-            if ((unwritten.lanes >> lane & 1U) != 0 && index < outputs.count && !outputs.discarded[index])
-                findings.add(port, is_stored ? "is not written on some path" : "is never written", index)
-                    .machine = Machine::ieee;
-        }
-    }
-}
-
-/// Per invocation whether it leaves that output unwritten.
-std::vector<char> unwritten_in(const TrapObserver& observer, std::size_t output, std::size_t count) {
-    std::vector<char> unwritten(count);
-    for (const UndefinedOutput& undefined : observer.undefined_outputs())
-        for (std::size_t lane = 0; lane < kLanes && undefined.output == output; ++lane)
-            if (undefined.is_unwritten && (undefined.lanes >> lane & 1U) != 0 &&
-                undefined.first_invocation + lane < count)
-                unwritten[undefined.first_invocation + lane] = 1;
-    return unwritten;
-}
-
-/// What 16-bit floats may pass a bound by: some thirty roundings.
-constexpr double kRoundingsOfHalf = 1 + 32 * 0x1p-11;
-
-/// What the machine may give where exact numbers are within the bounds.
-Interval with_roundings(Interval bounds, Machine machine) {
-    if (!options_of(machine).is_half || bounds.promise != DepthPromise::none) return bounds;
-    if (bounds.low < 0) bounds.low = std::max(bounds.low * kRoundingsOfHalf, Interval{}.low);
-    bounds.high = std::min(bounds.high * kRoundingsOfHalf, Interval{}.high);
-    return bounds;
-}
-
-/// Outputs beyond their bounds at points that write them, and neither trap nor are discarded.
-void add_out_of_bounds(const evaluate::Outputs& outputs, const TrapObserver& observer,
-                       std::span<const Interval> all, OutputFindings& findings) {
-    const std::size_t components = all.size() / outputs.count;
-    std::size_t component = 0;
-    for (std::size_t output = 0; output < findings.run.program.outputs.size(); ++output) {
-        const evaluate::Port& port = findings.run.program.outputs[output];
-        const std::vector<char> unwritten = unwritten_in(observer, output, outputs.count);
-        const std::vector<double>& values = outputs.values.at(port.name);
-        // Every vertex stage has one: it matters where it is written.
-        const bool is_left_out =
-            port.name == "gl_PointSize" && !last_store(findings.run.program, port).has_value();
-        for (std::uint32_t c = 0; c < port.components; ++c, ++component)
-            for (std::size_t i = 0; i < outputs.count; ++i) {
-                const double value = values[c * outputs.count + i];
-                const Interval bounds = with_roundings(all[i * components + component], findings.run.machine);
-                if (value >= bounds.low && value <= bounds.high) continue;
-                if (is_left_out || unwritten[i] != 0 || outputs.discarded[i] || observer.trapped(i)) continue;
-                const auto low = static_cast<float>(bounds.low);
-                const auto high = static_cast<float>(bounds.high);
-                const std::string_view promise = broken_promise(value, bounds);
-                Finding& finding =
-                    promise.empty()
-                        ? findings.add(
-                              port, fault_of(value, bounds), i,
-                              fmt::format("{} is not within [{}, {}]", static_cast<float>(value), low, high))
-                        : findings.add(port, fmt::format("breaks {}", promise), i,
-                                       fmt::format("{} where gl_FragCoord.z is {}", static_cast<float>(value),
-                                                   value < bounds.low ? low : high));
-                finding.follows_from_constants = observer.is_of_constants(i);
-            }
-    }
-}
-
 }  // namespace
 
 bool narrows_to_half(const evaluate::Program& program, std::size_t operation) {
@@ -624,11 +459,10 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
     GOBO_TRY(const auto outputs, evaluate::run<float>(program, invocations, options, &observer));
     observer.finish();
     observer.judge_outputs(outputs);
-    OutputFindings of_outputs{run};
-    add_unwritten(outputs, observer, of_outputs);
-    if (!bounds.empty()) add_out_of_bounds(outputs, observer, bounds, of_outputs);
-    std::vector<Finding> findings;
-    for (auto& [message, finding] : of_outputs.by_message) findings.push_back(std::move(finding));
+    const auto is_trapped = [&](std::size_t invocation) { return observer.trapped(invocation); };
+    const auto is_of_constants = [&](std::size_t invocation) { return observer.is_of_constants(invocation); };
+    std::vector<Finding> findings =
+        output_findings(run, outputs, {observer.undefined_outputs(), is_trapped, is_of_constants}, bounds);
     for (const Finding& finding : observer.findings())
         if (finding.points > 0) findings.push_back(finding);
     if (options.is_half) {
