@@ -27,7 +27,7 @@ std::string shader_of(const Hazard& row, const HazardSource& source) {
             "uniform sampler3D vol; uniform usampler2D uids; uniform sampler2DShadow shadow;\n"
             "uniform samplerBuffer buf; uniform sampler2DMS ms; uniform sampler1D ramp;\n"
             "uniform samplerCubeShadow cubeShadow; uniform sampler2DRect rect;\n";
-    if (!is_vertex) text += is_es ? "out vec4 c;\n" : "layout(location = 0) out vec4 c;\n";
+    if (!is_vertex) text += "layout(location = 0) out vec4 c;\n";
     const bool writes_color = !is_vertex && row.setting != Setting::no_color;
     return text + source.declarations + "\nvoid main() {\n" + (writes_color ? "c = vec4(0);\n" : "") +
            source.body + "\n}\n";

@@ -21,8 +21,9 @@ using Counts = std::vector<std::uint32_t>;
 
 /// Of an 8-bit colour: the least step that is seen.
 constexpr double kLeastStep = 1.0 / 255;
-/// Times that inputs are moved, each number up or down.
-constexpr int kMoves = 6;
+/// Times that inputs are moved, each number up or down: what half of the moves change is seen but once in
+/// 2^24.
+constexpr int kMoves = 24;
 /// Half the distance of neighbouring numbers beside 1.
 constexpr double kRoundingOfHalf = 0x1p-11;
 constexpr double kRoundingOfFloat = 0x1p-24;
@@ -36,10 +37,10 @@ class Patient final : public evaluate::Observer<float> {
 };
 
 /// What some operations do in some invocations, in words.
-class Witness final : public evaluate::Observer<float> {
+class StepRecorder final : public evaluate::Observer<float> {
   public:
     /// Operations by invocation.
-    explicit Witness(std::map<std::size_t, std::uint32_t> wanted) : wanted_(std::move(wanted)) {}
+    explicit StepRecorder(std::map<std::size_t, std::uint32_t> wanted) : wanted_(std::move(wanted)) {}
 
     void before(const evaluate::Step<float>& step) override {
         for_each_wanted(step, [&](std::size_t lane, std::string& text) { text = operands_text(step, lane); });
@@ -123,7 +124,7 @@ class Comparison {
             return {nullptr, 0, std::numeric_limits<double>::infinity()};
         Difference largest;
         for (const evaluate::Port& port : program_.outputs) {
-            if (!evaluate::is_float(port.scalar) || lossy_.discarded[i]) continue;
+            if (lossy_.discarded[i]) continue;
             for (std::uint32_t c = 0; c < port.components; ++c) {
                 const double size =
                     std::fabs(value(lossy_, port, c, i) - value(kept_, port, c, i)) / step(port, i);
@@ -133,8 +134,9 @@ class Comparison {
         return largest;
     }
 
-    /// Of the output's values: absolute up to 1, relative above.
+    /// Of the output's values: absolute up to 1, relative above. Of whole numbers every other one counts.
     [[nodiscard]] double step(const evaluate::Port& port, std::size_t invocation) const {
+        if (!evaluate::is_float(port.scalar)) return 0.5;
         double largest = 1;
         for (std::uint32_t c = 0; c < port.components; ++c)
             largest = std::max(largest, std::fabs(value(kept_, port, c, invocation)));
@@ -235,11 +237,11 @@ class Comparison {
     Result<std::vector<LostNumber>> told(std::map<std::uint32_t, LostNumber> lost) {
         std::map<std::size_t, std::uint32_t> wanted;
         for (const auto& [operation, one] : lost) wanted[one.invocation] = operation;
-        Witness witness(std::move(wanted));
-        GOBO_TRY_DO(evaluate::run<float>(program_, invocations_, options_, &witness));
+        StepRecorder recorder(std::move(wanted));
+        GOBO_TRY_DO(evaluate::run<float>(program_, invocations_, options_, &recorder));
         std::vector<LostNumber> result;
         for (auto& [operation, one] : lost) {
-            one.text = witness.text_of(one.invocation) + ", so that " + consequence(one.invocation);
+            one.text = recorder.text_of(one.invocation) + ", so that " + consequence(one.invocation);
             result.push_back(std::move(one));
         }
         return result;
