@@ -37,7 +37,6 @@ class Drawing {
             const Target& target, const DepthBias* bias, const DrawStart& start)
         : resources_(resources),
           interface_(interface),
-          target_(target),
           start_(start),
           bindings_(resources, interface),
           pipelines_(resources, stages, target, bias != nullptr ? *bias : DepthBias(),
@@ -143,7 +142,6 @@ class Drawing {
 
     Resources& resources_;
     const Interface& interface_;
-    const Target& target_;
     DrawStart start_;
     Bindings bindings_;
     Pipelines pipelines_;
