@@ -26,6 +26,10 @@ using LiteralCounts = std::map<Key, std::set<int>>;
 [[nodiscard]] std::vector<std::string> texts_of_all_keys(const Family& family, const SearchPath& search,
                                                          Dialect dialect);
 
+/// The files on disk that hold the pieces and templates of any key, and their portable names, by path.
+[[nodiscard]] std::map<std::string, std::string> files_of_all_keys(const Family& family,
+                                                                   const SearchPath& search, Dialect dialect);
+
 /// The subroutine uniforms that stages of any key may hold and that choices of the family name. Their macros
 /// are none: other stages may use the name otherwise.
 [[nodiscard]] std::set<std::string> subroutines_of_all_keys(const Family& family, const SearchPath& search,

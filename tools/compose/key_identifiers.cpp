@@ -1,4 +1,4 @@
-// What the shaders of any key may hold: texts, and the subroutine uniforms that features choose.
+// What the shaders of any key may hold: texts, their files, and the subroutine uniforms that features choose.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -67,6 +67,20 @@ std::vector<std::string> texts_of_all_keys(const Family& family, const SearchPat
         for (const Source* source : reachable(family, library, stage.kind))
             for (const int piece : source->pieces) add(composition.piece(piece).text);
     return texts;
+}
+
+std::map<std::string, std::string> files_of_all_keys(const Family& family, const SearchPath& search,
+                                                     Dialect dialect) {
+    Composition composition;
+    composition.dialect = dialect;
+    PieceLibrary library(family, search, Comments::remove, composition);
+    for (const StageNames& stage : kStages) (void)reachable(family, library, stage.kind);
+    std::map<std::string, std::string> names;
+    for (const Piece& piece : composition.pieces) {
+        const std::size_t end = piece.file_text.empty() ? std::string::npos : piece.name.rfind('#');
+        if (piece.on_disk) names[piece.path] = piece.name.substr(0, end);
+    }
+    return names;
 }
 
 std::set<std::string> subroutines_of_all_keys(const Family& family, const SearchPath& search,

@@ -366,9 +366,10 @@ Result<Selection> load_selection(const World& world, LoadedFamily& family, const
 
 Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                    const SelectionOptions& options) {
+    const std::vector<std::string> own_files = family.files;
     GOBO_TRY(const Selection selection, load_selection(world, family, options));
     GOBO_TRY(std::vector<Key> keys, select(family.family, selection, name_of(family.dialect)));
-    if (!options.shard.empty()) family.run = run_of_shards(world, family, keys);
+    if (!options.shard.empty()) family.run = run_of_shards(world, family, own_files, keys);
     return shard_of(std::move(keys), options.shard);
 }
 

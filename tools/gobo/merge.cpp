@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/csv.hpp"
+#include "core/text.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/shard_run.hpp"
 
@@ -61,8 +62,22 @@ bool is_list_of_keys(const Json& value) {
            std::ranges::all_of(value, [](const Json& row) { return row.is_object() && row.contains("key"); });
 }
 
+/// "2/3", the first shard that none of too few files is; empty where there is none.
+std::string missing_shard(const std::vector<Shard>& shards) {
+    const std::size_t count =
+        pair_from(shards.front().number, '/').value_or(std::pair<std::size_t, std::size_t>()).second;
+    for (std::size_t number = 1; shards.size() < count && number <= count; ++number) {
+        std::string wanted = fmt::format("{}/{}", number, count);
+        if (std::ranges::find(shards, wanted, &Shard::number) == shards.end()) return wanted;
+    }
+    return {};
+}
+
 /// Each is the shard that its place among the files says, of the same run as the first; where they state it.
 Result<void> check_shards(const std::vector<Shard>& shards) {
+    if (const std::string missing = missing_shard(shards); !missing.empty())
+        return fail(Place{shards.front().path}, {},
+                    fmt::format("is shard {}, and {} is missing", shards.front().number, missing), kInOrder);
     for (std::size_t i = 0; i < shards.size(); ++i) {
         const Shard& shard = shards[i];
         const std::string wanted = fmt::format("{}/{}", i + 1, shards.size());

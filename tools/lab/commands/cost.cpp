@@ -202,7 +202,9 @@ json of_shard(json costs, const std::string& shard, const std::string& run) {
 CsvTable of_shard(CsvTable costs, const std::string& shard, const std::string& run) {
     if (shard.empty()) return costs;
     costs.columns.insert(costs.columns.end(), {"shard", "run"});
-    for (auto& row : costs.rows) row.insert(row.end(), {shard, run});
+    // It names every file of the family: once is enough.
+    for (auto& row : costs.rows)
+        row.insert(row.end(), {shard, &row == &costs.rows.front() ? run : std::string()});
     return costs;
 }
 
