@@ -72,8 +72,8 @@ inline void check_order(std::vector<OutOfRange>& found, const Operand& less, std
         const double right = rights.values[rights.count == 1 ? 0 : i];
         if (sign == "<" ? left < right : sign == "<=" ? left <= right : left < right || left > right)
             continue;
-        found.push_back(
-            {element_name(less.name, at, lefts.count), left, std::string(sign) + ' ' + more.name});
+        found.push_back({element_name(less.name, at, lefts), left, std::string(sign) + ' ' + more.name,
+                         lefts.are_single});
     }
 }
 
@@ -81,8 +81,7 @@ inline void check_order(std::vector<OutOfRange>& found, const Operand& less, std
 /// least, and by a rounding or two: nearer the shaders were not searched.
 inline void check_bound(std::vector<OutOfRange>& found, const Operand& member, std::string_view sign,
                         double bound) {
-    char text[32];
-    std::snprintf(text, sizeof text, " %.9g", bound);
+    const std::string allowed = std::string(sign) + ' ' + number_text(bound, member.numbers.are_single);
     double step = 0;
     if (member.numbers.are_single) {
         bound = static_cast<double>(static_cast<float>(bound));
@@ -97,33 +96,39 @@ inline void check_bound(std::vector<OutOfRange>& found, const Operand& member, s
                              : sign.size() == 2 ? within >= 0
                                                 : within > 0 && within >= step;
         if (is_kept) continue;
-        found.push_back({element_name(member.name, i, member.numbers.count), value,
-                         std::string(sign) + text + (within > 0 ? " by 1e-06" : "")});
+        found.push_back({element_name(member.name, i, member.numbers), value,
+                         allowed + (within > 0 ? " by 1e-06" : ""), member.numbers.are_single});
     }
 }
 
 /// Adds the vector where its length is not 1.
 inline void check_unit(std::vector<OutOfRange>& found, const Operand& vector) {
     const double length = vector.length(0, vector.numbers.count);
-    if (!(std::abs(length - 1) <= kUnitError)) found.push_back({vector.name, length, "a length of 1"});
+    if (!(std::abs(length - 1) <= kUnitError))
+        found.push_back({vector.name, length, "a length of 1", vector.numbers.are_single});
 }
 
-/// Adds the vector where all of it is 0.
+/// Adds the vector where all of it is 0, or where it has no direction for a NaN or an infinity in it.
 inline void check_not_zero(std::vector<OutOfRange>& found, const Operand& vector) {
     double largest = 0;
-    for (int i = 0; i < vector.numbers.count; ++i)
+    for (int i = 0; i < vector.numbers.count && !std::isnan(largest); ++i)
         if (const double size = std::abs(vector.numbers.values[i]); !(size <= largest)) largest = size;
-    if (!(largest > 0)) found.push_back({vector.name, largest, "a length above 0"});
+    if (largest > 0 && !std::isinf(largest)) return;
+    found.push_back({vector.name, largest,
+                     std::isinf(largest) ? "a finite length above 0" : "a length above 0",
+                     vector.numbers.are_single});
 }
 
-/// Adds the first of two vectors that are equal as far as both go.
+/// Adds the first of two vectors that are equal as far as both go, or whose distance is a NaN.
 inline void check_distinct(std::vector<OutOfRange>& found, const Operand& one, const Operand& other) {
     const int count = (std::min)(one.numbers.count, other.numbers.count);
-    for (int i = 0; i < count; ++i) {
+    double largest = 0;
+    for (int i = 0; i < count && !std::isnan(largest); ++i) {
         const double apart = std::abs(one.numbers.values[i] - other.numbers.values[i]);
-        if (apart > 0) return;
+        if (!(apart <= largest)) largest = apart;
     }
-    found.push_back({one.name, 0, "a distance above 0 from " + other.name});
+    if (largest > 0) return;
+    found.push_back({one.name, largest, "a distance above 0 from " + other.name, one.numbers.are_single});
 }
 
 /// Adds the columns of the matrix whose length is not 1, and which are not perpendicular to an earlier one.
@@ -133,11 +138,12 @@ inline void check_orthonormal(std::vector<OutOfRange>& found, const Operand& mat
     for (int column = 0; column < rows; ++column) {
         const double length = matrix.length(column * rows, rows);
         if (!(std::abs(length - 1) <= kUnitError))
-            found.push_back({column_name(column), length, "a length of 1"});
+            found.push_back({column_name(column), length, "a length of 1", matrix.numbers.are_single});
         for (int before = 0; before < column; ++before) {
             const double dot = matrix.dot(column * rows, before * rows, rows);
             if (!(std::abs(dot) <= kUnitError))
-                found.push_back({column_name(column), dot, "a dot product of 0 with " + column_name(before)});
+                found.push_back({column_name(column), dot, "a dot product of 0 with " + column_name(before),
+                                 matrix.numbers.are_single});
         }
     }
 }
@@ -159,7 +165,9 @@ inline void check_inverse_transpose(std::vector<OutOfRange>& found, const Operan
     double determinant = 0;
     for (int row = 0; row < 3; ++row) determinant += at(0, row) * cofactors[row];
     if (!(std::abs(determinant) > 1e-6 * largest * largest * largest)) {
-        found.push_back({of.name, determinant, "a determinant above 1e-06 of its largest number's cube"});
+        found.push_back({"determinant of " + of.name, determinant,
+                         "a size above 1e-06 of the cube of the matrix's largest number",
+                         of.numbers.are_single});
         return;
     }
     double size = 0;
@@ -176,8 +184,9 @@ inline void check_inverse_transpose(std::vector<OutOfRange>& found, const Operan
     if (error <= kInverseError * size) return;
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", cofactors[worst] / determinant);
-    found.push_back({element_name(matrix.name, worst, 9), matrix.numbers.values[worst],
-                     std::string(text) + " for the inverse transpose of " + of.name});
+    found.push_back({element_name(matrix.name, worst, matrix.numbers), matrix.numbers.values[worst],
+                     std::string(text) + " for the inverse transpose of " + of.name,
+                     matrix.numbers.are_single});
 }
 
 }  // namespace runtime

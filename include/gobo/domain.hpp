@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -19,16 +20,37 @@ namespace gobo {
 /// A number outside its range, or one that breaks a constraint.
 struct OutOfRange {
     std::string member;   ///< "PointLights.lights[2].attenuation.y"; without the component where the range is
-                          ///< of a vector's length
+                          ///< of a vector's length; "determinant of Object.model"
     double value;         ///< of the component, the length, or what else `allowed` names; may be NaN
     std::string allowed;  ///< "[1e-06, 1000], or 0", "< Fog.end", "a length of 1"
+    bool is_single = false;  ///< the member is of single precision
 };
+
+namespace runtime {
+
+/// The shortest text that reads back as the number: as a float where that is what it is.
+inline std::string number_text(double number, bool is_single) {
+    if (std::isnan(number)) return "nan";  // a NaN's sign means nothing
+    const auto single = static_cast<float>(number);
+    const bool is_float = is_single && static_cast<double>(single) == number;
+    const int most = is_float ? 9 : 17;
+    // Whole numbers are written out, not as 1e+06.
+    int digits = is_float ? std::trunc(number) == number && std::abs(number) < 1e9 ? most : 6 : 15;
+    char text[32];
+    for (;; ++digits) {
+        std::snprintf(text, sizeof text, "%.*g", digits, number);
+        const bool is_read_back =
+            is_float ? std::strtof(text, nullptr) == single : std::strtod(text, nullptr) == number;
+        if (is_read_back || digits >= most) return text;
+    }
+}
+
+}  // namespace runtime
 
 /// "PointLights.lights[2].attenuation.y is -1, allowed is [1e-06, 1000], or 0".
 [[nodiscard]] inline std::string to_text(const OutOfRange& found) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.9g", found.value);
-    return found.member + " is " + number + ", allowed is " + found.allowed;
+    return found.member + " is " + runtime::number_text(found.value, found.is_single) + ", allowed is " +
+           found.allowed;
 }
 
 namespace runtime {
@@ -47,6 +69,7 @@ struct Range {
 struct Components {
     double values[16];
     int count = 0;
+    int rows = 0;            ///< of a matrix, whose columns follow one another; otherwise 0
     bool are_single = true;  ///< of single precision, so that bounds are rounded to that before comparing
 
     void add(float value) { values[count++] = static_cast<double>(value); }
@@ -66,6 +89,7 @@ struct Components {
     }
     template <int Columns, int Rows, class Number>
     void add(const std140::PlainMatrix<Columns, Rows, Number>& matrix) {
+        rows = Rows;
         for (int column = 0; column < Columns; ++column)
             for (int row = 0; row < Rows; ++row) add(matrix[column][row]);
     }
@@ -100,10 +124,13 @@ inline std::string with_indices(std::string_view path, std::initializer_list<int
     return text;
 }
 
-/// The name of one of `count` numbers of what has that name: "Fog.color.y", "Camera.projection[5]".
-inline std::string element_name(std::string name, int number, int count) {
-    if (count > 4) return name + '[' + std::to_string(number) + ']';
-    if (count > 1) name.append(1, '.').append(1, "xyzw"[number]);
+/// The name of one of the numbers of what has that name: "Fog.color.y", "Camera.projection[1].y".
+inline std::string element_name(std::string name, int number, const Components& numbers) {
+    if (numbers.rows > 0) {
+        name += '[' + std::to_string(number / numbers.rows) + ']';
+        number %= numbers.rows;
+    }
+    if (numbers.count > 1) name.append(1, '.').append(1, "xyzw"[number]);
     return name;
 }
 
@@ -127,13 +154,14 @@ inline void check_numbers(std::vector<OutOfRange>& found, std::string_view path,
         double square = 0;
         for (int i = 0; i < components.count; ++i) square += components.values[i] * components.values[i];
         const double length = std::sqrt(square);
-        if (!is_within(range, false, length)) found.push_back({with_indices(path, indices), length, allowed});
+        if (!is_within(range, false, length))
+            found.push_back({with_indices(path, indices), length, allowed, components.are_single});
         return;
     }
     for (int i = 0; i < components.count; ++i) {
         if (is_within(range, components.are_single, components.values[i])) continue;
-        found.push_back(
-            {element_name(with_indices(path, indices), i, components.count), components.values[i], allowed});
+        found.push_back({element_name(with_indices(path, indices), i, components), components.values[i],
+                         allowed, components.are_single});
     }
 }
 

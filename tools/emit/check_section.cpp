@@ -62,7 +62,7 @@ std::string number_check(const Spot& spot, const std::vector<Domain>& domains) {
     return checks;
 }
 
-/// The checks of a member, within a loop for each extent of its array; `count` is the outermost loop's bound
+/// The checks of a member, within a loop for each extent of its array; `count` bounds the outermost loop too
 /// where it is given.
 std::string member_checks(const CppMember& named, const Spot& parent, const std::vector<Domain>& domains,
                           const std::string& count) {
@@ -72,9 +72,10 @@ std::string member_checks(const CppMember& named, const Spot& parent, const std:
     std::string tail;
     for (std::size_t extent = 0; extent < named.member.array.size(); ++extent) {
         const std::string index = fmt::format("i{}", spot.indices.size());
-        const std::string bound =
-            extent == 0 && !count.empty() ? count : std::to_string(named.member.array[extent]);
-        head += fmt::format("{0}for (int {1} = 0; {1} < {2}; ++{1}) {{\n", spot.indent(), index, bound);
+        const std::string counted =
+            extent == 0 && !count.empty() ? fmt::format("{} < {} && ", index, count) : "";
+        head += fmt::format("{0}for (int {1} = 0; {2}{1} < {3}; ++{1}) {{\n", spot.indent(), index, counted,
+                            named.member.array[extent]);
         tail = spot.indent() + "}\n" + tail;
         spot.path += "[]";
         spot.expression += "[" + index + "]";

@@ -17,7 +17,7 @@ namespace {
 struct Side {
     std::string path;        ///< "PointLights.lights[].color.x"
     std::string expression;  ///< "block.lights[{}].color", with {} for each index
-    /// For each index what it stays below: the array's extent, `count`, or both.
+    /// For each index what it stays below: the array's extent, and `count` of the array that ends the block.
     std::vector<std::vector<std::string>> bounds;
     GlslType type;
     std::optional<std::size_t> component;
@@ -28,8 +28,7 @@ class SideFinder {
     SideFinder(const CppBlock& block, std::string_view root, std::string_view name)
         : block_(block), root_(root), name_(without_indices(name)), part_(component_name(name_)) {}
 
-    [[nodiscard]] std::optional<Side> found(bool is_pair) {
-        is_pair_ = is_pair;
+    [[nodiscard]] std::optional<Side> found() const {
         return within(block_.members, {block_.name, std::string(root_), {}, {}, {}});
     }
 
@@ -45,11 +44,8 @@ class SideFinder {
                 side.expression += "[{}]";
                 side.bounds.push_back({std::to_string(extent)});
             }
-            if (&members == &block_.members && member.member.name == block_.counted) {
-                std::vector<std::string>& counted = side.bounds.front();
-                if (!is_pair_) counted.clear();
-                counted.insert(counted.begin(), "count");
-            }
+            if (&members == &block_.members && member.member.name == block_.counted)
+                side.bounds.front().insert(side.bounds.front().begin(), "count");
             if (!member.members.empty()) {
                 if (auto inner = within(member.members, side)) return inner;
                 continue;
@@ -73,7 +69,6 @@ class SideFinder {
     std::string_view root_;
     std::string name_;
     std::optional<ComponentName> part_;
-    bool is_pair_ = false;
 };
 
 /// `gobo::runtime::operand(...)` of a side whose indices have those names.
@@ -152,7 +147,7 @@ std::optional<ConstraintCall> constraint_call(const Constraint& constraint, cons
     const bool is_pair = &block != &other;
     if (is_pair && names.size() < 2) return std::nullopt;
     const auto find = [&](const std::string& name, bool is_in_other) {
-        return SideFinder(is_in_other ? other : block, is_in_other ? "other" : "block", name).found(is_pair);
+        return SideFinder(is_in_other ? other : block, is_in_other ? "other" : "block", name).found();
     };
     bool is_swapped = false;  // the first stands in `other`
     auto first = find(names[0], false);

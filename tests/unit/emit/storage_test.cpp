@@ -119,7 +119,7 @@ TEST(StorageBlocks, OfWideNumbersAreChecked) {
     std::string found;
     for (const OutOfRange& one : storage::check(wide)) found += to_text(one) + "\n";
     EXPECT_EQ(found,
-              "Wide.least is -1.09951163e+12, allowed is [-5, 0]\n"
+              "Wide.least is -1099511627776, allowed is [-5, 0]\n"
               "Wide.most.z is 30, allowed is [0, 9]\n");
 }
 
