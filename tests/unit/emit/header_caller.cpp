@@ -254,7 +254,7 @@ void test_check() {
     expect(more.size() == 3, "arrays, structs and matrices");
     if (more.size() == 3) {
         expect_text(more[0].member, "std140.weights[1]");
-        expect_text(more[1].member, "std140.rows[3]");
+        expect_text(more[1].member, "std140.rows[1].y");
         expect_text(more[2].member, "std140.outer.inner[1].switch");
     }
     block.outer.Inner_ = glm::vec2(3, 4);
