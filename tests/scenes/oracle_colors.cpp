@@ -68,8 +68,8 @@ Result<OracleColors> oracle_colors(const Family& family, const Key& key, const r
     }
     GOBO_TRY(const auto stage, evaluate::run<double>(pipeline.fragment, inputs));
     for (const auto& [sampler, own] : answers)
-        inputs.images[sampler] = [&own = own](const evaluate::ImageRequest& request) {
-            return own[request.invocation].value_or(std::array<double, 4>{0, 0, 0, 1});
+        inputs.images[sampler] = [&kept = own](const evaluate::ImageRequest& request) {
+            return kept[request.invocation].value_or(std::array<double, 4>{0, 0, 0, 1});
         };
     GOBO_TRY(const auto even, evaluate::run<double>(pipeline.fragment, inputs));
     spell_out_blocks(pipeline.fragment, inputs);
