@@ -106,7 +106,8 @@ TEST(Studied, SaysWhatIsPromised) {
     const auto read = read_studied(
         "effects,key,scene,error_max,cost,front,error_worst\n"
         "light=1,light=1,*,1e-6,100,yes,0\nlight=1,light=1 power=rough,*,1e-3,60,yes,0.2\n"
-        "light=1,light=1 shading=vertex,*,0.2,20,yes,none\nlight=1,light=1 power=wild,*,0.3,10,yes,\n",
+        "light=1,light=1 shading=vertex,*,0.2,20,yes,none\nlight=1,light=1 power=wild,*,0.3,10,yes,\n"
+        "light=1,light=1 power=rough,*,1e-3,60,yes,0.8\n",
         "study.csv", small_family());
     ASSERT_TRUE(read);
     const auto& keys = read->at(key_of("light=1"));
@@ -115,6 +116,7 @@ TEST(Studied, SaysWhatIsPromised) {
     EXPECT_FALSE(promised_error(keys[2])) << "it hangs on the mesh";
     EXPECT_TRUE(keys[2].worst) << "and that is known";
     EXPECT_FALSE(keys[3].worst) << "it was not searched";
+    EXPECT_FALSE(promised_error(keys[4])) << "all of the light";
 }
 
 TEST(Studied, OfAnotherFamilyIsRefusedAtItsLine) {

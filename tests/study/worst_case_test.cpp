@@ -12,9 +12,12 @@
 #include "family/constraint.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
+#include "lab/evaluate/eval_file.hpp"
+#include "lab/evaluate/evaluate.hpp"
 #include "lab/oracle/model.hpp"
 #include "lab/study/qualities.hpp"
 #include "lab/study/worst_inputs.hpp"
+#include "lab/verify/expectation.hpp"
 #include "study_support.hpp"
 
 namespace gobo::study {
@@ -68,21 +71,84 @@ TEST(WorstCase, OfOrdinaryGuardsIsNoneAwayFromTheViewer) {
     EXPECT_EQ(worst_of(searched({effects}, {depth}), "guards=ordinary"), 0);
 }
 
+Subject pbr_subject() {
+    static const Family family = [] {
+        const auto of_templates = [](const std::string& name) {
+            const std::string path = "templates/" + name + ".toml";
+            return Result<FamilyText>(FamilyText{source_files().read(path).value(), path});
+        };
+        const FamilyText pbr = of_templates("pbr").value();
+        return read_family(pbr.text, pbr.path, of_templates).value();
+    }();
+    const Subject lit = lit_subject();
+    return {lit.shipped, family, lit.search, lit.jobs};
+}
+
 /// Rough metals lose up to half of their light to a second reflection; what gives it back looks up a table,
 /// which holds what an application's does.
 TEST(WorstCase, FindsWhatATableOfTheEnvironmentBrdfGivesBack) {
-    const auto of_templates = [](const std::string& name) {
-        const std::string path = "templates/" + name + ".toml";
-        return Result<FamilyText>(FamilyText{source_files().read(path).value(), path});
-    };
-    const FamilyText pbr = of_templates("pbr").value();
-    const Family family = read_family(pbr.text, pbr.path, of_templates).value();
-    const Key once = parse_key(family, "diffuse_lobe=oren_nayar directional=1 fresnel=exact").value();
-    const Subject subject = lit_subject();
-    const Subject of_pbr{subject.shipped, family, subject.search, subject.jobs};
-    const auto found = find_worst_cases(of_pbr, {once}, {2048}).value();
+    const Subject pbr = pbr_subject();
+    const Key once = parse_key(pbr.family, "diffuse_lobe=oren_nayar directional=1 fresnel=exact").value();
+    const auto found = find_worst_cases(pbr, {once}, {2048}).value();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_GT(found[0].error, 0.1);
+}
+
+/// However bright or sharp a highlight: what a formula makes of it is a part of what a mirror would show.
+TEST(WorstCase, OfAPhysicalSurfaceIsAPartOfWhatAWhiteOneWouldSend) {
+    const Subject pbr = pbr_subject();
+    const Key accurate =
+        parse_key(pbr.family,
+                  "diffuse_lobe=oren_nayar directional=1 environment_brdf=table fog=exponential "
+                  "fresnel=exact light_sum=compensated multiple_scattering=returned spot=1")
+            .value();
+    std::vector<Key> keys = {accurate};
+    for (const Choice& choice : single_choices(pbr.family, effects_of(pbr.family, accurate)))
+        keys.push_back(choice.key);
+    for (const WorstCase& one : find_worst_cases(pbr, keys, {4096}).value()) {
+        const std::string quality = quality_text(pbr.family, one.key);
+        if (quality.empty()) {
+            EXPECT_LT(one.error, 1e-9);
+        }
+        // None of these moves a highlight.
+        for (const char* const bounded : {"diffuse_lobe", "environment_brdf", "fresnel", "spot_edge"})
+            if (quality.starts_with(bounded)) {
+                EXPECT_LT(one.error, 1.2) << quality;
+            }
+    }
+}
+
+/// A metal that mirrors all but 4e-4 of a bright light: the part that enters is known to a rounding of 1.
+TEST(WorstCase, OfTheMostAccurateSurfaceIsExplainedByRoundings) {
+    const Subject pbr = pbr_subject();
+    const Key key = parse_key(pbr.family,
+                              "diffuse_lobe=oren_nayar directional=1 environment_brdf=table fresnel=exact "
+                              "multiple_scattering=returned")
+                        .value();
+    const Variants variants = load_variants(pbr, {key}).value();
+    const evaluate::Program& program = variants.at(key).program.fragment;
+    const auto inputs = evaluate::read_eval_inputs(R"([inputs]
+eyeNormal = [1.3650545e-06, -1.1453416e-06, 4.3881283e-07]
+eyePosition = [-29.340603, -18.572136, -62.32789]
+[uniforms]
+"DirectionalLights.lights[0].color" = [90067.14, 100000, 1.5607331]
+"DirectionalLights.lights[0].direction" = [-0.24118619, -0.8966887, 0.37118542]
+"Material.baseColor" = [1, 0.9999857, 0.24180223, 0.2955364]
+"Material.dielectric" = [0.029608965, 1, 0.1824261]
+"Material.dielectricEdge" = 0.99998593
+"Material.metallic" = 0.79284656
+"Material.roughness" = 9.427668e-05
+[samplers]
+environmentBrdfTable = [0.89206636, 0.10789559, 0, 1]
+)",
+                                                   "mirror.toml");
+    const auto invocation = evaluate::invocations_of(inputs.value(), program).value();
+    const auto answers =
+        verify::ask_oracle(pbr.family, key, StageKind::fragment, program, invocation).value();
+    const auto outputs = evaluate::run<float>(program, invocation).value();
+    const verify::Answer& color = answers.front();
+    for (std::size_t c = 0; c < color.value.size(); ++c)
+        EXPECT_NEAR(outputs.values.at(color.output)[c], color.value[c], color.float_error[c]) << c;
 }
 
 struct Lights {

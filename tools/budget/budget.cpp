@@ -121,7 +121,7 @@ double typical_error(const StudiedKey& key) {
 }
 
 std::optional<double> promised_error(const StudiedKey& key) {
-    if (!key.worst || !std::isfinite(*key.worst)) return std::nullopt;
+    if (!key.worst || !(kDomainSafety * *key.worst < 1)) return std::nullopt;
     return std::max(typical_error(key), kDomainSafety * *key.worst);
 }
 

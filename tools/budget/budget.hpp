@@ -55,7 +55,8 @@ struct StudiedKey {
 
 /// On scenes like the study's.
 [[nodiscard]] double typical_error(const StudiedKey& key);
-/// Over the domain; nothing where none is promised.
+/// Over the domain; nothing where none is promised: to err by no more than all of the light says nothing, and
+/// what a search finds there is no bound.
 [[nodiscard]] std::optional<double> promised_error(const StudiedKey& key);
 
 /// By effects.

@@ -187,6 +187,12 @@ glm::dvec3 entering_part(const Model& model, const glm::dvec3& mirrored) {
     return glm::max(1.0 - (model.extensions.empty() ? mirrored : glm::dvec3(most)), glm::dvec3(0));
 }
 
+/// Of a light, per solid angle.
+struct Reflected {
+    glm::dvec3 part{0};
+    double highlight = 0;  ///< D V alone
+};
+
 void add_environment(const Model& model, const Scene& scene, const PhysicalPoint& point,
                      const Surface& surface, PhysicalRadiance& radiance, Roundings& r) {
     glm::dvec3 scattered = surface.diffuse;
@@ -362,7 +368,8 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
     const double coat = is_coated ? r(material.clearcoat * (0.04 + 0.96 * schlick_weight(coat_nv)), 4) : 0;
     const double coat_alpha = r(widened_alpha(model, r(alpha_of_roughness(material.clearcoat_roughness)),
                                               r(point.bend, 8 * point.bend)));
-    PhysicalRadiance radiance{point.emission, point.emission};
+    PhysicalRadiance radiance{point.emission, point.emission,
+                              point.emission + point.ambient.largest + glm::abs(point.reflected.value)};
     add_environment(model, scene, point, surface, radiance, r);
     radiance.value *= 1 - coat;
     if (is_coated && model.reflection == Reflection::image) {
@@ -391,34 +398,44 @@ PhysicalRadiance radiance_of(const Model& model, const Scene& scene, const Physi
         const double lv = r(glm::dot(light.to_light, point.to_viewer), 2);
         // A cosine of 0.01 stands for all smaller ones in what errors are measured by.
         const auto reflected = [&](double cosine) {
-            glm::dvec3 factor =
-                entering_part(model, mirrored) * diffuse_lobe(model.diffuse_lobe, surface.diffuse,
-                                                              surface.roughness, cosine, surface.nv, lv, vh);
+            Reflected result{r(entering_part(model, mirrored), 1) *
+                             diffuse_lobe(model.diffuse_lobe, surface.diffuse, surface.roughness, cosine,
+                                          surface.nv, lv, vh)};
             const double left = 1 - coat;
             const double under_sheen =
                 has_sheen ? 1 - surface.sheen.strength *
                                     std::max(surface.sheen.seen, sheen_albedo(surface.sheen.alpha, cosine, r))
                           : 1;
-            if (!point.has_half[i]) return left * under_sheen * factor;
-            const double own =
-                model.anisotropy == Anisotropy::brushed
-                    ? brushed_lobe(material, point, surface, light.to_light, cosine, r)
-                    : lobe(point.normal, surface.alpha, light.to_light, cosine, surface.nv, sum);
-            factor = left * under_sheen * (factor + scale * mirrored * own);
-            if (has_sheen) factor += left * sheen_lobe(point, surface, sum, cosine, r);
-            return factor;
+            if (point.has_half[i]) {
+                result.highlight =
+                    model.anisotropy == Anisotropy::brushed
+                        ? brushed_lobe(material, point, surface, light.to_light, cosine, r)
+                        : lobe(point.normal, surface.alpha, light.to_light, cosine, surface.nv, sum);
+                result.part += scale * mirrored * result.highlight;
+            }
+            result.part *= left * under_sheen;
+            if (has_sheen && point.has_half[i])
+                result.part += left * sheen_lobe(point, surface, sum, cosine, r);
+            return result;
         };
         const auto coated = [&](double cosine) {
             return coat * lobe(point.coat_normal, coat_alpha, light.to_light, cosine, coat_nv, sum);
         };
-        if (nl > 0) radiance.value += reflected(nl) * nl * light.radiance;
+        if (nl > 0) radiance.value += reflected(nl).part * nl * light.radiance;
         const double least = std::max(nl, 0.01);
-        if (nl > -0.01) radiance.largest += glm::abs(reflected(least)) * least * light.unshaped;
+        if (nl > -0.01) {
+            const Reflected most = reflected(least);
+            radiance.largest += glm::abs(most.part) * least * light.unshaped;
+            radiance.of_white += (1 / kPi + most.highlight * least) * light.unshaped;
+        }
         if (!is_coated || !point.has_half[i]) continue;
         const double coat_nl = r(glm::dot(point.coat_normal, light.to_light), 2);
         if (coat_nl > 0) radiance.value += coated(coat_nl) * coat_nl * light.radiance;
         const double least_of_coat = std::max(coat_nl, 0.01);
-        if (coat_nl > -0.01) radiance.largest += coated(least_of_coat) * least_of_coat * light.unshaped;
+        if (coat_nl <= -0.01) continue;
+        const glm::dvec3 most = coated(least_of_coat) * least_of_coat * light.unshaped;
+        radiance.largest += most;
+        radiance.of_white += most;
     }
     return radiance;
 }

@@ -111,6 +111,9 @@ struct PhysicalPoint {
 struct PhysicalRadiance {
     glm::dvec3 value{0};
     glm::dvec3 largest{0};
+    /// What a surface of the same roughness would send that scatters and mirrors all light, each light's
+    /// scattered before its cosine weakens it: what approximations err by is a part of that.
+    glm::dvec3 of_white{0};
 };
 
 /// emission + w E S + (1 - w E) c_d A + sum (f_d + f_s) n.l L (glTF 2.0, appendix B).

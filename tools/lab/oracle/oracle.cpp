@@ -235,6 +235,7 @@ Radiance physical_radiance(const Model& model, const Scene& scene, const Surface
     const PhysicalRadiance found = radiance_of(model, scene, physical, exact);
     radiance.value = found.value;
     radiance.largest = found.largest;
+    radiance.of_white = found.of_white;
     radiance.physical = std::move(physical);
     return radiance;
 }

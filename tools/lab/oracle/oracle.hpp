@@ -80,6 +80,7 @@ struct Radiance {
     AmbientLight ambient;                   ///< without the lights' own
     LookedUp reflected;                     ///< without the highlight's reflectivity
     std::optional<PhysicalPoint> physical;  ///< of `pbr`, which has no terms
+    glm::dvec3 of_white{0};                 ///< of `pbr`: PhysicalRadiance::of_white
 };
 
 /// The material of the point: the one there is, or row i of the table, with two materials row 2 i in front

@@ -158,7 +158,7 @@ class Search {
         const std::vector<double>& values = outputs.values.at(variant_.program.color);
         std::pair<double, double> worst{-std::numeric_limits<double>::infinity(), 0};
         for (std::size_t c = 0; c < 3; ++c) {
-            const double unit = std::max(expected.largest[c], 1.0);
+            const double unit = std::max(expected.whole[c], 1.0);
             const double error = std::abs(values[c * outputs.count + invocation] - expected.value[c]);
             if (!std::isfinite(expected.value[c]) || !std::isfinite(expected.float_error[c])) continue;
             const double excess = std::isfinite(error) ? (error - expected.float_error[c]) / unit

@@ -18,7 +18,8 @@ struct WorstCase {
     Key key;
     /// How much further from the exact answer a channel of the fragment's colour is in fp32 than the
     /// roundings of floats explain at that input, as a part of the light that reaches the point (each
-    /// light's, taken before its cosine weakens it), or of 1 where less does. Infinite where it is no number.
+    /// light's, taken before its cosine weakens it; of `pbr` oracle::PhysicalRadiance::of_white), or of 1
+    /// where less does. Infinite where it is no number.
     double error = 0;
     double rounding =
         0;  ///< what they explain there: the bound that verify::expect() derives, in the same unit

@@ -208,11 +208,13 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
     // Interpolation may leave radiance's range; what a face has of one vertex does not.
     if (model.shading == oracle::Shading::vertex) value = glm::max(value, glm::dvec3(0));
     glm::dvec3 largest = glm::abs(value);
+    glm::dvec3 whole = largest;
     glm::dvec3 error{0};
     if (model.is_per_fragment()) {
         const oracle::Radiance radiance = oracle::lit_radiance(model, sample.scene, point, decisions);
         value = radiance.value;
         largest = radiance.largest;
+        whole = radiance.physical ? radiance.of_white : largest;
         error = radiance_error(model, sample.scene, point, radiance, {});
         // Peaked highlights multiply what directions are off by: no float is further out than this.
         if (model.is_physical()) largest += error;
@@ -223,10 +225,14 @@ Expected expect_color(const oracle::Model& model, const Sample& sample, oracle::
     const glm::dvec3 held = oracle::within_range(model.output_range, seen.value);
     // Alpha is passed on, or the product of the material's and the vertices'.
     const double alpha_error = model.is_physical() ? 8 : 0;
-    return expected(
+    Expected color = expected(
         "fragmentColor", glm::dvec4(held, oracle::alpha_of(model, sample.scene, point)),
         glm::dvec4(seen.largest, alpha_error),
         glm::dvec4(fog_error(model, sample.scene, seen, value, error, 0), alpha_error * kUnitRoundoff));
+    if (model.fog != oracle::Fog::none) whole += sample.scene.fog.color;
+    for (int channel = 0; channel < 3; ++channel)
+        color.whole[static_cast<std::size_t>(channel)] = whole[channel];
+    return color;
 }
 
 std::vector<Expected> expect_fragment(const oracle::Model& model, const Sample& sample,

@@ -24,6 +24,7 @@ struct Expected {
     std::array<double, 4> largest{};      ///< sum of the absolute terms: doubles are judged by it
     std::array<double, 4> float_error{};  ///< bound of a float evaluation's error
     bool is_flat = false;  ///< of a vertex stage: the provoking vertex's value holds for the whole triangle
+    std::array<double, 4> whole{};  ///< of a colour: what approximations err by a part of
 };
 
 /// A double evaluation may be this far off, relative to the largest term: some hundred double roundings
