@@ -1,4 +1,4 @@
-// Whether the surface is lit; ambient light; attenuation by distance.
+// Whether the surface is lit, and its ambient light.
 //
 // Source: OpenGL Programming Guide, 9th ed., ch. 7; glTF 2.0 KHR_materials_unlit.
 
@@ -25,13 +25,3 @@ vec3 litSurface() {
 
 /// The ambient light that the surface reflects.
 vec3 ambientRadiance() { return tinted(material.ambient) * ambientLight(); }
-
-#piece attenuation
-// 1 / (k_c + k_l d + k_q d^2). All coefficients may be 0: the result ends at 1e18. A distance beyond 1e17 counts as 1e17,
-// where nothing is left of the light.
-/// The factor by which a light at a distance d is weakened.
-float attenuation(vec3 coefficients, float d) {
-    float reach = min(d, 1e17);  // guard: the square does not overflow
-    float denominator = coefficients.x + reach * (coefficients.y + reach * coefficients.z);
-    return 1.0 / max(denominator, 1e-18);  // guard: no attenuation
-}

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
-#include "compose/tokens.hpp"
 #include "core/numbers.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
 #include "validate/glslang_log.hpp"
 #include "validate/guarantees.hpp"
+#include "validate/member_offsets.hpp"
 
 namespace gobo {
 namespace {
@@ -43,8 +41,8 @@ class StageCheck {
         check_sizes();
         check_array_sizes();
         check_writeonly();
-        check_offsets();
-        if (dialect_ == Dialect::vulkan) check_stated_offsets();
+        for (Diagnostic& misplaced : check_member_offsets(module_, interface_, pieces_, dialect_))
+            found_.push_back(std::move(misplaced));
         if (kind_ == StageKind::fragment) {
             for (const spirv::Variable& variable : module_.variables)
                 if (variable.storage == spv::StorageClassOutput) check_output(variable);
@@ -262,64 +260,6 @@ class StageCheck {
             return refuse(use_of(name, pieces_), fmt::format("'{}' is writeonly, and is read", name),
                           "take writeonly out of its block, or write it without reading it");
         }
-    }
-
-    /// No member lies before the end of the one that stands before it (GLSL 4.60, 4.4.5); in Vulkan they may
-    /// stand in any order, but not overlap.
-    void check_offsets() {
-        for (const auto* const blocks :
-             {&interface_.blocks, &interface_.storage_blocks, &interface_.push_constants})
-            for (const Block& block : *blocks)
-                for (std::size_t i = 1; i < block.members.size(); ++i) {
-                    const Member& member = block.members[i];
-                    const bool is_vulkan = dialect_ == Dialect::vulkan;
-                    for (std::size_t j = is_vulkan ? 0 : i - 1; j < i; ++j) {
-                        const Member& before = block.members[j];
-                        if (member.offset >= before.offset + size_of(before)) continue;
-                        if (is_vulkan && member.offset + size_of(member) <= before.offset) continue;
-                        const char* const where =
-                            member.offset < before.offset ? "before that" : "within that";
-                        return refuse(
-                            declaration_of_member(root_of(block.name), member.name, pieces_),
-                            fmt::format("'{}' has offset {}, {} of '{}', which stands above it", member.name,
-                                        member.offset, where, before.name),
-                            !before.array.empty() && computes_sizes()
-                                ? "state its offset: glslang counts an array whose size is computed from "
-                                  "specialisation constants as one element"
-                                : "order members by their offsets, each behind the end of the one before");
-                    }
-                }
-    }
-
-    /// Whether any array's size is computed from specialisation constants.
-    [[nodiscard]] bool computes_sizes() const {
-        return std::ranges::any_of(module_.instructions, [&](const spirv::Instruction& array) {
-            const spirv::Instruction* const size =
-                array.opcode == spv::OpTypeArray ? module_.definition(array.id(3)) : nullptr;
-            return size != nullptr && size->opcode == spv::OpSpecConstantOp;
-        });
-    }
-
-    /// In a block that leaves its layout to Vulkan, glslang moves a member whose offset its type does not
-    /// allow.
-    void check_stated_offsets() {
-        for (const auto* const blocks : {&interface_.blocks, &interface_.storage_blocks})
-            for (const Block& block : *blocks)
-                for (const Member& member : block.members) {
-                    const Declaration at = declaration_of_member(root_of(block.name), member.name, pieces_);
-                    const std::vector<std::string_view> tokens = tokens_of(at.quoted_line);
-                    const auto name = std::ranges::find(tokens, std::string_view(member.name));
-                    const auto begin =
-                        std::find_if(std::reverse_iterator(name), tokens.rend(), [](std::string_view token) {
-                            return token == ";" || token == "{";
-                        }).base();
-                    const auto offset = std::find(begin, name, "offset");
-                    if (name - offset < 3) continue;
-                    int stated = member.offset;  // what is no plain number is taken as it came
-                    std::from_chars(offset[2].data(), offset[2].data() + offset[2].size(), stated);
-                    if (stated == member.offset || (offset[3] != ")" && offset[3] != ",")) continue;
-                    return refuse(at, unaligned_text(offset[2], member.array.empty() ? member.type : ""), "");
-                }
     }
 
     /// Further streams take points alone (GLSL 4.60, 8.15), and there are four.
