@@ -145,6 +145,16 @@ TEST_P(Trap, IsNotSeenWhereItCannotHappen) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Trap, testing::ValuesIn(kRows), row_name);
 
+/// However often a loop runs into it.
+TEST(TrapInALoop, CountsEachPointOnce) {
+    for (const std::string trapping : {"table[k - 9]", "1.0 / (a - a)"}) {
+        const std::string text = shader_with("for (int k = 0; k < 8; ++k) result += " + trapping + ";");
+        const sanitize::SanitizeReport report = sanitized_text("trap.frag", text, {.points = 64});
+        ASSERT_FALSE(report.findings.empty()) << trapping;
+        EXPECT_EQ(report.findings.front().finding.points, 64U) << trapping;
+    }
+}
+
 /// What a NaN from an earlier trap reaches is no trap of its own: it is told beneath that.
 TEST(TrapOfANaN, IsFoldedBeneathItsCause) {
     for (const std::string hidden : {"min", "max"}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluate_support.hpp"
+#include "lab/evaluate/eval_report.hpp"
 #include "spirv/module.hpp"
 
 namespace gobo::evaluate {
@@ -69,6 +70,22 @@ TEST_P(RelaxedFunctions, RoundWhatPasses) {
     };
     EXPECT_EQ(value(words), 1 + 0x1p-20);
     EXPECT_EQ(value(relaxed(words, row.relaxed)), 1);
+}
+
+TEST(TracingHalves, ShowsWhatAVariableHolds) {
+    const auto words = relaxed(compile(ShaderStage::fragment,
+                                       "#version 450\nlayout(location = 0) in vec4 a;\n"
+                                       "layout(location = 0) out vec4 r;\n"
+                                       "void main() { float t = a.x; r = vec4(t); }\n"),
+                               spv::OpVariable);
+    const Result<Program> program = decode(words);
+    ASSERT_TRUE(program);
+    Invocations invocations;
+    invocations.values = {{"a", {2e5, 0, 0, 0}}};
+    Trace<float> trace;
+    ASSERT_TRUE(run<float>(*program, invocations, {.is_half = true}, &trace));
+    const auto text = to_text(trace.steps());
+    EXPECT_NE(text.find("Store -> t=inf\n"), std::string::npos) << text;
 }
 
 struct SmallCase {

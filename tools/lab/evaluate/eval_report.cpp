@@ -110,7 +110,8 @@ void Trace<T>::after(const Step<T>& step) {
     TraceStep traced{step.place(), std::string(row.name), value_of(step, info.result, lane), {}};
     if (row.kind == Kind::store) {
         // Through an address the variable's own slots are not what was written.
-        traced.result.components = value_of(step, info.operands.front(), lane).components;
+        if (row.code == kScatter)
+            traced.result.components = value_of(step, info.operands.front(), lane).components;
     } else if (row.kind == Kind::load) {
         traced.result.name = step.program.names[info.operands.front().name];
     } else {

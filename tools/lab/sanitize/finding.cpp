@@ -140,7 +140,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         if ((taint_.operands_of(step) & lanes) != 0)
             return follow(step, kMessage, text, lane, taint_.operand_cause(step, lane));
         const std::size_t trap = trap_of(step.operation, kMessage, text, step.first_invocation + lane);
-        traps_[trap].points += 1;
+        count(trap, batch_ / kLanes, lanes);
         clamped_.push_back({kMessage, lanes, trap});
     }
 
@@ -154,7 +154,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         const std::size_t trap = trap_without_operation(
             static_cast<std::uint32_t>(number), kEndless, {},
             first_invocation + static_cast<std::size_t>(std::countr_zero(lanes)), program.places[loop.place]);
-        traps_[trap].points += static_cast<std::uint64_t>(std::popcount(lanes));
+        count(trap, batch_ / kLanes, lanes);
         return true;
     }
 
@@ -273,7 +273,7 @@ class TrapObserver final : public evaluate::Observer<float> {
             hit.trap = trap_of(step.operation, hit.message, {}, step.first_invocation + lane);
             Finding& finding = traps_[hit.trap];
             if (finding.points == 0) finding.operation = operation_text(step, lane);
-            finding.points += static_cast<std::uint64_t>(std::popcount(hit.lanes));
+            count(hit.trap, batch_ / kLanes, hit.lanes);
         }
         std::erase_if(hits_, [](const Hit& hit) { return hit.lanes == 0; });
     }
@@ -330,8 +330,7 @@ class TrapObserver final : public evaluate::Observer<float> {
         }
         const std::size_t batch = invocation / kLanes;
         const Lanes lane = Lanes{1} << invocation % kLanes;
-        if (!is_marked(counted_[trap], invocation)) ++traps_[trap].points;
-        mark(counted_[trap], batch, lane);
+        count(trap, batch, lane);
         mark(trapped_, batch, lane);
         return trap;
     }
@@ -359,7 +358,9 @@ class TrapObserver final : public evaluate::Observer<float> {
     }
 
     void finish_output(std::size_t output, const evaluate::Port& port, std::size_t lane) {
-        const Cause& cause = taint_.cause_of(port.slot, port.components, lane);
+        std::uint32_t component = 0;
+        while ((taint_.lanes_of(port.slot + component, 1) >> lane & 1U) == 0) ++component;
+        const Cause& cause = taint_.cause_of(port.slot + component, 1, lane);
         if (cause.kind == Cause::Kind::constant) mark(of_constants_, batch_ / kLanes, Lanes{1} << lane);
         if (cause.kind != Cause::Kind::unwritten && cause.kind != Cause::Kind::no_return) return;
         bool is_unwritten = false;
@@ -370,14 +371,15 @@ class TrapObserver final : public evaluate::Observer<float> {
         const auto first_use = taint_.first_use(cause, lane);
         if (!undefined_.empty()) {
             UndefinedOutput& last = undefined_.back();
-            if (last.first_invocation == batch_ && last.output == output && last.first_use == first_use &&
-                last.cause.kind == cause.kind && last.cause.index == cause.index) {
+            if (last.first_invocation == batch_ && last.output == output && last.component == component &&
+                last.first_use == first_use && last.cause.kind == cause.kind &&
+                last.cause.index == cause.index) {
                 last.lanes |= Lanes{1} << lane;
                 return;
             }
         }
         undefined_.push_back(
-            {batch_, output, Lanes{1} << lane, cause, first_use, is_unwritten && !first_use});
+            {batch_, output, component, Lanes{1} << lane, cause, first_use, is_unwritten && !first_use});
     }
 
     void keep_text(const Step& step) {
@@ -385,6 +387,14 @@ class TrapObserver final : public evaluate::Observer<float> {
         const Lanes lanes = taint_.used() & step.lanes;
         if (is_new && lanes != 0)
             known->second = operation_text(step, static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+
+    /// A point counts once for a trap, however often a loop runs into it.
+    void count(std::size_t trap, std::size_t batch, Lanes lanes) {
+        std::vector<Lanes>& counted = counted_[trap];
+        if (batch < counted.size()) lanes &= ~counted[batch];
+        traps_[trap].points += static_cast<std::uint64_t>(std::popcount(lanes));
+        mark(counted, batch, lanes);
     }
 
     void mark_trapped(Lanes lanes) { mark(trapped_, batch_ / kLanes, lanes); }
@@ -417,8 +427,10 @@ class TrapObserver final : public evaluate::Observer<float> {
 
 void TrapObserver::judge_outputs(const evaluate::Outputs& outputs) {
     for (const UndefinedOutput& undefined : undefined_) {
-        const evaluate::Port& port = *ports_[undefined.output];
+        evaluate::Port port = *ports_[undefined.output];
         if (undefined.is_unwritten || !must_be_written(run_.program, port)) continue;
+        port.slot += undefined.component;
+        port.components = 1;
         const std::optional<std::uint32_t> store = last_store(run_.program, port);
         const std::uint32_t place = store ? run_.program.infos[*store].place : 0;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {

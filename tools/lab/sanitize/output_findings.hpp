@@ -35,6 +35,7 @@ struct Run {
 struct UndefinedOutput {
     std::size_t first_invocation = 0;  ///< of lane 0
     std::size_t output = 0;            ///< index into written_ports()
+    std::uint32_t component = 0;       ///< the first that is undefined
     Lanes lanes = 0;
     Cause cause;
     std::optional<std::uint32_t> first_use;  ///< the operation that first computed with it
