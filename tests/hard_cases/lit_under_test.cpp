@@ -1,5 +1,7 @@
 #include "lit_under_test.hpp"
 
+#include <tuple>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -189,10 +191,78 @@ std::vector<std::uint32_t> words_of(const Family& family, const Composition& com
     return validated.stages.front().spirv;
 }
 
-evaluate::Program compiled(const Family& family, const Composition& composition, int stage) {
+/// Kept for whoever asks for the same text next.
+const evaluate::Program& compiled(const Family& family, const Composition& composition, int stage) {
+    static std::map<std::string, evaluate::Program> programs;
+    const Stage& source = composition.stage(stage);
+    std::string text = family.name;
+    for (const int piece : source.pieces) text += "\n" + composition.piece(piece).path;
+    text += "\n" + source_of(composition, source);
+    const auto known = programs.find(text);
+    if (known != programs.end()) return known->second;
     Result<evaluate::Program> program = evaluate::decode(words_of(family, composition, stage, true));
     EXPECT_TRUE(program);
-    return program ? std::move(*program) : evaluate::Program{};
+    return programs.emplace(std::move(text), program ? std::move(*program) : evaluate::Program{})
+        .first->second;
+}
+
+/// The project's pieces and family files, read once: rows compose by the hundred.
+const MemoryFileSystem& project_files() {
+    static const MemoryFileSystem files([] {
+        const DiskFileSystem disk;
+        std::map<std::string, std::string, std::less<>> texts;
+        for (const std::string folder : {"shader_lib/", "templates/"})
+            for (const std::string& file : disk.files_below(GOBO_SOURCE_DIR "/" + folder))
+                texts[folder + file] = disk.read(GOBO_SOURCE_DIR "/" + folder + file).value();
+        return texts;
+    }());
+    return files;
+}
+
+const Result<Family>& family_named(const std::string& name) {
+    static std::map<std::string, Result<Family>> families;
+    const auto known = families.find(name);
+    if (known != families.end()) return known->second;
+    const FindFamily find = [](const std::string& other) -> Result<FamilyText> {
+        const std::string path = "templates/" + other + ".toml";
+        GOBO_TRY(std::string text, project_files().read(path));
+        return FamilyText{std::move(text), path};
+    };
+    const auto read = [&]() -> Result<Family> {
+        GOBO_TRY(const FamilyText text, find(name));
+        return read_family(text.text, text.path, find);
+    };
+    return families.emplace(name, read()).first->second;
+}
+
+LitUnderTest::Composed composed_of(const std::string& where, const std::vector<std::string>& over,
+                                   const Overlay& overlay, int cover, const std::string& of) {
+    LitUnderTest::Composed result;
+    MemoryFileSystem memory;
+    for (const auto& [path, text] : overlay) EXPECT_TRUE(memory.write("overlay/" + path, text));
+    SearchPath search;
+    search.add(memory, "overlay", "", false);
+    search.add(project_files(), "shader_lib", "shader_lib/", false);
+    search.add(project_files(), "templates", "templates/", false);
+    const Result<Family>& family = family_named(of);
+    EXPECT_TRUE(family);
+    if (!family) return result;
+    result.family = *family;
+    Selection selection;
+    selection.all = cover == 0;
+    selection.cover = cover;
+    selection.over = over;
+    selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
+    selection.excluded = true;  // who names such a value has its guards, too
+    const auto keys = select(result.family, selection, "450");
+    EXPECT_TRUE(keys) << where << ": " << (keys ? "" : to_text(keys.error().front()));
+    if (!keys) return result;
+    Result<Composition> composition = compose(result.family, *keys, search, Dialect::own);
+    EXPECT_TRUE(composition);
+    if (!composition) return result;
+    result.composition = std::move(*composition);
+    result.programs.resize(result.composition.stages.size());
+    return result;
 }
 
 }  // namespace
@@ -204,61 +274,35 @@ std::vector<double> as_floats(std::vector<double> numbers) {
 
 LitUnderTest::LitUnderTest(const std::string& where, const std::vector<std::string>& over,
                            const Overlay& overlay, int cover, const std::string& of) {
-    const DiskFileSystem disk;
-    MemoryFileSystem memory;
-    for (const auto& [path, text] : overlay) EXPECT_TRUE(memory.write("overlay/" + path, text));
-    SearchPath search;
-    search.add(memory, "overlay", "", false);
-    search.add(disk, GOBO_SOURCE_DIR "/shader_lib", "shader_lib/", false);
-    search.add(disk, GOBO_SOURCE_DIR "/templates", "templates/", false);
-    const FindFamily find = [&](const std::string& name) -> Result<FamilyText> {
-        const std::string path = GOBO_SOURCE_DIR "/templates/" + name + ".toml";
-        GOBO_TRY(std::string text, disk.read(path));
-        return FamilyText{std::move(text), path};
-    };
-    const Result<FamilyText> text = find(of);
-    EXPECT_TRUE(text);
-    if (!text) return;
-    const Result<Family> family = read_family(text->text, text->path, find);
-    EXPECT_TRUE(family);
-    if (!family) return;
-    family_ = *family;
-    Selection selection;
-    selection.all = cover == 0;
-    selection.cover = cover;
-    selection.over = over;
-    selection.where = "directional + point + spot <= 1" + (where.empty() ? "" : " && (" + where + ")");
-    selection.excluded = true;  // who names such a value has its guards, too
-    const auto keys = select(family_, selection, "450");
-    EXPECT_TRUE(keys) << where << ": " << (keys ? "" : to_text(keys.error().front()));
-    if (!keys) return;
-    const Result<Composition> composition = compose(family_, *keys, search, Dialect::own);
-    EXPECT_TRUE(composition);
-    if (!composition) return;
-    composition_ = *composition;
-    programs_.resize(composition_.stages.size());
+    static std::map<std::tuple<std::string, std::vector<std::string>, Overlay, int, std::string>,
+                    std::shared_ptr<Composed>>
+        all;
+    std::shared_ptr<Composed>& composed = all[{where, over, overlay, cover, of}];
+    if (!composed) composed = std::make_shared<Composed>(composed_of(where, over, overlay, cover, of));
+    composed_ = composed;
 }
 
 std::vector<std::uint32_t> LitUnderTest::spirv(std::size_t permutation, StageKind kind) const {
-    return words_of(family_, composition_, composition_.permutations[permutation].stages[kind], false);
+    return words_of(composed_->family, composition(), composition().permutations[permutation].stages[kind],
+                    false);
 }
 
 const evaluate::Program& LitUnderTest::program(int stage) const {
-    std::unique_ptr<evaluate::Program>& program = programs_[static_cast<std::size_t>(stage)];
-    if (!program) program = std::make_unique<evaluate::Program>(compiled(family_, composition_, stage));
+    const evaluate::Program*& program = composed_->programs[static_cast<std::size_t>(stage)];
+    if (program == nullptr) program = &compiled(composed_->family, composition(), stage);
     return *program;
 }
 
 std::string LitUnderTest::key(std::size_t permutation) const {
-    return key_text(family_, composition_.permutations[permutation].key);
+    return key_text(composed_->family, composition().permutations[permutation].key);
 }
 
 const evaluate::Program& LitUnderTest::vertex(std::size_t permutation) const {
-    return program(composition_.permutations[permutation].stages[StageKind::vertex]);
+    return program(composition().permutations[permutation].stages[StageKind::vertex]);
 }
 
 const evaluate::Program& LitUnderTest::fragment(std::size_t permutation) const {
-    return program(composition_.permutations[permutation].stages[StageKind::fragment]);
+    return program(composition().permutations[permutation].stages[StageKind::fragment]);
 }
 
 StageInputs LitUnderTest::inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const {

@@ -43,7 +43,8 @@ struct StageInputs {
     evaluate::Invocations fragment;
 };
 
-/// The stages of the keys that a condition selects, compiled as they are run.
+/// The stages of the keys that a condition selects, compiled as they are run. Those of the same arguments are
+/// composed once in a process, stages of the same text compiled once.
 class LitUnderTest {
   public:
     /// All valid keys for which `where` holds and that have at most one light, ranging over `over`; failing
@@ -53,7 +54,7 @@ class LitUnderTest {
     LitUnderTest(const std::string& where, const std::vector<std::string>& over, const Overlay& overlay,
                  int cover = 0, const std::string& family = "lit");
 
-    [[nodiscard]] std::size_t size() const { return composition_.permutations.size(); }
+    [[nodiscard]] std::size_t size() const { return composition().permutations.size(); }
     [[nodiscard]] std::string key(std::size_t permutation) const;
     /// A white surface at (0, 0, -5) that faces the viewer, lights in front of it; `inputs` overrule that.
     /// The fragment stage is given what the vertex stage writes, unless `inputs` name it.
@@ -63,20 +64,25 @@ class LitUnderTest {
     /// What shade() gives the two stages.
     [[nodiscard]] StageInputs inputs_of(std::size_t permutation, const Inputs& inputs, Mode mode) const;
 
-    [[nodiscard]] const Composition& composition() const { return composition_; }
+    [[nodiscard]] const Composition& composition() const { return composed_->composition; }
     [[nodiscard]] const evaluate::Program& vertex(std::size_t permutation) const;
     [[nodiscard]] const evaluate::Program& fragment(std::size_t permutation) const;
     /// A stage's SPIR-V for OpenGL, as drivers are given it.
     [[nodiscard]] std::vector<std::uint32_t> spirv(std::size_t permutation, StageKind kind) const;
 
+    /// What the arguments select.
+    struct Composed {
+        Family family;
+        Composition composition;
+        /// Of each stage of the composition; null until it is first asked for: whoever stops at the first
+        /// fault compiles little.
+        std::vector<const evaluate::Program*> programs;
+    };
+
   private:
     [[nodiscard]] const evaluate::Program& program(int stage) const;
 
-    Family family_;
-    Composition composition_;
-    /// Of each stage of the composition; null until it is first asked for: whoever stops at the first fault
-    /// compiles little.
-    mutable std::vector<std::unique_ptr<evaluate::Program>> programs_;
+    std::shared_ptr<Composed> composed_;
 };
 
 }  // namespace gobo

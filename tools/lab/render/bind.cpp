@@ -235,16 +235,18 @@ bool is_of_input(const Interface& interface, const RenderValue& value) {
 
 /// An error where the interface has the block or uniform, but not what the value names in it.
 Result<void> check_name(const std::vector<Leaf>& leaves, const RenderValue& value) {
-    const auto head_of = [](const std::string& name) { return name.substr(0, name.find_first_of(".[")); };
+    const auto head_of = [](std::string_view name) { return name.substr(0, name.find_first_of(".[")); };
+    const std::string_view head = head_of(value.name);
     const std::string plain = without_subscripts(value.name);
     std::set<std::string> known;
     for (const Leaf& leaf : leaves) {
+        if (!leaf.name.starts_with(head) || head_of(leaf.name) != head) continue;
         const std::string name = without_subscripts(leaf.name);
         if (name == plain || name + "[]" == plain) return {};  // an element beyond the array's extent
-        if (head_of(leaf.name) == head_of(value.name)) known.insert(name);
+        known.insert(name);
     }
     if (known.empty()) return {};
-    return fail(value.place, {}, fmt::format("'{}' has no member '{}'", head_of(value.name), value.name),
+    return fail(value.place, {}, fmt::format("'{}' has no member '{}'", head, value.name),
                 suggestion(plain, {known.begin(), known.end()}));
 }
 
