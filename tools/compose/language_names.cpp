@@ -152,7 +152,9 @@ const NameSince* find(std::span<const NameSince> names, std::string_view name) {
 }  // namespace
 
 const NameSince* name_since(std::string_view identifier) {
-    return find(kNames, identifier);
+    constexpr std::size_t kShortest =
+        std::ranges::min(kNames, {}, [](const NameSince& since) { return since.name.size(); }).name.size();
+    return identifier.size() + 1 < kShortest ? nullptr : find(kNames, identifier);  // for one may end in `*`
 }
 
 const NameSince* layout_since(std::string_view qualifier) {

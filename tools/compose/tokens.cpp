@@ -8,7 +8,6 @@
 namespace gobo {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\n";
 constexpr std::array<std::string_view, 9> kLongOperators = {
     "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "##"};
 
@@ -36,12 +35,18 @@ std::size_t length_of_token(std::string_view rest) {
 
 std::vector<std::string_view> tokens_of(std::string_view code) {
     std::vector<std::string_view> tokens;
-    while (true) {
-        code.remove_prefix(std::min(code.find_first_not_of(kBlanks), code.size()));
-        if (code.empty()) return tokens;
-        tokens.push_back(code.substr(0, length_of_token(code)));
-        code.remove_prefix(tokens.back().size());
-    }
+    for (auto token = next_token(code); !token.empty(); token = next_token(code)) tokens.push_back(token);
+    return tokens;
+}
+
+std::string_view next_token(std::string_view& code) {
+    const auto is_blank = [](char character) {
+        return character == ' ' || character == '\t' || character == '\n';
+    };
+    code = {std::ranges::find_if_not(code, is_blank), code.end()};
+    const std::string_view token = code.empty() ? code : code.substr(0, length_of_token(code));
+    code.remove_prefix(token.size());
+    return token;
 }
 
 }  // namespace gobo

@@ -10,4 +10,7 @@ namespace gobo {
 /// They point into `code`.
 [[nodiscard]] std::vector<std::string_view> tokens_of(std::string_view code);
 
+/// Takes the first of these off `code`; empty where there is none left.
+[[nodiscard]] std::string_view next_token(std::string_view& code);
+
 }  // namespace gobo

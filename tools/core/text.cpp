@@ -114,15 +114,6 @@ std::optional<std::pair<std::size_t, std::size_t>> pair_from(std::string_view te
     return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
 }
 
-bool is_identifier_start(char character) {
-    return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
-           character == '_';
-}
-
-bool is_identifier_part(char character) {
-    return is_identifier_start(character) || (character >= '0' && character <= '9');
-}
-
 bool is_identifier(std::string_view text) {
     return !text.empty() && is_identifier_start(text.front()) &&
            std::all_of(text.begin(), text.end(), is_identifier_part);

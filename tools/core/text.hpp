@@ -43,8 +43,13 @@ template <class Number>
 
 /// [A-Za-z_][A-Za-z0-9_]*
 [[nodiscard]] bool is_identifier(std::string_view text);
-[[nodiscard]] bool is_identifier_start(char character);
-[[nodiscard]] bool is_identifier_part(char character);
+[[nodiscard]] constexpr bool is_identifier_start(char character) {
+    return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+           character == '_';
+}
+[[nodiscard]] constexpr bool is_identifier_part(char character) {
+    return is_identifier_start(character) || (character >= '0' && character <= '9');
+}
 
 /// The name with every subscript emptied: "PointLights.lights[].position".
 [[nodiscard]] std::string without_subscripts(std::string_view name);

@@ -117,14 +117,16 @@ std::string access_of(const Module& module, Id structure, int index) {
         {spv::DecorationRestrict, "restrict"},
         {spv::DecorationNonWritable, "readonly"},
         {spv::DecorationNonReadable, "writeonly"}};
-    std::vector<std::string> words;
+    std::string words;
     for (const auto& [decoration, word] : kQualifiers)
-        if (module.decoration(structure, decoration, index)) words.emplace_back(word);
-    return join(words, " ");
+        if (module.decoration(structure, decoration, index))
+            words += fmt::format("{}{}", words.empty() ? "" : " ", word);
+    return words;
 }
 
 std::vector<Member> members_of(const Module& module, Id structure) {
     std::vector<Member> members;
+    members.reserve(module.type(structure).members.size());
     for_each_member(module, structure, [&](int index, Id id) {
         const Id element = array_element(module, id);
         Member member;
@@ -144,14 +146,16 @@ std::vector<Member> members_of(const Module& module, Id structure) {
 
 /// Every element of an array of blocks is a block of its own to OpenGL, on the binding points that follow. In
 /// Vulkan they share one binding.
-std::vector<Block> elements_of(const Block& block, const std::vector<int>& extents,
-                               std::size_t dimension = 0) {
-    if (dimension == extents.size()) return {block};
+std::vector<Block> elements_of(Block block, const std::vector<int>& extents, std::size_t dimension = 0) {
     std::vector<Block> elements;
+    if (dimension == extents.size()) {
+        elements.push_back(std::move(block));
+        return elements;
+    }
     for (int i = 0; i < extents[dimension]; ++i) {
         Block element = block;
         element.name += fmt::format("[{}]", i);
-        for (Block& inner : elements_of(element, extents, dimension + 1)) {
+        for (Block& inner : elements_of(std::move(element), extents, dimension + 1)) {
             if (block.binding >= 0 && block.set < 0)
                 inner.binding = block.binding + static_cast<int>(elements.size());
             elements.push_back(std::move(inner));
@@ -222,6 +226,7 @@ class Reflection {
     void add_constants() {
         for (const spirv::Instruction& instruction : module_.instructions) {
             const auto is = [&](spv::Op opcode) { return instruction.opcode == opcode; };
+            if (is(spv::OpFunction)) break;
             const auto id = module_.decoration(instruction.result, spv::DecorationSpecId);
             if (!id || instruction.result == Id::none) continue;
             const std::string type = type_name(module_, instruction.type);
@@ -286,7 +291,7 @@ class Reflection {
         std::vector<Block>& blocks = is_pushed    ? interface_.push_constants
                                      : is_storage ? interface_.storage_blocks
                                                   : interface_.blocks;
-        for (Block& element : elements_of(block, extents)) blocks.push_back(std::move(element));
+        for (Block& element : elements_of(std::move(block), extents)) blocks.push_back(std::move(element));
     }
 
     void add_uniform(const spirv::Variable& variable) {

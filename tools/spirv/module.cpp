@@ -14,6 +14,7 @@ namespace gobo::spirv {
 namespace {
 
 constexpr std::size_t kHeaderWords = 5;
+constexpr std::size_t kUsualWords = 4;  ///< of an instruction
 /// SPIR-V's universal limit on the nesting of structs (specification, 2.17).
 constexpr std::uint32_t kDeepest = 255;
 /// Far above what any shader declares; keeps structs of structs of structs from growing without end.
@@ -33,6 +34,9 @@ constexpr auto kLeastWords = [] {
     least[spv::OpTypeImage] = 9;
     return least;
 }();
+
+/// What a name is of: Module::names is sorted by it.
+constexpr auto kPlace = [](const auto& name) { return name.first; };
 
 std::optional<Scalar> scalar_of(const Instruction& number) {
     using enum Scalar;
@@ -56,7 +60,9 @@ class Reader {
     Result<Module> read() {
         try {
             read_header();
+            module_.instructions.reserve(words_.size() / kUsualWords);
             while (position_ < words_.size()) read_instruction();
+            std::ranges::stable_sort(module_.names, {}, kPlace);
         } catch (Diagnostics& wrong) {
             return tl::unexpected(std::move(wrong));
         }
@@ -156,7 +162,7 @@ class Reader {
     void read_name(const Instruction& instruction, int member, std::size_t first) {
         // Strings are filled up with zeros to whole words.
         if (instruction.words.back() >> 24 != 0) return stop("a string without an end");
-        module_.names.try_emplace({instruction.id(1), member}, instruction.words.subspan(first));
+        module_.names.emplace_back(std::pair(instruction.id(1), member), instruction.words.subspan(first));
     }
 
     void read_decoration(const Instruction& instruction, int member, std::size_t at) {
@@ -352,8 +358,9 @@ const Instruction* Module::definition(Id id) const {
 }
 
 std::string Module::name(Id id, int member) const {
-    const auto found = names.find({id, member});
-    return found == names.end() ? std::string() : literal_text(found->second);
+    const std::pair place(id, member);
+    const auto found = std::ranges::lower_bound(names, place, {}, kPlace);
+    return found == names.end() || found->first != place ? std::string() : literal_text(found->second);
 }
 
 std::optional<std::uint32_t> Module::decoration(Id id, spv::Decoration kind, int member) const {

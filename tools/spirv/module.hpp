@@ -115,8 +115,8 @@ struct Module {
     /// Arrays whose size is computed from specialisation constants and is, by their defaults, none that an
     /// array can have, or not known. They stand there with one element.
     std::set<Id> unknown_sizes;
-    /// Literal strings that name ids and members of structs (kWhole: the id itself).
-    std::map<std::pair<Id, int>, std::span<const std::uint32_t>> names;
+    /// Literal strings that name ids and members of structs (kWhole: the id itself), sorted by these.
+    std::vector<std::pair<std::pair<Id, int>, std::span<const std::uint32_t>>> names;
     /// By id and member: the decoration's first literal, 0 where it has none.
     std::map<std::tuple<Id, int, spv::Decoration>, std::uint32_t> decorations;
 

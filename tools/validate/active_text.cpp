@@ -31,6 +31,10 @@ void add_piece(ActiveText& found, const Piece& piece) {
         if (auto clean = clean_text(text, piece.path))
             text = found.without_comments.emplace_back(std::move(clean->code));
     for (int number = 1; !text.empty(); ++number) {
+        // Most lines are empty: those of the file that stand before the piece.
+        const std::size_t empty = std::min(text.find_first_not_of('\n'), text.size());
+        number += static_cast<int>(empty);
+        text.remove_prefix(empty);
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(line.size() + 1, text.size()));
         const std::string_view code = trim_left(line);
@@ -38,7 +42,8 @@ void add_piece(ActiveText& found, const Piece& piece) {
         if (code.front() == '#') {
             add_directive(found, {{}, code.substr(1), &piece, number});
         } else if (found.conditions.is_active()) {
-            for (const std::string_view token : tokens_of(code))
+            std::string_view rest = code;
+            for (auto token = next_token(rest); !token.empty(); token = next_token(rest))
                 found.tokens.push_back({token, &piece, number});
         }
     }

@@ -110,9 +110,11 @@ BatchResult BatchWorker::work_off(const Batch& batch, const GivenUp& given_up, N
                 parsed_.at(stage) = {nullptr, false, stopped->second};
             // Not before its last program: glslang assigns locations then, which would disturb later links.
             if (std::ranges::binary_search(batch.own, stage)) result.stages.push_back(generate(stage, note));
+            // Trees are large, and memory is fast that was used just before. The next batch may go on with
+            // the first stages of the last program.
             const auto at = parsed_.find(stage);
-            if (stage == program.back() || (at->second.glslang && at->second.glslang->is_changed()))
-                parsed_.erase(at);
+            const bool may_go_on = number == batch.programs.back() && stage != program.back();
+            if (!may_go_on || (at->second.glslang && at->second.glslang->is_changed())) parsed_.erase(at);
         }
     }
     note = 0;

@@ -118,9 +118,11 @@ SpirvModule spirv_of(const glslang::TIntermediate& intermediate, bool debug_info
 }
 
 /// Whether a sampler is bound to 0, which may be glslang's word for nothing stated; of a block it says so.
-bool may_lack_bindings(const Interface& interface) {
-    return std::ranges::any_of(interface.samplers,
-                               [](const Sampler& sampler) { return sampler.binding == 0; });
+bool may_lack_bindings(const Interface& interface, const std::vector<const Piece*>& pieces) {
+    return std::ranges::any_of(interface.samplers, [&](const Sampler& sampler) {
+        return sampler.binding == 0 &&
+               !declaration_of(sampler.name, "SAMPLER", pieces).quoted_line.starts_with("SAMPLER(0,");
+    });
 }
 
 bool is_block(std::string_view declaration) {
@@ -426,7 +428,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
         std::ranges::move(check_vulkan(kind_, stage.interface, pieces_),
                           std::back_inserter(stage.diagnostics));
     const bool asks_for_bindings =
-        !is_spirv(dialect_) && (bindings_mapped_ || may_lack_bindings(stage.interface));
+        !is_spirv(dialect_) && (bindings_mapped_ || may_lack_bindings(stage.interface, pieces_));
     if (asks_for_bindings || may_hold_bools(stage.interface)) {
         program.buildReflection(EShReflectionAllBlockVariables | EShReflectionSharedStd140UBO |
                                 EShReflectionSeparateBuffers);

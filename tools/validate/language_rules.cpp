@@ -128,13 +128,13 @@ class LanguageCheck {
 
     [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
     [[nodiscard]] bool is_name(std::size_t index) const {
-        return !at(index).empty() && is_identifier(at(index));
+        return !at(index).empty() && is_identifier_start(at(index).front());
     }
     [[nodiscard]] bool is_macro(std::size_t index) const { return text_.is_macro(index); }
 
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
-        if (!is_identifier(token.text)) return;
+        if (!is_name(index)) return;
         check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
         // A member may be called so.
@@ -142,11 +142,11 @@ class LanguageCheck {
             check_since(token, *since, fmt::format("'{}'", token.text));
         if (is_any(token.text, {"highp", "mediump", "lowp"})) check_precision(index);
         // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser keeps them.
-        const bool is_kept = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
-                             : token.text == "row_major" ? !version_.es && version_.number >= 130
-                             : is_any(token.text, {"image2DMS", "iimage2DMS", "uimage2DMS"})
-                                 ? is_before(420) && version_.number >= 130
-                                 : false;
+        const bool is_kept = token.text == "packed" ? version_.number >= (version_.es ? 300 : 140)
+                             : token.text == "row_major"
+                                 ? !version_.es && version_.number >= 130
+                                 : is_before(420) && version_.number >= 130 &&
+                                       is_any(token.text, {"image2DMS", "iimage2DMS", "uimage2DMS"});
         if (is_kept && index > 0 && is_name(index - 1) && !is_macro(index - 1) && !is_macro(index))
             refuse(token,
                    fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
@@ -248,18 +248,24 @@ class LanguageCheck {
                 refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
                        "take it out: what a vertex stage writes can be invariant");
             if (depth == 1 && token == "{") check_block(begin, i);
-            if (depth == 0 && token == "(" && is_name(i - 1)) check_header(begin, i);
-            if (depth == 0 && token == ";") has_layout_ = has_layout_ || states_layout(begin, i);
-            if (depth > 0 && is_before(1000) && version_.number >= 120) check_prototype(i);
-            if (depth == 0 && token == ";") check_local_size(begin, i);
-            if (depth == 0 && token == ";") check_old_qualifier(begin, i);
-            if (depth == 0 && token == ";") check_counter(begin, i);
-            if (depth == 0 && token == ";" && version_.es) check_image(begin, i);
-            if (depth == 0 && token == "[") check_distances(i);
-            if (depth == 0 && token == ";") check_interpolation(begin, i);
-            if (depth == 0 && token == ";" && i == begin + 1) check_lone(begin);
-            if (depth == 0 && (token == ";" || token == "}")) begin = i + 1;
+            if (depth > 0 && token == "(" && is_before(1000) && version_.number >= 120) check_prototype(i);
+            if (depth != 0) continue;
+            if (token == "(" && is_name(i - 1)) check_header(begin, i);
+            if (token == "[") check_distances(i);
+            if (token == ";") check_statement(begin, i);
+            if (token == ";" || token == "}") begin = i + 1;
         }
+    }
+
+    /// What ends with a `;` outside of functions and blocks.
+    void check_statement(std::size_t begin, std::size_t end) {
+        has_layout_ = has_layout_ || states_layout(begin, end);
+        check_local_size(begin, end);
+        check_old_qualifier(begin, end);
+        check_counter(begin, end);
+        if (version_.es) check_image(begin, end);
+        check_interpolation(begin, end);
+        if (end == begin + 1) check_lone(begin);
     }
 
     /// `in;` alone: only a layout(...) makes a default of it (GLSL 4.60, 4.4).
@@ -354,14 +360,15 @@ class LanguageCheck {
         return false;
     }
 
-    /// `float f(float x);` within a function.
-    void check_prototype(std::size_t index) {
-        if (at(index + 2) != "(" || !is_name(index) || !is_name(index + 1)) return;
-        if (is_any(at(index), {"return", "else", "do", "case"}) ||
-            is_any(at(index + 1), {"if", "for", "while", "switch", "layout", "return"}) || is_macro(index) ||
-            is_macro(index + 1))
+    /// `float f(float x);` within a function, by its `(`.
+    void check_prototype(std::size_t bracket) {
+        const std::size_t name = bracket - 1;
+        if (!is_name(name - 1) || !is_name(name)) return;
+        if (is_any(at(name - 1), {"return", "else", "do", "case"}) ||
+            is_any(at(name), {"if", "for", "while", "switch", "layout", "return"}) || is_macro(name - 1) ||
+            is_macro(name))
             return;
-        refuse(tokens_[index + 1], fmt::format("the function '{}' is declared within another", at(index + 1)),
+        refuse(tokens_[name], fmt::format("the function '{}' is declared within another", at(name)),
                "declare it before, outside of any function");
     }
 

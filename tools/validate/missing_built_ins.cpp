@@ -83,9 +83,8 @@ MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
                                   const std::vector<const Piece*>& pieces) {
     MissingBuiltIns found;
     for (const BuiltIn& built_in : kBuiltIns) {
-        const bool is_mentioned = std::ranges::any_of(
-            pieces, [&](const Piece* piece) { return piece->text.find(built_in.name) != std::string::npos; });
-        if (!is_mentioned || !has(built_in, stage, prologue)) continue;
+        const auto mentions = [&](const Piece* piece) { return contains(piece->text, built_in.name); };
+        if (!has(built_in, stage, prologue) || std::ranges::none_of(pieces, mentions)) continue;
         const std::string name = own_name(built_in.name);
         if (built_in.type == "DepthRange") {
             found.renamed.emplace_back("gl_DepthRangeParameters", name + "Parameters");

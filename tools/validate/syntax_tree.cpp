@@ -13,17 +13,26 @@
 namespace gobo {
 namespace {
 
+bool has_declaration(std::string_view text) {
+    for (auto i = text.find(')'); i != std::string_view::npos; i = text.find(')', i + 1)) {
+        const std::size_t next = text.find_first_not_of(" \t\n", i + 1);
+        if (next != std::string_view::npos && text[next] == ';') return true;
+    }
+    return false;
+}
+
 /// Whether `);` stands anywhere outside of functions: most stages declare none without a body.
 bool may_declare_functions(const std::vector<const Piece*>& pieces) {
+    const auto is_brace = [](char character) { return character == '{' || character == '}'; };
     int braces = 0;
     for (const Piece* const piece : pieces) {
-        const std::string& text = piece->text;
-        for (std::size_t i = 0; i < text.size(); ++i) {
-            if (text[i] == '{') ++braces;
-            if (text[i] == '}') --braces;
-            if (text[i] != ')' || braces != 0) continue;
-            const std::size_t next = text.find_first_not_of(" \t\n", i + 1);
-            if (next != std::string::npos && text[next] == ';') return true;
+        const std::string_view text = piece->text;
+        for (auto begin = text.begin(); begin != text.end();) {
+            const auto brace = std::find_if(begin, text.end(), is_brace);
+            if (braces == 0 && has_declaration({begin, brace})) return true;
+            if (brace == text.end()) break;
+            braces += *brace == '{' ? 1 : -1;
+            begin = brace + 1;
         }
     }
     return false;
