@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -148,33 +149,37 @@ std::vector<std::string> case_names() {
     return names;
 }
 
-class MachineMessages : public testing::TestWithParam<std::string> {};
+/// By the case and the format.
+class MachineMessages : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(MachineMessages, HoldWhatReadersAreTold) {
+    const auto& [name, format] = GetParam();
     const DiskFileSystem disk;
-    const CaseFile file = read_case(disk.read(cases_folder + "/" + GetParam() + ".txt").value());
+    const CaseFile file = read_case(disk.read(cases_folder + "/" + name + ".txt").value());
     std::map<std::string, int> told;  // by severity
     for (const std::string& line : split(file.answer, '\n'))
         for (const char* severity : {"error", "warning", "note"})
             if (line.find(fmt::format(": {}: ", severity)) != std::string::npos) ++told[severity];
-    for (const char* format : {"json", "sarif"}) {
-        const Answer answer = answer_of(file, format);
-        EXPECT_EQ(fmt::format("exit {}", answer.status), file.answer.substr(0, 6)) << answer.messages;
-        const Json document = Json::parse(answer.messages, nullptr, false);
-        ASSERT_FALSE(document.is_discarded()) << answer.messages;
-        const bool is_sarif = std::string_view(format) == "sarif";
-        if (is_sarif) {
-            EXPECT_THAT(faults_of(document), testing::IsEmpty()) << answer.messages;
-        }
-        const Json& list = is_sarif ? document.at("runs").at(0).at("results") : document.at("diagnostics");
-        std::map<std::string, int> found;
-        for (const Json& one : list) ++found[one.at(is_sarif ? "level" : "severity").get<std::string>()];
-        EXPECT_EQ(found, told) << answer.messages;
+    const Answer answer = answer_of(file, format);
+    EXPECT_EQ(fmt::format("exit {}", answer.status), file.answer.substr(0, 6)) << answer.messages;
+    const Json document = Json::parse(answer.messages, nullptr, false);
+    ASSERT_FALSE(document.is_discarded()) << answer.messages;
+    const bool is_sarif = format == "sarif";
+    if (is_sarif) {
+        EXPECT_THAT(faults_of(document), testing::IsEmpty()) << answer.messages;
     }
+    const Json& list = is_sarif ? document.at("runs").at(0).at("results") : document.at("diagnostics");
+    std::map<std::string, int> found;
+    for (const Json& one : list) ++found[one.at(is_sarif ? "level" : "severity").get<std::string>()];
+    EXPECT_EQ(found, told) << answer.messages;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, MachineMessages, testing::ValuesIn(case_names()),
-                         [](const auto& row) { return row.param; });
+constexpr auto name_of_row = [](const auto& row) {
+    return std::get<0>(row.param) + "_" + std::get<1>(row.param);
+};
+INSTANTIATE_TEST_SUITE_P(Cases, MachineMessages,
+                         testing::Combine(testing::ValuesIn(case_names()), testing::Values("json", "sarif")),
+                         name_of_row);
 
 TEST(MachineMessages, AreOfManyCases) {
     EXPECT_GE(case_names().size(), 100U);
