@@ -151,8 +151,9 @@ class LanguageCheck {
             refuse(token,
                    fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
                    "choose another name");
-        const bool is_removed = is_any(
-            token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords", "gl_MaxClipPlanes", "gl_MaxLights"});
+        const bool is_removed = token.text.starts_with("gl_Max") &&
+                                is_any(token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
+                                                    "gl_MaxClipPlanes", "gl_MaxLights"});
         if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
             refuse(token,
                    fmt::format("'{}' went with GLSL 1.40, but for the compatibility profile", token.text),
@@ -240,6 +241,7 @@ class LanguageCheck {
         int depth = 0;  // of braces
         std::size_t begin = 0;
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            if (is_name(i) && version_.number >= 130) continue;  // names matter to the oldest alone
             const std::string_view token = at(i);
             if (token == "{") ++depth;
             if (token == "}") --depth;
