@@ -105,7 +105,8 @@ TEST(WorstCase, OfAPhysicalSurfaceIsAPartOfWhatAWhiteOneWouldSend) {
     std::vector<Key> keys = {accurate};
     for (const Choice& choice : single_choices(pbr.family, effects_of(pbr.family, accurate)))
         keys.push_back(choice.key);
-    for (const WorstCase& one : find_worst_cases(pbr, keys, {4096}).value()) {
+    const auto found = find_worst_cases(pbr, keys, {4096}).value();
+    for (const WorstCase& one : found) {
         const std::string quality = quality_text(pbr.family, one.key);
         if (quality.empty()) {
             EXPECT_LT(one.error, 1e-9);
