@@ -187,12 +187,6 @@ glm::dvec3 entering_part(const Model& model, const glm::dvec3& mirrored) {
     return glm::max(1.0 - (model.extensions.empty() ? mirrored : glm::dvec3(most)), glm::dvec3(0));
 }
 
-/// Of a light, per solid angle.
-struct Reflected {
-    glm::dvec3 part{0};
-    double highlight = 0;  ///< D V alone
-};
-
 void add_environment(const Model& model, const Scene& scene, const PhysicalPoint& point,
                      const Surface& surface, PhysicalRadiance& radiance, Roundings& r) {
     glm::dvec3 scattered = surface.diffuse;
@@ -219,6 +213,12 @@ void add_environment(const Model& model, const Scene& scene, const PhysicalPoint
                      point.occlusion * sheen * point.ambient.value;
     radiance.largest += sheen * point.ambient.largest;
 }
+
+/// What leaves of a light, per solid angle.
+struct Reflected {
+    glm::dvec3 part{0};
+    double highlight = 0;  ///< D V alone
+};
 
 }  // namespace
 
