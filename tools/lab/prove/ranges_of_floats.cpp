@@ -190,7 +190,7 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
     const auto error = [&](const Range& result) {
         return with_error(result, expression.code, r[0], count > 1 ? r[1] : exactly(0));
     };
-    const auto rising_function = [&](const Range& range, double (*function)(double), int units) {
+    const auto rising_function = [&](const Range& range, int units, double (*function)(double)) {
         return error(widened(rounded(rising(range, function)), units));
     };
     Range result = kAnything;
@@ -285,12 +285,10 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             result = error(widened(rounded(between(1 / std::sqrt(r[0].high), 1 / std::sqrt(r[0].low))), 2));
             break;
         case extended(GLSLstd450Exp):
-            result = rising_function(
-                r[0], [](double x) { return std::exp(x); }, 2);
+            result = rising_function(r[0], 2, [](double x) { return std::exp(x); });
             break;
         case extended(GLSLstd450Exp2):
-            result = rising_function(
-                r[0], [](double x) { return std::exp2(x); }, 2);
+            result = rising_function(r[0], 2, [](double x) { return std::exp2(x); });
             break;
         case extended(GLSLstd450Log):
         case extended(GLSLstd450Log2):
@@ -337,30 +335,23 @@ void Ranges::evaluate_floats(const Expression& expression, std::uint32_t index, 
             result = error(within(-3.1415930, 3.1415930));
             break;
         case extended(GLSLstd450Asinh):
-            result = rising_function(
-                r[0], [](double x) { return std::asinh(x); }, 4);
+            result = rising_function(r[0], 4, [](double x) { return std::asinh(x); });
             break;
         case extended(GLSLstd450Sinh):
-            result = rising_function(
-                r[0], [](double x) { return std::sinh(x); }, 4);
+            result = rising_function(r[0], 4, [](double x) { return std::sinh(x); });
             break;
         case extended(GLSLstd450Cosh): {
             const Range size = size_of(r[0]);
-            result = rising_function(
-                size, [](double x) { return std::cosh(x); }, 4);
+            result = rising_function(size, 4, [](double x) { return std::cosh(x); });
             break;
         }
         case extended(GLSLstd450Acosh):
             nan = r[0].low < 1;
-            if (!nan)
-                result = rising_function(
-                    r[0], [](double x) { return std::acosh(x); }, 4);
+            if (!nan) result = rising_function(r[0], 4, [](double x) { return std::acosh(x); });
             break;
         case extended(GLSLstd450Atanh):
             nan = r[0].size() >= 1;
-            if (!nan)
-                result = rising_function(
-                    r[0], [](double x) { return std::atanh(x); }, 4);
+            if (!nan) result = rising_function(r[0], 4, [](double x) { return std::atanh(x); });
             break;
         case kSumOfProducts:
             result = count == 2 ? rounded(product(r[0], r[1]))
