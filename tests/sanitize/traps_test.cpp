@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, Trap, testing::ValuesIn(kRows), row_name);
 
 /// However often a loop runs into it.
 TEST(TrapInALoop, CountsEachPointOnce) {
-    for (const std::string trapping : {"table[k - 9]", "1.0 / (a - a)"}) {
+    for (const std::string trapping : {"table[k - 9]", "1.0 / (a - a)", "1.0 / (a - a) + 1.0 / (b - b)"}) {
         const std::string text = shader_with("for (int k = 0; k < 8; ++k) result += " + trapping + ";");
         const sanitize::SanitizeReport report = sanitized_text("trap.frag", text, {.points = 64});
         ASSERT_FALSE(report.findings.empty()) << trapping;

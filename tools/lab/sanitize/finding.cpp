@@ -389,9 +389,23 @@ class TrapObserver final : public evaluate::Observer<float> {
             known->second = operation_text(step, static_cast<std::size_t>(std::countr_zero(lanes)));
     }
 
-    /// A point counts once for a trap, however often a loop runs into it.
+    /// The first trap of the same place and message.
+    std::size_t first_alike(std::size_t trap) {
+        while (alike_.size() <= trap) {
+            const Finding& next = traps_[alike_.size()];
+            const auto is_alike = [&](const Finding& one) {
+                return one.place == next.place && one.message == next.message;
+            };
+            alike_.push_back(
+                static_cast<std::size_t>(std::ranges::find_if(traps_, is_alike) - traps_.begin()));
+        }
+        return alike_[trap];
+    }
+
+    /// A point counts once for a place and message, however often a loop, a call or another operation of the
+    /// line runs into it.
     void count(std::size_t trap, std::size_t batch, Lanes lanes) {
-        std::vector<Lanes>& counted = counted_[trap];
+        std::vector<Lanes>& counted = counted_[first_alike(trap)];
         if (batch < counted.size()) lanes &= ~counted[batch];
         traps_[trap].points += static_cast<std::uint64_t>(std::popcount(lanes));
         mark(counted, batch, lanes);
@@ -417,9 +431,11 @@ class TrapObserver final : public evaluate::Observer<float> {
     std::vector<Hit> clamped_;    ///< indices of the step at hand
     std::vector<Finding> traps_;  ///< in the order in which they first happened
     std::map<std::pair<std::uint32_t, std::string_view>, std::size_t>
-        trap_index_;                                     ///< by operation and message
-    std::map<std::size_t, std::vector<Lanes>> counted_;  ///< of a trap: lanes of each batch it was counted in
-    std::map<std::uint32_t, std::string> texts_;         ///< of operations that first used what nobody wrote
+        trap_index_;                  ///< by operation and message
+    std::vector<std::size_t> alike_;  ///< of each trap, as first_alike() has it
+    std::map<std::size_t, std::vector<Lanes>>
+        counted_;  ///< of such a first trap: lanes of each batch it was counted in
+    std::map<std::uint32_t, std::string> texts_;  ///< of operations that first used what nobody wrote
     std::vector<UndefinedOutput> undefined_;
     std::vector<Lanes> trapped_;       ///< of each batch up to the last in which anything trapped
     std::vector<Lanes> of_constants_;  ///< likewise
@@ -476,7 +492,7 @@ Result<std::vector<Finding>> find_traps(const evaluate::Program& program,
     std::vector<Finding> findings =
         output_findings(run, outputs, {observer.undefined_outputs(), is_trapped, is_of_constants}, bounds);
     for (const Finding& finding : observer.findings())
-        if (finding.points > 0) findings.push_back(finding);
+        if (finding.points > 0 || !finding.consequences.empty()) findings.push_back(finding);
     if (options.is_half) {
         GOBO_TRY(const auto lost, lost_numbers(run, options, outputs, observer));
         findings.insert(findings.end(), lost.begin(), lost.end());

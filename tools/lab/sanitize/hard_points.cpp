@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "core/numbers.hpp"
-#include "core/text.hpp"
 
 namespace gobo::sanitize {
 namespace {
@@ -42,39 +38,31 @@ void hard_direction(std::span<double> direction, Random& random) {
 /// Draws points into the place that it is given.
 class PointMaker {
   public:
-    PointMaker(const InputSpace& space, std::uint64_t seed) : space_(space), random_(seed) {
-        std::map<std::string, std::vector<const InputField*>> by_name;
-        for (const InputField& field : space.fields)
-            if (field.pixel < 0 && !field.is_texture && field.name.find('[') != std::string::npos)
-                by_name[without_subscripts(field.name)].push_back(&field);
-        for (auto& [name, elements] : by_name)
-            if (elements.size() > 1) arrays_.push_back(std::move(elements));
-    }
+    PointMaker(const InputSpace& space, std::uint64_t seed)
+        : space_(space), random_(seed), random_of_bounds_(~seed) {}
 
     void make(std::span<double> point) {
         point_ = point;
         hardness_ = random_.unit();
         for (const InputField& field : space_.fields) draw(field);
         if (space_.pixels > 1 && random_.one_in(2)) share_in_quad();
-        for (const auto& elements : arrays_)
-            if (random_.one_in(8)) make_alike(elements);
         for (std::size_t relations = random_.index(4); relations > 0; --relations) relate();
+        if (random_of_bounds_.one_in(32)) bring_to_bounds();
         for (const InputField& field : space_.fields)
             if (field.is_float())
                 for (double& number : value(field)) number = nearest_float(number);
     }
 
   private:
-    /// All elements of an array hold the same, often the most that they may: sums over them are largest
-    /// there.
-    void make_alike(const std::vector<const InputField*>& elements) {
-        const InputField& first = *elements.front();
-        if (!first.domain.of_length && random_.one_in(2))
-            std::ranges::fill(value(first).first(first.ranged()), first.domain.high);
-        for (const InputField* const element : elements) {
-            if (element->components != first.components) continue;
-            std::ranges::copy(value(first), value(*element).begin());
-            bring_into_domain(*element, value(*element));
+    /// Whole inputs at a bound, most at the upper one: sums over many numbers are largest there.
+    void bring_to_bounds() {
+        for (const InputField& field : space_.fields) {
+            if (field.is_texture || field.is_pixel_place() || field.domain.of_length) continue;
+            const bool is_low = random_of_bounds_.one_in(4);
+            for (std::size_t i = 0; i < field.ranged(); ++i) {
+                const Domain& domain = field.domain_of(i);
+                value(field)[i] = is_low ? domain.low : domain.high;
+            }
         }
     }
 
@@ -245,9 +233,9 @@ class PointMaker {
 
     const InputSpace& space_;
     Random random_;
-    std::span<double> point_;                             ///< being made
-    double hardness_ = 0;                                 ///< share of hard numbers at this point
-    std::vector<std::vector<const InputField*>> arrays_;  ///< their elements
+    Random random_of_bounds_;  ///< its own, so that the other points are the same without it
+    std::span<double> point_;  ///< being made
+    double hardness_ = 0;      ///< share of hard numbers at this point
 };
 
 /// Pixels of quads: neighbours differ by one.
