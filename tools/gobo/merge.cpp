@@ -188,6 +188,30 @@ std::string taken_column(CsvTable& table, std::string_view name) {
     return text;
 }
 
+/// Each shard has the parts of the first, in its order: figures of two chips are no figures of one run.
+Result<void> check_parts(const std::vector<std::vector<Rows>>& parts, const std::vector<Shard>& shards,
+                         const CsvTable& table) {
+    std::vector<std::vector<std::string>> names;  // of each shard
+    for (const auto& own : parts)
+        for (auto& list = names.emplace_back(); const Rows& part : own) {
+            std::string& name = list.emplace_back("figures");
+            for (std::size_t i = 0; i < table.column("key").value(); ++i)
+                name += fmt::format("{} {} '{}'", i > 0 ? "," : " of", table.columns[i], part.front()[i]);
+        }
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        for (const auto& [one, other] : {std::pair(i, std::size_t{0}), std::pair(std::size_t{0}, i)})
+            for (const std::string& name : names[one])
+                if (std::ranges::find(names[other], name) == names[other].end())
+                    return fail(Place{shards[one].path}, {},
+                                fmt::format("has {}, and {} has none", name, shards[other].path),
+                                "merge the shards of one run, all for the same chips");
+        if (names[i] != names[0])
+            return fail(Place{shards[i].path}, {},
+                        fmt::format("has its rows in another order than {}", shards[0].path), kRunAgain);
+    }
+    return {};
+}
+
 /// What stands before the column `key` parts the table: each part is put together by itself.
 Result<std::string> merged_csv(std::vector<Shard> shards) {
     CsvTable whole;
@@ -204,10 +228,9 @@ Result<std::string> merged_csv(std::vector<Shard> shards) {
                         "name what gobo test --figures, gobo cost --csv or gobo cost --json wrote");
         whole.columns = table.columns;
         parts.push_back(groups_of(table.rows, *key));
-        if (parts.back().size() != parts.front().size())
-            return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
     }
     GOBO_TRY_DO(check_shards(shards));
+    GOBO_TRY_DO(check_parts(parts, shards, whole));
     const std::size_t key = whole.column("key").value();
     for (std::size_t part = 0; part < parts.front().size(); ++part) {
         std::vector<std::vector<Rows>> groups;

@@ -21,15 +21,16 @@ struct BasicBlock {
     bool returns = false;
 };
 
-/// The basic blocks of one function, by label, in the order of the module.
+/// The basic blocks of one function, in the order of the module.
 struct Function {
-    std::vector<std::pair<Id, BasicBlock>> blocks;
+    std::vector<BasicBlock> blocks;
     std::vector<std::pair<std::size_t, Id>> calls;  ///< block, callee
 };
 
 class UsageReader {
   public:
-    explicit UsageReader(const Module& module) : module_(module), parts_(module.definitions.size()) {}
+    explicit UsageReader(const Module& module)
+        : module_(module), parts_(module.definitions.size()), places_(module.definitions.size()) {}
 
     Usage read() {
         for (const Variable& variable : module_.variables)
@@ -49,6 +50,12 @@ class UsageReader {
         return index < parts_.size() ? parts_[index] : nobody_;
     }
 
+    /// That of a block in its function, by its label.
+    [[nodiscard]] std::size_t place_of(Id label) const {
+        const auto index = static_cast<std::size_t>(label);
+        return index < places_.size() ? places_[index] : places_.size();
+    }
+
     void read_part(Id pointer) {
         if (part_of(pointer).first != Id::none) usage_.read.insert(part_of(pointer));
     }
@@ -64,7 +71,7 @@ class UsageReader {
     }
 
     BasicBlock* current_block() {
-        return function_ == nullptr || function_->blocks.empty() ? nullptr : &function_->blocks.back().second;
+        return function_ == nullptr || function_->blocks.empty() ? nullptr : &function_->blocks.back();
     }
 
     void follow_chain(const Instruction& chain) {
@@ -92,7 +99,9 @@ class UsageReader {
                 function_ = nullptr;
                 return;
             case spv::OpLabel:
-                if (function_ != nullptr) function_->blocks.emplace_back(instruction.result, BasicBlock{});
+                if (function_ == nullptr) return;
+                places_[static_cast<std::size_t>(instruction.result)] = function_->blocks.size();
+                function_->blocks.emplace_back();
                 return;
             case spv::OpBranch:
                 return end_block({instruction.id(1)});
@@ -156,21 +165,22 @@ class UsageReader {
         if (!is_new) return known->second;  // 0 within a recursion, which OpenGL forbids
         Function& function = found->second;
         for (const auto& [block, callee] : function.calls)
-            function.blocks[block].second.writes |= written_by(callee);
-        std::unordered_map<Id, Outputs> before;  // on every path that leads to the block
-        for (const auto& [label, block] : function.blocks) before[label] = kAll;
-        if (!function.blocks.empty()) before[function.blocks.front().first] = 0;
+            function.blocks[block].writes |= written_by(callee);
+        std::vector<Outputs> before(function.blocks.size(), kAll);  // on every path that leads to the block
+        if (!before.empty()) before.front() = 0;
         Outputs always = kAll;
         for (bool changed = true; changed;) {
             changed = false;
             always = kAll;
-            for (const auto& [label, block] : function.blocks) {
-                const Outputs after = before[label] | block.writes;
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                const BasicBlock& block = function.blocks[i];
+                const Outputs after = before[i] | block.writes;
                 if (block.returns) always &= after;
                 for (const Id next : block.next) {
-                    Outputs& there = before[next];
-                    changed = changed || (there & after) != there;
-                    there &= after;
+                    const std::size_t place = place_of(next);
+                    if (place >= before.size()) continue;  // of no function, or of a longer one
+                    changed = changed || (before[place] & after) != before[place];
+                    before[place] &= after;
                 }
             }
         }
@@ -178,7 +188,8 @@ class UsageReader {
     }
 
     const Module& module_;
-    std::vector<Part> parts_;  ///< by pointer: the variable that it leads to
+    std::vector<Part> parts_;          ///< by pointer: the variable that it leads to
+    std::vector<std::size_t> places_;  ///< by label: that of the block in its function
     Part nobody_;
     std::vector<Part> outputs_;
     std::unordered_map<Id, Function> functions_;

@@ -1,9 +1,10 @@
 // The lines of a stage that may be compiled, as tokens.
 #pragma once
 
-#include <deque>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -16,6 +17,8 @@ struct Token {
     std::string_view text;
     const Piece* piece;
     int line;
+    bool is_name;   ///< or a word of the language
+    bool is_noted;  ///< as is_noted() says
 };
 
 /// A line that begins with `#` and is read: "define" and "X 1".
@@ -26,7 +29,25 @@ struct ActiveDirective {
     int line;
 };
 
-/// What no condition leaves out of a stage. It points into the pieces and into itself.
+/// A piece as all stages that have it read it.
+struct ReadPiece {
+    std::vector<Token> tokens;
+    std::vector<ActiveDirective> directives;
+    std::vector<std::size_t> tokens_before;  ///< each of the directives
+    std::string without_comments;            ///< pointed into, where the piece has comments
+    bool differs_from_drivers = false;       ///< as differs_from_drivers() says
+};
+
+/// Pieces but for prologues, each read once. They must outlive it and stay as they are.
+class ReadPieces {
+  public:
+    const ReadPiece& of(const Piece& piece);
+
+  private:
+    std::unordered_map<const Piece*, ReadPiece> known_;
+};
+
+/// What no condition leaves out of a stage. It points into the pieces and their tokens.
 struct ActiveText {
     ActiveText(std::string_view prologue, bool is_shipped) : conditions(prologue, is_shipped) {}
 
@@ -34,16 +55,19 @@ struct ActiveText {
     [[nodiscard]] std::string_view at(std::size_t index) const {
         return index < tokens.size() ? tokens[index].text : std::string_view();
     }
+    [[nodiscard]] bool is_name(std::size_t index) const {
+        return index < tokens.size() && tokens[index].is_name;
+    }
     [[nodiscard]] bool is_macro(std::size_t index) const { return conditions.is_defined(at(index)) != 0; }
 
     std::vector<Token> tokens;
     std::vector<ActiveDirective> directives;
-    Conditions conditions;                     ///< at the end of the last piece
-    std::deque<std::string> without_comments;  ///< texts that are pointed into
+    Conditions conditions;  ///< at the end of the last piece
 };
 
 /// That of a stage, without its first piece, the prologue. Where drivers get the text, the macros that they
 /// do not define are not defined.
-[[nodiscard]] ActiveText active_text(const std::vector<const Piece*>& pieces, Dialect dialect);
+[[nodiscard]] ActiveText active_text(const std::vector<const Piece*>& pieces, Dialect dialect,
+                                     ReadPieces& read);
 
 }  // namespace gobo

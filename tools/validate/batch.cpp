@@ -130,8 +130,8 @@ BatchWorker::Parsed& BatchWorker::parsed(int stage, const GivenUp& given_up, Not
         parsed.diagnostics = reason->second;
         return parsed;
     }
-    parsed.glslang = std::make_unique<GlslangStage>(composition_.stage(stage).kind,
-                                                    pieces_of(composition_, stage), composition_.dialect);
+    parsed.glslang = std::make_unique<GlslangStage>(
+        composition_.stage(stage).kind, pieces_of(composition_, stage), composition_.dialect, read_);
     parsed.diagnostics = parsed.glslang->parse();
     parsed.is_fine = exit_status(parsed.diagnostics) == 0;
     return parsed;

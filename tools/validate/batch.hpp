@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/child_processes.hpp"
+#include "validate/active_text.hpp"
 #include "validate/validate.hpp"
 
 namespace gobo {
@@ -97,6 +98,7 @@ class BatchWorker {
     const std::vector<Program>& programs_;
     const std::set<int>& placing_;
     const ValidateOptions& options_;
+    ReadPieces read_;
     std::map<int, Parsed> parsed_;
 };
 

@@ -211,7 +211,7 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     for (const Piece* piece : pieces_) {
         const bool is_prologue = piece == pieces_.front();
         const bool is_changed = !built_ins.renamed.empty() || without_formats_ ||
-                                (is_shipped && differs_from_drivers(piece->text));
+                                (is_shipped && !is_prologue && read_.of(*piece).differs_from_drivers);
         const std::string& text =
             is_prologue ? shader_->prologue
             : !is_changed
@@ -311,7 +311,7 @@ Diagnostics GlslangStage::parse() {
     Diagnostics more;
     // Vulkan's language is what glslang takes.
     if (dialect_ != Dialect::vulkan) {
-        const ActiveText text = active_text(pieces_, dialect_);
+        const ActiveText text = active_text(pieces_, dialect_, read_);
         stated_ = stated_in(text, default_precisions(kind_, pieces_.front()->text));
         makes_invariant_ = kind_ == StageKind::vertex && makes_outputs_invariant(text, version_of(prologue));
         more = check_language(kind_, pieces_, text, dialect_);
@@ -356,7 +356,8 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
             prologue.text += fmt::format("#define {0} {0}_of_{1}\n", name, name_of(stage->kind_));
         is_changed = is_changed || prologue.text.size() > pieces.front()->text.size();
         pieces.front() = &prologue;
-        apart.push_back(std::make_unique<GlslangStage>(stage->kind_, std::move(pieces), stage->dialect_));
+        apart.push_back(
+            std::make_unique<GlslangStage>(stage->kind_, std::move(pieces), stage->dialect_, stage->read_));
         linked.push_back(apart.back().get());
     }
     if (!is_changed) return found;

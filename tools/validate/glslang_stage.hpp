@@ -15,11 +15,12 @@
 
 namespace gobo {
 
-/// A parsed stage. The pieces must outlive it. Not safe for use by two threads at once.
+/// A parsed stage. The pieces and what is read of them must outlive it. Not safe for use by two threads at
+/// once.
 class GlslangStage {
   public:
-    GlslangStage(StageKind kind, std::vector<const Piece*> pieces, Dialect dialect = Dialect::own)
-        : kind_(kind), pieces_(std::move(pieces)), dialect_(dialect) {}
+    GlslangStage(StageKind kind, std::vector<const Piece*> pieces, Dialect dialect, ReadPieces& read)
+        : kind_(kind), pieces_(std::move(pieces)), dialect_(dialect), read_(read) {}
 
     /// Parses under OpenGL 4.5's rules for SPIR-V; a version that SPIR-V does not know is first parsed by its
     /// own rules, then raised. For Vulkan under the rules of Vulkan 1.0. Where SPIR-V is shipped, locations
@@ -58,6 +59,7 @@ class GlslangStage {
     StageKind kind_;
     std::vector<const Piece*> pieces_;
     Dialect dialect_;
+    ReadPieces& read_;
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;

@@ -15,7 +15,15 @@
 namespace gobo {
 namespace {
 
+constexpr std::array<std::string_view, 3> kPrecisions = {"highp", "mediump", "lowp"};
+constexpr std::array<std::string_view, 3> kMultisampled = {"image2DMS", "iimage2DMS", "uimage2DMS"};
+constexpr std::array<std::string_view, 4> kRemoved = {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
+                                                      "gl_MaxClipPlanes", "gl_MaxLights"};
+
 bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::ranges::find(words, word) != words.end();
+}
+bool is_any(std::string_view word, const auto& words) {
     return std::ranges::find(words, word) != words.end();
 }
 
@@ -41,7 +49,7 @@ class LanguageCheck {
         for (const ActiveDirective& directive : text_.directives) check_directive(directive);
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             if (at(i) == "struct") structs_.insert(at(i + 1));
-            check_token(i);
+            if (tokens_[i].is_noted) check_token(i);
         }
         check_declarations();
         return std::move(found_);
@@ -127,33 +135,27 @@ class LanguageCheck {
     }
 
     [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
-    [[nodiscard]] bool is_name(std::size_t index) const {
-        return !at(index).empty() && is_identifier_start(at(index).front());
-    }
+    [[nodiscard]] bool is_name(std::size_t index) const { return text_.is_name(index); }
     [[nodiscard]] bool is_macro(std::size_t index) const { return text_.is_macro(index); }
 
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
-        if (!is_name(index)) return;
         check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
         // A member may be called so.
         if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")
             check_since(token, *since, fmt::format("'{}'", token.text));
-        if (is_any(token.text, {"highp", "mediump", "lowp"})) check_precision(index);
+        if (is_any(token.text, kPrecisions)) check_precision(index);
         // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser keeps them.
-        const bool is_kept = token.text == "packed" ? version_.number >= (version_.es ? 300 : 140)
-                             : token.text == "row_major"
-                                 ? !version_.es && version_.number >= 130
-                                 : is_before(420) && version_.number >= 130 &&
-                                       is_any(token.text, {"image2DMS", "iimage2DMS", "uimage2DMS"});
+        const bool is_kept = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
+                             : token.text == "row_major" ? !version_.es && version_.number >= 130
+                                                         : is_before(420) && version_.number >= 130 &&
+                                                               is_any(token.text, kMultisampled);
         if (is_kept && index > 0 && is_name(index - 1) && !is_macro(index - 1) && !is_macro(index))
             refuse(token,
                    fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
                    "choose another name");
-        const bool is_removed = token.text.starts_with("gl_Max") &&
-                                is_any(token.text, {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
-                                                    "gl_MaxClipPlanes", "gl_MaxLights"});
+        const bool is_removed = is_any(token.text, kRemoved);
         if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
             refuse(token,
                    fmt::format("'{}' went with GLSL 1.40, but for the compatibility profile", token.text),
@@ -513,6 +515,11 @@ class LanguageCheck {
 };
 
 }  // namespace
+
+bool is_noted(std::string_view name) {
+    return is_any(name, {"layout", "packed", "row_major", "__LINE__"}) || is_any(name, kPrecisions) ||
+           is_any(name, kMultisampled) || is_any(name, kRemoved) || name_since(name) != nullptr;
+}
 
 Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,
                            Dialect dialect) {

@@ -1,6 +1,7 @@
 // What glslang takes although the stage's version of GLSL, or OpenGL, has it not: drivers refuse it.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "compose/composition.hpp"
@@ -14,5 +15,8 @@ namespace gobo {
 /// piece is the prologue, which states version and extensions; `text` is that of the pieces.
 [[nodiscard]] Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces,
                                          const ActiveText& text, Dialect dialect);
+
+/// Whether a name says something to check_language() wherever it stands.
+[[nodiscard]] bool is_noted(std::string_view name);
 
 }  // namespace gobo

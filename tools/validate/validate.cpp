@@ -41,7 +41,8 @@ void build_tables(const Composition& composition) {
     }
     for (const std::string& version : versions) {
         const Piece piece{"", "", version + "void main() {}\n"};
-        GlslangStage(StageKind::vertex, {&piece}, composition.dialect).parse();
+        ReadPieces read;
+        GlslangStage(StageKind::vertex, {&piece}, composition.dialect, read).parse();
     }
 }
 
