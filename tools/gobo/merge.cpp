@@ -188,7 +188,8 @@ std::string taken_column(CsvTable& table, std::string_view name) {
     return text;
 }
 
-/// Each shard has the parts of the first, in its order: figures of two chips are no figures of one run.
+/// Each shard that has keys has the parts of the first, in its order: figures of two chips are no figures of
+/// one run.
 Result<void> check_parts(const std::vector<std::vector<Rows>>& parts, const std::vector<Shard>& shards,
                          const CsvTable& table) {
     std::vector<std::vector<std::string>> names;  // of each shard
@@ -199,6 +200,7 @@ Result<void> check_parts(const std::vector<std::vector<Rows>>& parts, const std:
                 name += fmt::format("{} {} '{}'", i > 0 ? "," : " of", table.columns[i], part.front()[i]);
         }
     for (std::size_t i = 1; i < names.size(); ++i) {
+        if (names[i].empty()) continue;
         for (const auto& [one, other] : {std::pair(i, std::size_t{0}), std::pair(std::size_t{0}, i)})
             for (const std::string& name : names[one])
                 if (std::ranges::find(names[other], name) == names[other].end())
@@ -220,6 +222,7 @@ Result<std::string> merged_csv(std::vector<Shard> shards) {
         CsvTable table = read_csv(shard.text);
         shard.number = taken_column(table, "shard");
         shard.run = taken_column(table, "run");
+        if (table.rows.empty()) shard.run = shards.front().run;  // no row could tell
         const auto key = table.column("key");
         if (!key || (!whole.columns.empty() && table.columns != whole.columns))
             return fail(Place{shard.path}, {},
@@ -231,6 +234,7 @@ Result<std::string> merged_csv(std::vector<Shard> shards) {
     }
     GOBO_TRY_DO(check_shards(shards));
     GOBO_TRY_DO(check_parts(parts, shards, whole));
+    for (auto& own : parts) own.resize(parts.front().size());
     const std::size_t key = whole.column("key").value();
     for (std::size_t part = 0; part < parts.front().size(); ++part) {
         std::vector<std::vector<Rows>> groups;

@@ -218,14 +218,16 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (!options.study.empty()) return cost_study(world, options, chips);
     if (options.specialized) return compare_specialized(world, options, chips);
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect, &options));
-    if (subject.composition.permutations.empty())
-        return Outcome{{}, warn_of_no_keys(subject.composition, "there is nothing to cost")};
+    // Of more shards than keys the last have none, and gobo merge wants a table of each.
+    const bool is_shard = !options.shard.empty() && (options.json || options.csv);
+    Diagnostics diagnostics = warn_of_no_keys(subject.composition, "there is nothing to cost");
+    if (!diagnostics.empty() && !is_shard) return Outcome{{}, std::move(diagnostics)};
     if (subject.are_files) GOBO_TRY_DO(refuse_other_files(subject.composition.permutations.front().stages));
     // Of a family with passes of other stages the rest is costed.
     const auto left_out = std::erase_if(subject.composition.permutations, [](const Permutation& permutation) {
         return !is_costed(permutation.stages);
     });
-    if (subject.composition.permutations.empty())
+    if (subject.composition.permutations.empty() && left_out > 0)
         return fail(Place{subject.family.family.path}, "",
                     "gobo cost compiles a vertex and a fragment stage or a compute stage, and no key of the "
                     "selection "
@@ -234,7 +236,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (!options.against.empty()) GOBO_TRY_DO(put_first(subject, options.against));
     GOBO_TRY(Validated validated, compile(world, subject, {.keep_spirv = true}));
     Pipelines pipelines = pipelines_of(options, subject, validated);
-    Diagnostics diagnostics = std::move(validated.diagnostics);
+    append(diagnostics, validated.diagnostics);
     if (left_out > 0)
         diagnostics.push_back(
             {.severity = Severity::warning,

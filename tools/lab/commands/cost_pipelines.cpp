@@ -127,7 +127,8 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
                                      const Subject& subject, const Pipelines& pipelines,
                                      const std::vector<cost::Chip>& chips, Diagnostics& diagnostics) {
     std::vector<cost::ChipCost> costs;
-    if (pipelines.list.empty()) return costs;
+    const bool has_keys = !subject.composition.permutations.empty();  // not each shard has
+    if (pipelines.list.empty() && has_keys) return costs;
     const auto answers =
         cost::compile_on_chips(world.disk, chips, pipelines.list, compile_options(options, world));
     for (std::size_t i = 0; i < chips.size(); ++i) {
@@ -160,7 +161,7 @@ std::vector<cost::ChipCost> costs_of(const World& world, const CostCommandOption
                                                    compiled.error()));
             }
         }
-        if (cost.keys.empty()) costs.pop_back();
+        if (cost.keys.empty() && has_keys) costs.pop_back();
     }
     return costs;
 }
