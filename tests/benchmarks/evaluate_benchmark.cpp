@@ -55,8 +55,8 @@ Invocations points(std::size_t count) {
         invocations.values[name + ".color"] = {1, 0.75, 0.5};
         invocations.values[name + ".falloff"] = {0.25};
     }
-    invocations.values["Fog.start"] = {0.5};
-    invocations.values["Fog.end"] = {2};
+    invocations.values["Fog.near"] = {0.5};
+    invocations.values["Fog.far"] = {2};
     return invocations;
 }
 
@@ -64,12 +64,12 @@ Invocations points(std::size_t count) {
 std::uint64_t arithmetic(const Program& program) {
     Options options;
     options.count = true;
-    const Result<Outputs> outputs = run<float>(program, points(1), options);
+    const Outputs outputs = run<float>(program, points(1), options).value();
     std::uint64_t sum = 0;
     for (std::size_t kind = 0; kind < kKinds; ++kind) {
         const auto is = [&](Kind one) { return kind == static_cast<std::size_t>(one); };
         if (!is(Kind::load) && !is(Kind::store) && !is(Kind::move) && !is(Kind::branch) && !is(Kind::call))
-            sum += outputs->counts[0][kind];
+            sum += outputs.counts[0][kind];
     }
     return sum;
 }
@@ -86,7 +86,7 @@ void straight_line(benchmark::State& state) {
     const Program program = program_of(ShaderStage::fragment, kShading);
     const Invocations invocations = points(4096);
     for (auto _ : state) {
-        Result<Outputs> outputs = run<T>(program, invocations);
+        Outputs outputs = run<T>(program, invocations).value();
         benchmark::DoNotOptimize(outputs);
     }
     report(state, program, invocations.count);

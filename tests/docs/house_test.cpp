@@ -1,4 +1,5 @@
 // Which folder of tools/ may include which: tools/CMakeLists.txt says so, and every #include keeps to it.
+// What all compilers take.
 #include <map>
 #include <regex>
 #include <set>
@@ -86,6 +87,22 @@ TEST(House, TheListNamesTheFoldersThatThereAre) {
     EXPECT_TRUE(allowed.contains("family"));
     EXPECT_TRUE(allowed.contains("lab/evaluate"));
     EXPECT_GT(allowed.size(), 15U);
+}
+
+/// What returns a subrange does not compile with clang 14 and the library of g++ 12.
+TEST(House, UsesNoAlgorithmThatClang14CannotCompile) {
+    const std::regex call(
+        "std::(views|ranges::(unique|(stable_)?partition|remove(_if)?|equal_range|rotate|"
+        "search|find_end|subrange))\\b");
+    const DiskFileSystem disk;
+    for (const std::string folder : {"tools", "tests", "examples"})
+        for (const std::string& file : disk.files_below(GOBO_SOURCE_DIR "/" + folder)) {
+            if (!file.ends_with(".cpp") && !file.ends_with(".hpp")) continue;
+            const std::string text = disk.read(GOBO_SOURCE_DIR "/" + folder + "/" + file).value();
+            std::smatch match;
+            EXPECT_FALSE(std::regex_search(text, match, call))
+                << folder << "/" << file << ": " << match.str();
+        }
 }
 
 }  // namespace

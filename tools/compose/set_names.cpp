@@ -107,7 +107,8 @@ Diagnostics unknown_set_names(const Family& family, const SearchPath& search,
     for (const auto& [name, place] : names) {
         const auto& candidates = are_resources_known ? resources : identifiers;
         std::vector<std::string> known(candidates.begin(), candidates.end());
-        std::ranges::stable_partition(known, [&](const std::string& one) { return one[0] == name[0]; });
+        std::stable_partition(known.begin(), known.end(),
+                              [first = name[0]](const std::string& one) { return one[0] == first; });
         const auto near = nearest(name, known);
         append(errors, fail(place, "",
                             fmt::format("'{}' under [[descriptor_sets]] is {}", name,

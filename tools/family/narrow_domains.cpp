@@ -115,7 +115,8 @@ Result<std::vector<Domain>> narrow_domains(Family& family, const std::vector<Dom
     std::vector<std::string> names;
     for (const Domain& known : family.domains) names.push_back(known.name);
     std::vector<Domain> all = narrower;
-    std::ranges::stable_partition(all, [](const Domain& stated) { return !is_constraint(stated.name); });
+    std::stable_partition(all.begin(), all.end(),
+                          [](const Domain& stated) { return !is_constraint(stated.name); });
     std::vector<Domain> narrowed;
     for (const Domain& stated : all) {
         const bool is_stated_by_both =

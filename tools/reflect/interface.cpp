@@ -202,7 +202,8 @@ namespace {
 /// Each stage may view the one memory of push constants by a block of its own, whatever its name.
 void add_push_constants(std::vector<Block>& list, const std::vector<Block>& more) {
     for (const Block& other : more) {
-        const auto [first, last] = std::ranges::equal_range(list, other.name, {}, &Block::name);
+        const auto first = std::ranges::lower_bound(list, other.name, {}, &Block::name);
+        const auto last = std::ranges::upper_bound(list, other.name, {}, &Block::name);
         const auto same = std::ranges::find(first, last, other.members, &Block::members);
         if (same == last) {
             list.insert(last, other);

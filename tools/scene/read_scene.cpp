@@ -69,7 +69,7 @@ void check_extensions(const Value& root, Scene& scene) {
     if (scene.is_physical)
         for (std::string& name : read_material_extensions()) known.push_back(std::move(name));
     std::ranges::sort(known);
-    known.erase(std::ranges::unique(known).begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
     for (const Value& value : root["extensionsRequired"].elements()) {
         std::string name;
         value.read(name);

@@ -43,6 +43,22 @@ void read_lines(std::string_view text, const Piece& piece, ReadPiece& read) {
     }
 }
 
+bool may_declare_functions(const ReadPiece& read) {
+    const std::vector<Token>& tokens = read.tokens;
+    const auto has_end = [](const ActiveDirective& directive) {
+        return directive.rest.find(';') != std::string_view::npos;
+    };
+    if (std::ranges::any_of(read.directives, has_end)) return true;  // of a macro
+    int depth = 0;                                                   // of braces
+    for (std::size_t i = 0; i < tokens.size() && depth >= 0; ++i) {
+        const std::string_view token = tokens[i].text;
+        if (token == "{") ++depth;
+        if (token == "}") --depth;
+        if (depth == 0 && token == ";" && i > 0 && tokens[i - 1].text == ")") return true;
+    }
+    return depth != 0;  // a function goes on in another piece
+}
+
 void add_tokens(ActiveText& found, const ReadPiece& read) {
     std::size_t done = 0;
     const auto add_up_to = [&](std::size_t end) {
@@ -73,6 +89,7 @@ const ReadPiece& ReadPieces::of(const Piece& piece) {
     if (text.find("//") != std::string_view::npos || text.find("/*") != std::string_view::npos)
         if (auto clean = clean_text(text, piece.path)) text = read.without_comments = std::move(clean->code);
     read_lines(text, piece, read);
+    read.may_declare_functions = gobo::may_declare_functions(read);
     read.differs_from_drivers = gobo::differs_from_drivers(piece.text);
     return read;
 }

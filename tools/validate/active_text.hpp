@@ -36,6 +36,7 @@ struct ReadPiece {
     std::vector<std::size_t> tokens_before;  ///< each of the directives
     std::string without_comments;            ///< pointed into, where the piece has comments
     bool differs_from_drivers = false;       ///< as differs_from_drivers() says
+    bool may_declare_functions = false;      ///< `);` may stand outside of functions
 };
 
 /// Pieces but for prologues, each read once. They must outlive it and stay as they are.

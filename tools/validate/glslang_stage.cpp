@@ -289,7 +289,7 @@ Diagnostics GlslangStage::parse() {
     without_formats_ = false;
     const std::string prologue = without_requirements(pieces_.front()->text);
     const bool has_switches = has_strict_switches(pieces_);
-    const bool asks = asks_for_tree(pieces_);
+    const bool asks = asks_for_tree(pieces_, read_);
     further_messages_ = has_switches || asks ? EShMsgAST : EShMsgDefault;
     Diagnostics found = parse_by_glslang(prologue);
     // That a macro gives `defined` is an error to glslang alone; it can be told to go on.

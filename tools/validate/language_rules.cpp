@@ -48,7 +48,6 @@ class LanguageCheck {
         check_extensions();
         for (const ActiveDirective& directive : text_.directives) check_directive(directive);
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
-            if (at(i) == "struct") structs_.insert(at(i + 1));
             if (tokens_[i].is_noted) check_token(i);
         }
         check_declarations();
@@ -140,6 +139,7 @@ class LanguageCheck {
 
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
+        if (token.text == "struct") structs_.insert(at(index + 1));
         check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
         // A member may be called so.
@@ -245,19 +245,20 @@ class LanguageCheck {
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             if (is_name(i) && version_.number >= 130) continue;  // names matter to the oldest alone
             const std::string_view token = at(i);
-            if (token == "{") ++depth;
-            if (token == "}") --depth;
+            const char mark = token.size() == 1 ? token.front() : ' ';
+            if (mark == '{') ++depth;
+            if (mark == '}') --depth;
             if (is_before(120)) check_constant(i);
             if (is_before(130) && token == "invariant" && at(i + 1).starts_with("gl_Frag"))
                 refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
                        "take it out: what a vertex stage writes can be invariant");
-            if (depth == 1 && token == "{") check_block(begin, i);
-            if (depth > 0 && token == "(" && is_before(1000) && version_.number >= 120) check_prototype(i);
+            if (depth == 1 && mark == '{') check_block(begin, i);
+            if (depth > 0 && mark == '(' && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth != 0) continue;
-            if (token == "(" && is_name(i - 1)) check_header(begin, i);
-            if (token == "[") check_distances(i);
-            if (token == ";") check_statement(begin, i);
-            if (token == ";" || token == "}") begin = i + 1;
+            if (mark == '(' && is_name(i - 1)) check_header(begin, i);
+            if (mark == '[') check_distances(i);
+            if (mark == ';') check_statement(begin, i);
+            if (mark == ';' || mark == '}') begin = i + 1;
         }
     }
 
@@ -517,8 +518,9 @@ class LanguageCheck {
 }  // namespace
 
 bool is_noted(std::string_view name) {
-    return is_any(name, {"layout", "packed", "row_major", "__LINE__"}) || is_any(name, kPrecisions) ||
-           is_any(name, kMultisampled) || is_any(name, kRemoved) || name_since(name) != nullptr;
+    return is_any(name, {"layout", "packed", "row_major", "struct", "__LINE__"}) ||
+           is_any(name, kPrecisions) || is_any(name, kMultisampled) || is_any(name, kRemoved) ||
+           name_since(name) != nullptr;
 }
 
 Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,

@@ -13,35 +13,9 @@
 namespace gobo {
 namespace {
 
-bool has_declaration(std::string_view text) {
-    for (auto i = text.find(')'); i != std::string_view::npos; i = text.find(')', i + 1)) {
-        const std::size_t next = text.find_first_not_of(" \t\n", i + 1);
-        if (next != std::string_view::npos && text[next] == ';') return true;
-    }
-    return false;
-}
-
-/// Whether `);` stands anywhere outside of functions: most stages declare none without a body.
-bool may_declare_functions(const std::vector<const Piece*>& pieces) {
-    const auto is_brace = [](char character) { return character == '{' || character == '}'; };
-    int braces = 0;
-    for (const Piece* const piece : pieces) {
-        const std::string_view text = piece->text;
-        for (auto begin = text.begin(); begin != text.end();) {
-            const auto brace = std::find_if(begin, text.end(), is_brace);
-            if (braces == 0 && has_declaration({begin, brace})) return true;
-            if (brace == text.end()) break;
-            braces += *brace == '{' ? 1 : -1;
-            begin = brace + 1;
-        }
-    }
-    return false;
-}
-
 /// The names of functions that a stage declares by `float f(float x);`.
 std::set<std::string_view> declared_functions(const std::vector<const Piece*>& pieces) {
     std::set<std::string_view> names;
-    if (!may_declare_functions(pieces)) return names;
     int braces = 0;
     for (const Piece* const piece : pieces) {
         const std::vector<std::string_view> tokens = tokens_of(piece->text);
@@ -95,7 +69,7 @@ void set_precisions(const std::string& path, std::vector<Member>& members, const
 
 }  // namespace
 
-bool asks_for_tree(const std::vector<const Piece*>& pieces) {
+bool asks_for_tree(const std::vector<const Piece*>& pieces, ReadPieces& read) {
     const auto has_plain_uniform = [](const Piece* piece) {
         const std::string& text = piece->text;
         for (std::size_t at = text.find("uniform"); at != std::string::npos;
@@ -107,8 +81,11 @@ bool asks_for_tree(const std::vector<const Piece*>& pieces) {
         }
         return false;
     };
+    const auto may_declare = [&](const Piece* piece) {
+        return piece != pieces.front() && read.of(*piece).may_declare_functions;
+    };
     return (version_of(pieces.front()->text).es && std::ranges::any_of(pieces, has_plain_uniform)) ||
-           !declared_functions(pieces).empty();
+           (std::ranges::any_of(pieces, may_declare) && !declared_functions(pieces).empty());
 }
 
 Precisions precisions_of(std::string_view tree) {

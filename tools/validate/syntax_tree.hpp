@@ -12,12 +12,13 @@
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
 #include "reflect/interface.hpp"
+#include "validate/active_text.hpp"
 
 namespace gobo {
 
 /// Whether there may be something to read from the tree: uniforms with a precision, or functions that are
 /// declared without a body.
-[[nodiscard]] bool asks_for_tree(const std::vector<const Piece*>& pieces);
+[[nodiscard]] bool asks_for_tree(const std::vector<const Piece*>& pieces, ReadPieces& read);
 
 /// "highp", "mediump" or "lowp" by the name of a uniform, "lamps.color" of a member, without indices.
 using Precisions = std::map<std::string, std::string, std::less<>>;

@@ -469,7 +469,7 @@ Result<ResolvedUniforms> resolve_uniforms(const Interface& interface, const std:
             without_value.insert(without_subscripts(leaf.name));
     }
     std::vector<RenderValue> ordered = values;  // what is said of all elements, then of one
-    std::ranges::stable_partition(ordered, is_of_all_elements);
+    std::stable_partition(ordered.begin(), ordered.end(), is_of_all_elements);
     std::vector<const RenderValue*> unused;
     std::set<std::string> given;
     for (const RenderValue& value : ordered) {
