@@ -1,6 +1,8 @@
-// lavapipe that aborts where it gets SPIR-V that names abort_here. RENDERER_LOST_AT is the submission of a process
-// at which its device is lost, RENDERER_TALKS has it print to standard output, and RENDERER_EXITS end the process
-// as it is opened. A test gives it to Vulkan's loader by VK_ICD_FILENAMES, and Mesa's own by RENDERER_DRAWS.
+// lavapipe that aborts where it gets SPIR-V that names abort_here. RENDERER_LOST_AT is the submission of a
+// process at which its device is lost, RENDERER_TALKS has it print to standard output, and RENDERER_EXITS end
+// the process as it is opened. A test gives it to Vulkan's loader by VK_ICD_FILENAMES, and Mesa's own by
+// RENDERER_DRAWS.
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
