@@ -70,7 +70,7 @@ void find_faults(const Json& value, const std::string& object, const std::string
     if (!value.is_object()) return faults.push_back(at + " is no object");
     const std::vector<Property>& properties = kSchema.at(object);
     for (const auto& [name, held] : value.items()) {
-        const auto known = std::ranges::find_if(properties, [&](const auto& p) { return p.name == name; });
+        const auto known = std::ranges::find(properties, name, &Property::name);
         const std::string here = at + "." + name;
         if (known == properties.end()) {
             faults.push_back(here + " is not in the schema");

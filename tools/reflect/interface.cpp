@@ -150,7 +150,7 @@ void unite_list(const std::string& kind, std::vector<Entry> Interface::*list,
     for (auto& [name, declarations] : names) {
         if (declarations.entries.size() > 1 && !declarations.differ_by_stage) {
             Differing& differing =
-                united.differing.emplace_back(kind, name, std::vector<int>(programs.size()));
+                united.differing.emplace_back(Differing{kind, name, std::vector<int>(programs.size())});
             for (const auto& [program, number] : declarations.declared) differing.declared[program] = number;
         }
         std::ranges::move(declarations.entries, std::back_inserter(united.interface.*list));
