@@ -55,11 +55,9 @@ void add(Descriptors& descriptors, const std::vector<Entry>& entries, std::strin
         const std::string only = only_text(kind, entry.name, number, declarations);
         std::vector<DescriptorRow>& rows = descriptors[{entry.set, entry.binding}];
         const auto [descriptor_kind, count] = entry_of(entry);
-        const auto same =
-            std::ranges::find_if(rows, [&, descriptor_kind = descriptor_kind](const DescriptorRow& row) {
-                return row.name == name && row.kind == descriptor_kind && row.only == only &&
-                       entry.name != name;
-            });
+        const auto same = std::ranges::find_if(rows, [&, wanted = descriptor_kind](const DescriptorRow& row) {
+            return row.name == name && row.kind == wanted && row.only == only && entry.name != name;
+        });
         if (same != rows.end())  // another element of an array of blocks
             ++same->count;
         else
