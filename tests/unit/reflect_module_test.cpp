@@ -58,6 +58,8 @@ const Row rows[] = {
      "gobo: error: malformed SPIR-V module at word 8: a vector or matrix of impossible size\n"},
     {"unknown_extent", module_of({op(spv::Op::OpTypeFloat, 3), 1, 32, op(spv::Op::OpTypeArray, 4), 2, 1, 9}),
      "gobo: error: malformed SPIR-V module at word 8: an array whose size is not an integer constant\n"},
+    {"sized_by_itself", module_of({op(spv::Op::OpTypeFloat, 3), 1, 32, op(spv::Op::OpTypeArray, 4), 2, 1, 2}),
+     "gobo: error: malformed SPIR-V module at word 8: an array whose size is not an integer constant\n"},
     {"extent_of_none",
      module_of({op(spv::Op::OpTypeInt, 4), 1, 32, 0, op(spv::Op::OpConstant, 4), 1, 2, 0,
                 op(spv::Op::OpTypeArray, 4), 3, 1, 2}),

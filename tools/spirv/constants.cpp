@@ -126,14 +126,6 @@ std::optional<std::int64_t> Constants::integer(const Instruction& constant) cons
     return static_cast<std::int64_t>(found->bits[0]);
 }
 
-const Instruction* Constants::earlier(Id id) const {
-    const auto index = static_cast<std::size_t>(id);
-    // The instruction that is being read has a place already, but does not stand there.
-    return index < module_.definitions.size() && module_.definitions[index] <= module_.instructions.size()
-               ? module_.definition(id)
-               : nullptr;
-}
-
 std::optional<Constant> Constants::zero(Id id) const {
     const Type& type = module_.type(id);
     Constant result;
@@ -210,7 +202,7 @@ std::optional<Constant> Constants::part(Id whole, std::vector<std::uint32_t> pat
             if (path.size() > 1 || path[0] >= found->count) return std::nullopt;
             return Constant{.bits = {found->bits[path[0]]}};
         }
-        const Instruction* const made = earlier(whole);
+        const Instruction* const made = module_.definition(whole);
         if (made == nullptr || path.empty()) return std::nullopt;
         const bool is_composite =
             made->opcode == spv::OpConstantComposite || made->opcode == spv::OpSpecConstantComposite;

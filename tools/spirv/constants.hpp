@@ -43,7 +43,6 @@ class Constants {
     [[nodiscard]] std::optional<Constant> composed(const Instruction& instruction, std::size_t first) const;
     [[nodiscard]] std::optional<Constant> shuffled(const Instruction& instruction) const;
     [[nodiscard]] std::optional<Constant> part(Id whole, std::vector<std::uint32_t> path) const;
-    [[nodiscard]] const Instruction* earlier(Id id) const;
     /// The shape of a value of that type, all zeros; nothing where it is no integer, boolean or vector.
     [[nodiscard]] std::optional<Constant> zero(Id type) const;
 

@@ -353,8 +353,8 @@ const Type& Module::type(Id id) const {
 
 const Instruction* Module::definition(Id id) const {
     const auto index = static_cast<std::size_t>(id);
-    return index >= definitions.size() || definitions[index] == 0 ? nullptr
-                                                                  : &instructions[definitions[index] - 1];
+    const std::size_t place = index < definitions.size() ? definitions[index] : 0;
+    return place == 0 || place > instructions.size() ? nullptr : &instructions[place - 1];
 }
 
 std::string Module::name(Id id, int member) const {

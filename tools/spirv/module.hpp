@@ -122,7 +122,7 @@ struct Module {
 
     /// The type of that id; one whose opcode is OpNop where there is none.
     [[nodiscard]] const Type& type(Id id) const;
-    /// The instruction that defines the id; nullptr where there is none.
+    /// The instruction that defines the id; nullptr where there is none, as for what is being read.
     [[nodiscard]] const Instruction* definition(Id id) const;
     /// The name that debug information gives, or empty.
     [[nodiscard]] std::string name(Id id, int member = kWhole) const;
