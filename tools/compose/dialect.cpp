@@ -77,6 +77,17 @@ Dialect spelling_of(std::string_view version_line) {
     return version.number < 420 ? Dialect::glsl330 : Dialect::glsl450;
 }
 
+/// What stands behind #version: of SPIR-V the dialect's or a later one, which has all that it has.
+std::string version_text(Dialect dialect, std::string_view own_version) {
+    const std::string_view text = row_of(dialect).version;
+    if (own_version.empty()) return std::string(text);
+    if (dialect == Dialect::own) return std::string(own_version);
+    const GlslVersion own = version_of(fmt::format("#version {}", own_version));
+    const GlslVersion least = version_of(fmt::format("#version {}", text));
+    if (!is_spirv(dialect) || own.es || own.number <= least.number) return std::string(text);
+    return fmt::format("{}{}{}", own.number, least.profile.empty() ? "" : " ", least.profile);
+}
+
 }  // namespace
 
 std::string_view name_of(Dialect dialect) {
@@ -144,7 +155,7 @@ std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view 
                              Extensions extensions, const Mentions& mentions,
                              const std::vector<DescriptorPlace>& places) {
     const bool is_own = dialect == Dialect::own && !own_version.empty();
-    std::string text = fmt::format("#version {}\n", is_own ? own_version : row_of(dialect).version);
+    std::string text = fmt::format("#version {}\n", version_text(dialect, own_version));
     const DialectRow& row = row_of(is_own ? spelling_of(text) : dialect);
     if (const std::string needed(depth_extension(row.dialect, mentions)); !needed.empty())
         extensions.try_emplace(needed, Extension{"enable"});
