@@ -20,3 +20,16 @@ for keys in "--key point=1" "--key point=1 --key spot=1 --key fog=linear"; do
     "$gobo" merge $(seq -f %g.shard $shards) | cmp - alone
   done
 done
+
+# What is cut or changed is no shard, and figures of two drivers are of no run.
+refused() { if "$gobo" merge "$@" > said 2>&1; then echo "gobo merge $*: taken"; exit 1; fi; }
+cp "$driver" driver.so
+cost=(cost lit --gpu navi21,vega10 --driver ./driver.so --key point=1 --key spot=1 --csv)
+for i in 1 2; do figures "${cost[@]}" --shard $i/2 > $i.shard; done
+for ((bytes = 0; bytes < $(stat -c %s 2.shard); bytes += 97)); do head -c $bytes 2.shard > cut; refused 1.shard cut; done
+sed 2d 2.shard > row; refused 1.shard row
+sed 2p 2.shard > row; refused 1.shard row
+sed -i 's/1\.0/9.9/' driver.so
+figures "${cost[@]}" --shard 2/2 > 2.shard
+refused 1.shard 2.shard
+grep "has figures of gpu 'navi21', driver" said

@@ -1,7 +1,5 @@
 // gobo merge: what the shards of a run wrote, as the run without shards writes it.
 #include <algorithm>
-#include <functional>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "core/text.hpp"
 #include "gobo/commands.hpp"
 #include "gobo/shard_run.hpp"
+#include "gobo/shard_text.hpp"
 
 namespace gobo {
 namespace {
@@ -17,30 +16,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kInOrder = "name every shard once, in order";
+constexpr const char* kSameRun = "merge the shards of one run";
 constexpr const char* kRunAgain = "run its shard again, and name every shard once, in order";
 
-struct Shard {
-    std::string path;
-    std::string text;
-    std::string number = {};  ///< "1/2"; empty where it states none
-    std::string run = {};     ///< run_of_shards()
-};
-
 /// Shards take turns: the first key is the first one's, the next the second one's. `groups` are each shard's
-/// keys with what they have, `key_of` tells the key. Their order as it was; an error where a shard lacks a
-/// key or has another one's.
+/// keys with what they have. Their order as it was; an error where a shard lacks a key.
 template <class Group>
-Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const std::vector<Shard>& shards,
-                                   const std::function<std::string(const Group&)>& key_of) {
-    std::map<std::string, std::size_t> owners;
-    for (std::size_t i = 0; i < groups.size(); ++i)
-        for (const Group& group : groups[i])
-            if (const auto [owner, is_new] = owners.try_emplace(key_of(group), i); !is_new)
-                return fail(Place{shards[i].path}, {},
-                            owner->second == i ? fmt::format("holds '{}' twice", owner->first)
-                                               : fmt::format("holds '{}', as {} does", owner->first,
-                                                             shards[owner->second].path),
-                            owner->second == i ? kRunAgain : kInOrder);
+Result<std::vector<Group>> in_turn(std::vector<std::vector<Group>> groups, const std::vector<Shard>& shards) {
     std::size_t count = 0;
     for (const auto& own : groups) count += own.size();
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -73,7 +55,7 @@ std::string missing_shard(const std::vector<Shard>& shards) {
     return {};
 }
 
-/// Each is the shard that its place among the files says, of the same run as the first; where they state it.
+/// Each is the shard that its place among the files says, of the same run as the first.
 Result<void> check_shards(const std::vector<Shard>& shards) {
     if (const std::string missing = missing_shard(shards); !missing.empty())
         return fail(Place{shards.front().path}, {},
@@ -81,14 +63,14 @@ Result<void> check_shards(const std::vector<Shard>& shards) {
     for (std::size_t i = 0; i < shards.size(); ++i) {
         const Shard& shard = shards[i];
         const std::string wanted = fmt::format("{}/{}", i + 1, shards.size());
-        if (!shard.number.empty() && shard.number != wanted)
+        if (shard.number != wanted)
             return fail(Place{shard.path}, {}, fmt::format("is shard {}, not {}", shard.number, wanted),
                         kInOrder);
         if (const std::string difference = difference_of_runs(shards.front().run, shard.run);
             !difference.empty())
             return fail(Place{shard.path}, {},
                         fmt::format("is of another run than {}: of {}", shards.front().path, difference),
-                        "merge the shards of one run");
+                        kSameRun);
     }
     return {};
 }
@@ -103,9 +85,7 @@ Result<Json> merged(const std::vector<const Json*>& values, const std::vector<Sh
     if (all_are(is_list_of_keys)) {
         std::vector<std::vector<Json>> groups;
         for (const Json* value : values) groups.emplace_back(value->begin(), value->end());
-        GOBO_TRY(const std::vector<Json> rows, in_turn<Json>(std::move(groups), shards, [](const Json& row) {
-                     return row["key"].is_string() ? row["key"].get<std::string>() : row["key"].dump();
-                 }));
+        GOBO_TRY(const std::vector<Json> rows, in_turn(std::move(groups), shards));
         return Json(rows);
     }
     const bool has_parts = all_are(
@@ -131,8 +111,7 @@ Result<Json> merged(const std::vector<const Json*>& values, const std::vector<Sh
     for (std::size_t i = 1; i < values.size(); ++i)
         if (*values[i] != first)
             return fail(Place{shards[i].path}, {},
-                        fmt::format("has another '{}' than {}", name, shards.front().path),
-                        "merge the shards of one run");
+                        fmt::format("has another '{}' than {}", name, shards.front().path), kSameRun);
     return first;
 }
 
@@ -142,22 +121,10 @@ int indentation_of(std::string_view text) {
     return static_cast<int>(std::min(line.find_first_not_of(' '), line.size()));
 }
 
-Result<std::string> merged_json(std::vector<Shard> shards) {
+Result<std::string> merged_json(const std::vector<Shard>& shards) {
     std::vector<Json> documents;
-    for (Shard& shard : shards) {
-        documents.push_back(Json::parse(shard.text, nullptr, false));
-        if (documents.back().is_discarded() || !documents.back().is_object())
-            return fail(Place{shard.path}, {}, "is not whole", kRunAgain);
-    }
-    for (std::size_t i = 0; i < documents.size(); ++i)
-        for (const auto& [name, text] :
-             {std::pair("shard", &shards[i].number), std::pair("run", &shards[i].run)}) {
-            const Json stated = documents[i].value(name, Json());
-            if (!stated.is_null()) *text = stated.is_string() ? stated.get<std::string>() : stated.dump();
-            documents[i].erase(name);
-        }
-    GOBO_TRY_DO(check_shards(shards));
     std::vector<const Json*> values;
+    for (const Shard& shard : shards) documents.push_back(Json::parse(shard.text, nullptr, false));
     for (const Json& document : documents) values.push_back(&document);
     GOBO_TRY(const Json whole, merged(values, shards, "document"));
     return whole.dump(indentation_of(shards.front().text)) + "\n";
@@ -177,26 +144,14 @@ std::vector<Rows> groups_of(const Rows& rows, std::size_t columns) {
     return groups;
 }
 
-/// What the rows say in a column, which is taken out; empty where there is none.
-std::string taken_column(CsvTable& table, std::string_view name) {
-    const auto column = table.column(name);
-    if (!column) return {};
-    const auto at = static_cast<std::ptrdiff_t>(*column);
-    std::string text = table.rows.empty() ? "" : table.rows.front()[*column];
-    table.columns.erase(table.columns.begin() + at);
-    for (auto& row : table.rows) row.erase(row.begin() + at);
-    return text;
-}
-
-/// Each shard that has keys has the parts of the first, in its order: figures of two chips are no figures of
-/// one run.
+/// Each shard that has keys has the parts of the first: figures of two drivers are no figures of one run.
 Result<void> check_parts(const std::vector<std::vector<Rows>>& parts, const std::vector<Shard>& shards,
-                         const CsvTable& table) {
+                         const CsvTable& table, std::size_t key) {
     std::vector<std::vector<std::string>> names;  // of each shard
     for (const auto& own : parts)
         for (auto& list = names.emplace_back(); const Rows& part : own) {
             std::string& name = list.emplace_back("figures");
-            for (std::size_t i = 0; i < table.column("key").value(); ++i)
+            for (std::size_t i = 0; i < key; ++i)
                 name += fmt::format("{} {} '{}'", i > 0 ? "," : " of", table.columns[i], part.front()[i]);
         }
     for (std::size_t i = 1; i < names.size(); ++i) {
@@ -206,42 +161,30 @@ Result<void> check_parts(const std::vector<std::vector<Rows>>& parts, const std:
                 if (std::ranges::find(names[other], name) == names[other].end())
                     return fail(Place{shards[one].path}, {},
                                 fmt::format("has {}, and {} has none", name, shards[other].path),
-                                "merge the shards of one run, all for the same chips");
-        if (names[i] != names[0])
-            return fail(Place{shards[i].path}, {},
-                        fmt::format("has its rows in another order than {}", shards[0].path), kRunAgain);
+                                "merge the shards of one run, all by the same driver");
     }
     return {};
 }
 
 /// What stands before the column `key` parts the table: each part is put together by itself.
-Result<std::string> merged_csv(std::vector<Shard> shards) {
-    CsvTable whole;
+Result<std::string> merged_csv(const std::vector<Shard>& shards) {
+    CsvTable whole = read_csv(shards.front().text);
+    const std::size_t key = whole.column("key").value_or(0);
+    whole.rows.clear();
     std::vector<std::vector<Rows>> parts;  // of each shard
-    for (Shard& shard : shards) {
-        CsvTable table = read_csv(shard.text);
-        shard.number = taken_column(table, "shard");
-        shard.run = taken_column(table, "run");
-        if (table.rows.empty()) shard.run = shards.front().run;  // no row could tell
-        const auto key = table.column("key");
-        if (!key || (!whole.columns.empty() && table.columns != whole.columns))
-            return fail(Place{shard.path}, {},
-                        key ? fmt::format("has other columns than {}", shards.front().path)
-                            : "has no keys to put together",
-                        "name what gobo test --figures, gobo cost --csv or gobo cost --json wrote");
-        whole.columns = table.columns;
-        parts.push_back(groups_of(table.rows, *key));
+    for (const Shard& shard : shards) {
+        const CsvTable table = read_csv(shard.text);
+        if (table.columns != whole.columns)
+            return fail(Place{shard.path}, {}, fmt::format("has other columns than {}", shards.front().path),
+                        kSameRun);
+        parts.push_back(groups_of(table.rows, key));
     }
-    GOBO_TRY_DO(check_shards(shards));
-    GOBO_TRY_DO(check_parts(parts, shards, whole));
+    GOBO_TRY_DO(check_parts(parts, shards, whole, key));
     for (auto& own : parts) own.resize(parts.front().size());
-    const std::size_t key = whole.column("key").value();
     for (std::size_t part = 0; part < parts.front().size(); ++part) {
         std::vector<std::vector<Rows>> groups;
         for (const auto& own : parts) groups.push_back(groups_of(own[part], key + 1));
-        GOBO_TRY(
-            const std::vector<Rows> merged_rows,
-            in_turn<Rows>(std::move(groups), shards, [&](const Rows& rows) { return rows.front()[key]; }));
+        GOBO_TRY(const std::vector<Rows> merged_rows, in_turn(std::move(groups), shards));
         for (const Rows& rows : merged_rows) whole.rows.insert(whole.rows.end(), rows.begin(), rows.end());
     }
     return csv_text(whole);
@@ -255,12 +198,14 @@ struct MergeOptions {
 Result<Outcome> run(const MergeOptions& options, const World& world) {
     std::vector<Shard> shards;
     for (const std::string& path : options.paths) {
-        GOBO_TRY(std::string text, world.disk.read(path));
-        shards.push_back({path, std::move(text)});
+        GOBO_TRY(const std::string text, world.disk.read(path));
+        GOBO_TRY(Shard shard, read_shard(path, text));
+        shards.push_back(std::move(shard));
     }
+    GOBO_TRY_DO(check_shards(shards));
     const bool is_json = shards.front().text.starts_with('{');
     GOBO_TRY(std::string text, is_json ? merged_json(shards) : merged_csv(shards));
-    if (options.output.empty()) return Outcome{std::move(text)};
+    if (options.output.empty() || options.output == "-") return Outcome{std::move(text)};
     Outcome outcome{{}, {}, fmt::format("{}: {} shards", options.output, shards.size())};
     outcome.files.push_back({options.output, std::move(text)});
     return outcome;

@@ -7,6 +7,7 @@
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "gobo/name_lists.hpp"
+#include "gobo/shard_text.hpp"
 #include "lab/commands/cost_pipelines.hpp"
 #include "lab/cost/baseline.hpp"
 #include "lab/cost/study_cycles.hpp"
@@ -191,23 +192,6 @@ Result<void> refuse_other_files(const StageNumbers& stages) {
                 help);
 }
 
-/// What tells shards of a run from other files: gobo merge takes it out again.
-json of_shard(json costs, const std::string& shard, const std::string& run) {
-    if (shard.empty()) return costs;
-    json whole = {{"shard", shard}, {"run", json::parse(run)}};
-    whole.update(costs);
-    return whole;
-}
-
-CsvTable of_shard(CsvTable costs, const std::string& shard, const std::string& run) {
-    if (shard.empty()) return costs;
-    costs.columns.insert(costs.columns.end(), {"shard", "run"});
-    // It names every file of the family: once is enough.
-    for (auto& row : costs.rows)
-        row.insert(row.end(), {shard, &row == &costs.rows.front() ? run : std::string()});
-    return costs;
-}
-
 Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     GOBO_TRY(const auto gpus, names_in("--gpu", options.gpus));
     if (gpus == std::vector<std::string>{"list"}) return list_chips(options, world);
@@ -256,9 +240,10 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
                                        "--against names the key itself, '{}': they are the same",
                                        text_of(options, subject, subject.composition.permutations.front()))});
     } else if (options.json)
-        text = of_shard(cost::to_json(costs, options.isa), options.shard, subject.family.run).dump(2) + "\n";
+        text = text_of_shard(cost::to_json(costs, options.isa).dump(2) + "\n", options.shard,
+                             subject.family.run);
     else if (options.csv)
-        text = csv_text(of_shard(cost::to_table(costs), options.shard, subject.family.run));
+        text = text_of_shard(csv_text(cost::to_table(costs)), options.shard, subject.family.run);
     else if (options.cycles)
         text = cost::cycles_text(costs);
     else

@@ -10,6 +10,7 @@
 #include "compose/dialect.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
+#include "gobo/shard_text.hpp"
 #include "lab/commands/lab_input.hpp"
 #include "lab/render/render.hpp"
 #include "lab/verify/cross_check.hpp"
@@ -327,14 +328,6 @@ Result<Outcome> compare_pictures(const World& world, const TestOptions& options,
     return outcome;
 }
 
-/// The figures, and which shard's of which run they are: gobo merge takes that out again.
-std::string figures_of_shard(std::string figures, const std::string& shard, const std::string& run) {
-    constexpr std::string_view first_member = "{\n";
-    if (!shard.empty())
-        figures.insert(first_member.size(), fmt::format(" \"shard\": \"{}\",\n \"run\": {},\n", shard, run));
-    return figures;
-}
-
 Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY(const std::string dialect, options.render ? dialect_for(options.backend, options.dialect)
                                                        : Result<std::string>(options.dialect));
@@ -362,7 +355,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     if (!options.figures_file.empty()) {
         const auto written = world.disk.write(
             options.figures_file,
-            figures_of_shard(verify::figures_json(family.family, report), options.shard, family.run));
+            text_of_shard(verify::figures_json(family.family, report), options.shard, family.run));
         if (!written) append(diagnostics, written.error());
     }
     return Outcome{
