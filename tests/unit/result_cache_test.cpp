@@ -235,6 +235,7 @@ TEST(TracedFiles, AreNotRepeatableWhereSomethingIsWrittenOrAStreamIsRead) {
     TracedFiles device(disk);
     EXPECT_TRUE(device.read("/dev/null"));
     EXPECT_FALSE(device.is_repeatable());
+    EXPECT_EQ(device.read_once(), "/dev/null");
     MemoryFileSystem files;
     TracedFiles written(files);
     EXPECT_TRUE(written.write("a", "b"));

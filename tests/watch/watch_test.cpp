@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gobo/reload.hpp>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -266,12 +267,51 @@ TEST_P(Watch, WritesAgainWhatIsRemoved) {
 }
 
 TEST_P(Watch, GoesOnWhereAPieceBecomesAPipe) {
-    fs::remove(folder + "/fog/linear.glsl");
-    ASSERT_EQ(::mkfifo((folder + "/fog/linear.glsl").c_str(), 0600), 0);
+    ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+    fs::rename(folder + "/pipe", folder + "/fog/linear.glsl");
     ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    EXPECT_THAT(application->errors(), HasSubstr(folder + "/fog/linear.glsl: error: cannot be read: it is a "
+                                                          "pipe that nobody writes to\n"));
     fs::remove(folder + "/fog/linear.glsl");
     EXPECT_TRUE(takes([&] { save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.0625); }\n"); },
                       "fog=linear", "vec4(0.0625)"));
+}
+
+TEST_P(Watch, NamesThePipeThatItReadsOnce) {
+    const std::string piece = folder + "/fog/linear.glsl";
+    const std::string text = text_of(piece);
+    ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+    const int writer = ::open((folder + "/pipe").c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(::write(writer, text.data(), text.size()), std::ssize(text));
+    fs::rename(folder + "/pipe", piece);
+    int left = 1;  // it waits for more, or for an end
+    ASSERT_TRUE(await([&] { return ::ioctl(writer, FIONREAD, &left) == 0 && left == 0; }));
+    ::close(writer);
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    EXPECT_EQ(application->errors(), piece +
+                                         ": error: a file that is read only once cannot be watched\n"
+                                         "  help: name files, not standard input or a pipe\n");
+    save_by_renaming(piece, text);
+    EXPECT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
+}
+
+TEST_P(Watch, WritesOnceThePlaceIsFree) {
+    const std::string header = folder + "/out/tiny.hpp";
+    std::error_code error;
+    ASSERT_TRUE(await([&] {  // what was removed alone is written again at once
+        fs::remove(header, error);
+        return fs::create_directory(header, error);
+    }));
+    save(folder + "/fog/linear.glsl", "vec4 seen() { return vec4(0.0625); }\n");
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    EXPECT_EQ(application->errors(), header + ": error: cannot be written: Is a directory\n");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+    const std::string log = text_of(folder + "/log");
+    EXPECT_EQ(log.find("Is a directory"), log.rfind("Is a directory")) << "told once\n" << log;
+    fs::remove(header);
+    EXPECT_TRUE(await([&] { return text_of(header).find("vec4(0.0625)") != std::string::npos; }))
+        << text_of(folder + "/log");
+    EXPECT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
 }
 
 TEST_P(Watch, EndsWhereNobodyReadsWhatItTells) {

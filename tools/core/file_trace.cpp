@@ -13,6 +13,9 @@ using Kind = FileQuestion::Kind;
 /// Bytes. Longer files are no shaders, and read once.
 constexpr std::size_t kLongestKept = std::size_t{1} << 20;
 
+/// Stands for what can be read only once.
+constexpr Digest kReadOnce = {};
+
 Digest answer(bool is_file) {
     return {0, is_file ? 1U : 0U};
 }
@@ -47,12 +50,14 @@ bool TracedFiles::is_file(const std::string& path) const {
 }
 
 Result<std::string> TracedFiles::read(const std::string& path) const {
-    if (const auto known = texts_.find(path); known != texts_.end()) return known->second;
+    if (const auto known = contents_.find(path); known != contents_.end()) return known->second;
     Result<std::string> content = files_.read(path);
     const bool can_be_read_again = is_lasting(path);
-    is_repeatable_ = is_repeatable_ && can_be_read_again;
-    note(Kind::read, path, answer(content));
-    if (content && can_be_read_again && content->size() <= kLongestKept) texts_.try_emplace(path, *content);
+    if (!can_be_read_again && read_once_.empty()) read_once_ = path;
+    note(Kind::read, path, can_be_read_again ? answer(content) : kReadOnce);
+    // An error, too: a pipe's writer is waited for once.
+    if (!content || (can_be_read_again && content->size() <= kLongestKept))
+        contents_.try_emplace(path, content);
     return content;
 }
 
@@ -63,9 +68,9 @@ std::vector<std::string> TracedFiles::files_below(const std::string& folder) con
 }
 
 Result<bool> TracedFiles::write(const std::string& path, std::string_view content) {
-    is_repeatable_ = false;
+    has_written_ = true;
     are_files_.clear();
-    texts_.clear();
+    contents_.clear();
     real_paths_.clear();
     return files_.write(path, content);
 }
@@ -92,7 +97,7 @@ bool are_answered_alike(const std::vector<FileQuestion>& questions, const FileSy
             case Kind::is_file:
                 return answer(files.is_file(path)) == question.answer;
             case Kind::read:
-                return answer(files.read(path)) == question.answer;
+                return (is_lasting(path) ? answer(files.read(path)) : kReadOnce) == question.answer;
             case Kind::files_below:
                 return answer(files.files_below(path)) == question.answer;
             case Kind::real_path:

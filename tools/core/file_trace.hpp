@@ -42,8 +42,10 @@ class TracedFiles final : public FileSystem {
 
     /// Each question once, sorted.
     [[nodiscard]] std::vector<FileQuestion> questions() const;
-    /// False where something was written, or read that can be read only once: a pipe, standard input.
-    [[nodiscard]] bool is_repeatable() const { return is_repeatable_; }
+    /// The first file that was read and can be read only once: a pipe, standard input. Empty: none was.
+    [[nodiscard]] const std::string& read_once() const { return read_once_; }
+    /// False where something was written, or read that can be read only once.
+    [[nodiscard]] bool is_repeatable() const { return !has_written_ && read_once_.empty(); }
 
   private:
     void note(FileQuestion::Kind kind, const std::string& path, const Digest& answer) const {
@@ -53,12 +55,14 @@ class TracedFiles final : public FileSystem {
     FileSystem& files_;
     mutable std::map<std::pair<FileQuestion::Kind, std::string>, Digest> answers_;
     mutable std::unordered_map<std::string, bool> are_files_;
-    mutable std::unordered_map<std::string, std::string> texts_;
+    mutable std::unordered_map<std::string, Result<std::string>> contents_;
     mutable std::unordered_map<std::string, std::string> real_paths_;
-    mutable bool is_repeatable_ = true;
+    mutable std::string read_once_;
+    bool has_written_ = false;
 };
 
-/// Whether the file system answers each question as before.
+/// Whether the file system answers each question as before. What can be read only once is not read again: it
+/// is as before for as long as it is such a file.
 [[nodiscard]] bool are_answered_alike(const std::vector<FileQuestion>& questions, const FileSystem& files);
 
 }  // namespace gobo

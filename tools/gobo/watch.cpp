@@ -2,6 +2,7 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 /// Milliseconds of quiet after which a file is taken for saved, and between two looks where nobody tells.
 constexpr int kQuiet = 5;
 constexpr int kBetweenLooks = 200;
-/// Milliseconds after which a socket that was removed is made again, and a build tried again that had no
-/// descriptors left.
+/// Milliseconds after which a socket that was removed is made again, and tried again what no change of a file
+/// that was read mends: a build that had no descriptors left, an output that could not be written.
 constexpr int kBetweenTries = 1000;
 
 struct WatchOptions : BuildOptions {
@@ -71,33 +72,47 @@ class Watcher {
 
     /// Builds until it is asked to end. The error of the first build where no saved file can change it.
     Result<Outcome> run() {
+        Next next = Next::change;
         for (bool is_first = true;; is_first = false) {
-            const Clock::time_point start = Clock::now();
+            Clock::time_point start = Clock::now();
             TracedFiles files(world_.disk);
             Result<Built> built = build(
                 options_, {files, world_.shipped, world_.options, world_.measure, &cache_, world_.tell});
             if (!built && is_first && exit_status(built.error()) > 1)
                 return tl::unexpected(std::move(built).error());
-            if (!files.is_repeatable()) {
-                built = fail(Fault::usage, "a file that is read only once cannot be watched",
-                             "name files, not standard input or a pipe");
+            if (const std::string& once = files.read_once(); !once.empty() && (built || is_first)) {
+                built = fail({.fault = Fault::usage,
+                              .place = {once},
+                              .message = "a file that is read only once cannot be watched",
+                              .help = "name files, not standard input or a pipe"});
                 if (is_first) return tl::unexpected(std::move(built).error());
             }
-            std::vector<FileQuestion> questions = files.questions();
-            for (const FileQuestion& question : tell(std::move(built), start)) questions.push_back(question);
-            if (!wait(questions)) return Outcome{};
+            do {
+                std::vector<FileQuestion> questions = files.questions();
+                for (const FileQuestion& question : tell(built, start, next != Next::change))
+                    questions.push_back(question);
+                next = wait(questions);
+                start = Clock::now();
+            } while (next == Next::write);
+            if (next == Next::end) return Outcome{};
         }
     }
 
   private:
-    /// Writes what was built, and says so. That what was written is there is asked, too.
-    std::vector<FileQuestion> tell(Result<Built> built, Clock::time_point start) {
-        Result<Outcome> outcome =
-            built ? with_files_written(built->outcome) : tl::unexpected(std::move(built).error());
-        wants_descriptors_ = !outcome && are_of_descriptors(outcome.error());
+    /// What follows a wait: a build as something changed, or a second try to build, or to write what is
+    /// built.
+    enum class Next { end, change, build, write };
+
+    /// Writes what was built, and says so; of a second try not what was said of the first. That what was
+    /// written is there is asked, too.
+    std::vector<FileQuestion> tell(const Result<Built>& built, Clock::time_point start, bool is_second_try) {
+        Result<Outcome> outcome = built ? with_files_written(built->outcome) : tl::unexpected(built.error());
+        second_try_ = std::nullopt;
+        if (!outcome && built) second_try_ = Next::write;
+        if (!built && are_of_descriptors(built.error())) second_try_ = Next::build;
         const std::string errors = outcome ? "" : to_text(outcome.error());
         const bool is_told = errors == std::exchange(told_, errors);
-        if (is_told && wants_descriptors_) return {};
+        if (is_told && (is_second_try || second_try_ == Next::build) && !outcome) return {};
         if (!outcome) {
             if (server_) server_->offer_errors(errors);
             world_.tell(
@@ -116,8 +131,8 @@ class Watcher {
         return written.questions();
     }
 
-    /// Until an answer is another one. False where the process is to end.
-    bool wait(const std::vector<FileQuestion>& questions) {
+    /// Until an answer is another one, or it is time to try again.
+    Next wait(const std::vector<FileQuestion>& questions) {
         watch_.take_news();  // of what was written here, and of what is asked now
         watch_.follow(questions);
         const bool looks = options_.looks || watch_.descriptor() < 0;
@@ -128,16 +143,14 @@ class Watcher {
                                               {STDERR_FILENO, 0, 0}};
                 if (server_)
                     for (const pollfd& socket : server_->descriptors()) waited.push_back(socket);
-                const int timeout = looks                           ? kBetweenLooks
-                                    : wants_descriptors_ || server_ ? kBetweenTries
-                                                                    : -1;
+                const int timeout = looks ? kBetweenLooks : second_try_ || server_ ? kBetweenTries : -1;
                 const int ready = ::poll(waited.data(), waited.size(), timeout);
                 if (ready < 0) continue;
                 // Or nobody reads any more what is told.
-                if (waited[0].revents != 0 || (waited[2].revents & POLLERR) != 0) return false;
+                if (waited[0].revents != 0 || (waited[2].revents & POLLERR) != 0) return Next::end;
                 if (server_) server_->serve(waited);
                 if (server_) server_->restore_socket();
-                if (ready == 0 && wants_descriptors_) return true;
+                if (ready == 0 && second_try_) return *second_try_;
                 has_news = looks || waited[1].revents != 0;
             }
             // An editor writes a file, then renames it; a checkout changes many.
@@ -145,10 +158,10 @@ class Watcher {
                 watch_.take_news();
             if (looks) continue;
             // New folders are followed where it is not urgent, then asked for what they held already.
-            if (!are_answered_alike(questions, world_.disk)) return true;
+            if (!are_answered_alike(questions, world_.disk)) return Next::change;
             watch_.follow(questions);
         }
-        return true;
+        return Next::change;
     }
 
     const WatchOptions& options_;
@@ -159,7 +172,7 @@ class Watcher {
     Ending ending_;
     FileWatch watch_;
     std::string told_;                ///< the errors of the last state
-    bool wants_descriptors_ = false;  ///< the last build failed without
+    std::optional<Next> second_try_;  ///< where no change of a file that was read need mend the last state
 };
 
 Result<Outcome> run(const WatchOptions& options, const World& world) {
