@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -129,11 +130,11 @@ TEST_F(ResultsOnDisk, ThatDeadWritersLeftAreRemovedWhenTheyAreOld) {
 TEST_F(ResultsOnDisk, AreCountedAndCleared) {
     DiskCache cache(folder, kMegabyte);
     for (int i = 0; i < 40; ++i) cache.keep(key(i), "result");
-    EXPECT_EQ(cache.size()->results, 40U);
-    EXPECT_EQ(cache.size()->bytes, 40U * (40 + 6));
+    EXPECT_EQ(cache.size().results, 40U);
+    EXPECT_EQ(cache.size().bytes, 40U * (40 + 6));
     std::ofstream(folder + "/mine.txt") << "stays";
-    EXPECT_EQ(cache.clear().value().results, 40U);
-    EXPECT_EQ(cache.size()->results, 0U);
+    EXPECT_EQ(cache.clear().results, 40U);
+    EXPECT_EQ(cache.size().results, 0U);
     EXPECT_TRUE(fs::exists(folder + "/mine.txt"));
 }
 
@@ -156,10 +157,69 @@ TEST_F(ResultsOnDisk, AreKeptWhereOthersCannotBe) {
     DiskCache cache(folder, kMegabyte);
     cache.keep(key(1), "one");
     cache.keep(key(other), "other");
-    EXPECT_EQ(cache.tidy().size(), 1U);
+    const std::string part = fmt::format("{}/{}", folder, hex(key(1)).front());
+    EXPECT_EQ(to_text(cache.tidy()),
+              part +
+                  ": warning: cannot be written: Not a directory\n  help: results of this run are computed "
+                  "again by the next; remove what is in their place\n");
     EXPECT_EQ(cache.find(key(other)), "other");
-    EXPECT_FALSE(cache.size()) << "what cannot be read is not counted as nothing";
+    const std::string warning = part +
+                                ": warning: cannot be read: Not a directory\n"
+                                "  help: no results are kept there; remove what is in their place\n";
+    EXPECT_EQ(cache.size().results, 1U);
+    EXPECT_EQ(to_text(cache.size().diagnostics), warning);
+    const DiskCache::Size removed = cache.clear();
+    EXPECT_EQ(removed.results, 1U);
+    EXPECT_EQ(to_text(removed.diagnostics), warning);
+    EXPECT_TRUE(fs::exists(part)) << "nothing tells whose it is";
 }
+
+struct PlaceRow {
+    const char* name;
+    std::function<void(const std::string& path)> fill;
+    bool is_kept;  ///< a result in that place
+    bool is_cleared;
+};
+
+void PrintTo(const PlaceRow& row, std::ostream* stream) {
+    *stream << row.name;
+}
+
+class PlaceOfAResult : public ResultsOnDisk, public testing::WithParamInterface<PlaceRow> {};
+
+TEST_P(PlaceOfAResult, IsMadeFreeWhereNothingIsLost) {
+    DiskCache cache(folder, kMegabyte);
+    const std::string path = path_of(key(1));
+    const auto fill = [&] {
+        fs::remove_all(path);
+        fs::create_directories(fs::path(path).parent_path());
+        GetParam().fill(path);
+    };
+    fill();
+    EXPECT_EQ(cache.find(key(1)), std::nullopt);
+    cache.keep(key(1), "one");
+    EXPECT_EQ(cache.find(key(1)).has_value(), GetParam().is_kept);
+    EXPECT_EQ(to_text(cache.tidy()),
+              GetParam().is_kept
+                  ? ""
+                  : path +
+                        ": warning: cannot be written: Is a directory\n  help: results of this "
+                        "run are computed again by the next; remove what is in their place\n");
+    fill();
+    EXPECT_EQ(cache.size().results, 0U);
+    EXPECT_EQ(to_text(cache.clear().diagnostics),
+              GetParam().is_cleared ? "" : path + ": error: cannot be removed: Directory not empty\n");
+    EXPECT_EQ(fs::exists(folder), !GetParam().is_cleared);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, PlaceOfAResult,
+    testing::Values(
+        PlaceRow{"empty_folder", [](auto& path) { fs::create_directory(path); }, true, true},
+        PlaceRow{"full_folder", [](auto& path) { fs::create_directories(path + "/mine"); }, false, false},
+        PlaceRow{"link_to_nowhere", [](auto& path) { fs::create_symlink(path, path); }, true, true},
+        PlaceRow{"pipe", [](auto& path) { ::mkfifo(path.c_str(), 0600); }, true, true}),
+    [](const auto& row) { return row.param.name; });
 
 TEST_F(ResultsOnDisk, MayBeKeptByManyAtOnce) {
     constexpr int kWriters = 4;
@@ -185,7 +245,7 @@ TEST_F(ResultsOnDisk, MayBeKeptByManyAtOnce) {
         ::waitpid(writer, &status, 0);
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     }
-    EXPECT_EQ(DiskCache(folder, kMegabyte).size()->results, std::uint64_t{kResults});
+    EXPECT_EQ(DiskCache(folder, kMegabyte).size().results, std::uint64_t{kResults});
 }
 
 TEST(TracedFiles, AreAnsweredAlikeUntilOneChanges) {

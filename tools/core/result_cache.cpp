@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kParts = "0123456789abcdef";
+constexpr std::string_view kInTheWay = "remove what is in their place";
 constexpr std::string_view kEnd = ".result";
 /// Between the name of a file that is being written and a number that no other writer has.
 constexpr std::string_view kUnfinished = ".new.";
@@ -82,10 +83,11 @@ struct File {
     std::string path;
     std::uint64_t bytes = 0;
     ::timespec used = {};
-    bool is_finished = false;
+    bool is_result = false;  ///< else it is being written, or no file
 };
 
-/// The results of a part, and what is being written there. `error` where it is there and cannot be read.
+/// What is in a part by the names of results and of what is being written. `error` where it is there and
+/// cannot be read.
 std::vector<File> files_in(const std::string& part, std::error_code& error) {
     std::vector<File> files;
     fs::directory_iterator at(part, error);
@@ -94,9 +96,11 @@ std::vector<File> files_in(const std::string& part, std::error_code& error) {
         const bool is_finished = name.ends_with(kEnd);
         struct stat status {};
         if (!is_finished && name.find(kUnfinished) == std::string::npos) continue;
-        if (::lstat(at->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
-        files.push_back(
-            {at->path().string(), static_cast<std::uint64_t>(status.st_size), status.st_mtim, is_finished});
+        if (::lstat(at->path().c_str(), &status) != 0) continue;
+        const bool is_file = S_ISREG(status.st_mode);
+        if (!is_finished && !is_file) continue;
+        files.push_back({at->path().string(), is_file ? static_cast<std::uint64_t>(status.st_size) : 0,
+                         status.st_mtim, is_finished && is_file});
     }
     if (error == std::errc::no_such_file_or_directory) error.clear();
     return files;
@@ -155,15 +159,24 @@ void DiskCache::keep(const Digest& key, std::string_view result) {
     const std::string beside = fmt::format("{}{}{}.{}", path, kUnfinished, ::getpid(), written_++);
     const std::string content = sealed(key, result);
     int error = write_new(beside, content);
+    const std::string part = fs::path(path).parent_path().string();
+    std::string place = folder_;
+    std::error_code made;
     if (error == ENOENT) {
-        std::error_code made;
-        fs::create_directories(fs::path(path).parent_path(), made);
+        fs::create_directories(part, made);
         error = made ? made.value() : write_new(beside, content);
     }
-    if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) error = errno;
+    if (error == ENOTDIR && fs::is_directory(folder_, made)) place = part;
+    if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) {
+        place = path;
+        // An empty folder is damage as any other.
+        const bool is_free = errno == EISDIR && ::rmdir(path.c_str()) == 0;
+        if (!is_free || ::rename(beside.c_str(), path.c_str()) != 0) error = EISDIR;
+    }
     if (error != 0) {
         ::unlink(beside.c_str());
         error_ = error;
+        error_place_ = place;
     }
     grown_.insert(hex(key).front());
 }
@@ -174,12 +187,12 @@ Diagnostics DiskCache::tidy() {
         std::vector<File> files = files_in(fmt::format("{}/{}", folder_, part), ignored);
         std::uint64_t bytes = 0;
         for (const File& file : files) {
-            if (file.is_finished) bytes += file.bytes;
-            if (!file.is_finished && file.used.tv_sec + kLongestWrite < std::time(nullptr))
+            if (file.is_result) bytes += file.bytes;
+            if (!file.is_result && file.used.tv_sec + kLongestWrite < std::time(nullptr))
                 ::unlink(file.path.c_str());
         }
         if (bytes <= most_bytes_ / kParts.size()) continue;
-        std::erase_if(files, [](const File& file) { return !file.is_finished; });
+        std::erase_if(files, [](const File& file) { return !file.is_result; });
         std::ranges::sort(files, {}, [](const File& file) {
             return std::tuple(file.used.tv_sec, file.used.tv_nsec, file.path);
         });
@@ -190,41 +203,55 @@ Diagnostics DiskCache::tidy() {
     }
     grown_.clear();
     if (error_ == 0) return {};
-    Diagnostics warning = file_error(folder_, "written", error_).value();
-    warning.front().severity = Severity::warning;
-    warning.front().help = "results of this run are computed again by the next; name another folder, or none";
+    Diagnostic warning = file_error(error_place_, "written", error_).value().front();
+    warning.severity = Severity::warning;
+    warning.help = fmt::format("results of this run are computed again by the next; {}",
+                               error_place_ == folder_ ? "name another folder, or none" : kInTheWay);
     error_ = 0;
-    return warning;
+    return {warning};
 }
 
-Result<DiskCache::Size> DiskCache::size() const {
-    Size size;
+Diagnostics DiskCache::for_each(const auto& use, const auto& leave) const {
+    Diagnostics diagnostics;
     for (const char part : kParts) {
         const std::string folder = fmt::format("{}/{}", folder_, part);
         std::error_code error;
-        for (const File& file : files_in(folder, error)) {
-            size.results += file.is_finished ? 1 : 0;
-            size.bytes += file.bytes;
+        for (const File& file : files_in(folder, error)) append(diagnostics, use(file));
+        leave(folder);
+        if (!error) continue;
+        Diagnostic diagnostic = file_error(folder, "read", error.value()).value().front();
+        if (error == std::errc::not_a_directory) {
+            diagnostic.severity = Severity::warning;
+            diagnostic.help = fmt::format("no results are kept there; {}", kInTheWay);
         }
-        if (error) return file_error(folder, "read", error.value());
+        diagnostics.push_back(std::move(diagnostic));
     }
+    return diagnostics;
+}
+
+DiskCache::Size DiskCache::size() const {
+    Size size;
+    const auto add = [&](const File& file) {
+        size.results += file.is_result ? 1 : 0;
+        size.bytes += file.bytes;
+        return Diagnostics();
+    };
+    size.diagnostics = for_each(add, [](const std::string&) {});
     return size;
 }
 
-Result<DiskCache::Size> DiskCache::clear() {
+DiskCache::Size DiskCache::clear() {
     Size removed;
-    for (const char part : kParts) {
-        const std::string folder = fmt::format("{}/{}", folder_, part);
+    const auto remove = [&](const File& file) -> Diagnostics {
         std::error_code error;
-        for (const File& file : files_in(folder, error)) {
-            if (::unlink(file.path.c_str()) != 0 && errno != ENOENT)
-                return file_error(file.path, "removed", errno);
-            removed.results += file.is_finished ? 1 : 0;
-            removed.bytes += file.bytes;
-        }
-        if (error) return file_error(folder, "read", error.value());
-        ::rmdir(folder.c_str());  // stays where it holds something else
-    }
+        fs::remove(file.path, error);  // not what is in a folder
+        if (error) return file_error(file.path, "removed", error.value()).value();
+        removed.results += file.is_result ? 1 : 0;
+        removed.bytes += file.bytes;
+        return {};
+    };
+    // A part stays where it holds something else.
+    removed.diagnostics = for_each(remove, [](const std::string& part) { ::rmdir(part.c_str()); });
     ::rmdir(folder_.c_str());
     return removed;
 }

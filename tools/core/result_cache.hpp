@@ -43,7 +43,8 @@ class MemoryCache final : public ResultCache {
 };
 
 /// A folder with a file for each result, which several processes may use at once. A file is written under
-/// another name and renamed; one that is not whole counts as none and is removed.
+/// another name and renamed; one that is not whole counts as none and is removed, as is an empty folder or a
+/// link in its place.
 class DiskCache final : public ResultCache {
   public:
     /// The folder is made when the first result is kept.
@@ -60,19 +61,23 @@ class DiskCache final : public ResultCache {
     struct Size {
         std::uint64_t results = 0;
         std::uint64_t bytes = 0;
+        /// Errors, Fault::file, where there may be more; warnings of what is in a part's place and no folder.
+        Diagnostics diagnostics = {};
     };
-    /// Fault::file where a part cannot be read.
-    [[nodiscard]] Result<Size> size() const;
-    /// Removes every result, and nothing else; what it held. Fault::file where one cannot be removed.
-    [[nodiscard]] Result<Size> clear();
+    [[nodiscard]] Size size() const;
+    /// Removes every result that can be, and nothing else; what that was.
+    [[nodiscard]] Size clear();
 
   private:
+    /// Calls `use(file)` for every file of the results, and `leave(part)` after those of a part.
+    [[nodiscard]] Diagnostics for_each(const auto& use, const auto& leave) const;
     [[nodiscard]] std::string path_of(const Digest& key) const;
 
     std::string folder_;
     std::uint64_t most_bytes_;
     std::set<char> grown_;  ///< parts, by their names' digit
     int error_ = 0;         ///< errno of the last result that could not be kept
+    std::string error_place_;
     std::uint64_t written_ = 0;
 };
 

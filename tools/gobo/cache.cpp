@@ -28,12 +28,15 @@ Result<Outcome> run(const std::string& action, const World& world) {
     const std::uint64_t most = std::uint64_t(world.options.cache_megabytes) << 20;
     DiskCache cache(folder, most);
     if (action == "clear") {
-        GOBO_TRY(const DiskCache::Size removed, cache.clear());
+        const DiskCache::Size removed = cache.clear();
         return Outcome{
-            {}, {}, fmt::format("{}: {} results, {} bytes removed", folder, removed.results, removed.bytes)};
+            {},
+            removed.diagnostics,
+            fmt::format("{}: {} results, {} bytes removed", folder, removed.results, removed.bytes)};
     }
-    GOBO_TRY(const DiskCache::Size size, cache.size());
-    return Outcome{fmt::format("results {}\nbytes {}\nmost_bytes {}\n", size.results, size.bytes, most)};
+    const DiskCache::Size size = cache.size();
+    return Outcome{fmt::format("results {}\nbytes {}\nmost_bytes {}\n", size.results, size.bytes, most),
+                   size.diagnostics};
 }
 
 }  // namespace
