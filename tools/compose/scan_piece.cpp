@@ -81,6 +81,10 @@ Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_v
     LineReader lines(text);
     for (; !tokens.empty(); tokens = tokens.subspan(1)) {
         const std::string_view token = tokens.front();
+        if (token == "#") {  // what a macro is replaced by is no declaration yet
+            const char* const end = std::find(token.data(), code.data() + code.size(), '\n');
+            while (tokens.size() > 1 && tokens[1].data() < end) tokens = tokens.subspan(1);
+        }
         if (token == "std140") is_stated = true;
         if (are(tokens, {"uniform", ";"}) && is_stated) return {};  // for all blocks
         if (are(tokens, {"uniform", "name", "{"}) && tokens[1] != "struct" && !is_stated) {

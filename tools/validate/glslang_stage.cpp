@@ -241,8 +241,9 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     const bool is_fine = shader.parse(GetDefaultResources(), 110, false, messages);
     if (is_fine && version_of(prologue).es) precisions_ = precisions_of(shader.getInfoDebugLog());
     const Place place{pieces_.back()->path, 0, 0};
-    Diagnostics found = with_macros(
-        with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_), pieces_);
+    Diagnostics found = with_missing_ends(diagnostics_of_log(shader.getInfoLog(), pieces_, place), pieces_);
+    if (!found.empty())
+        found = with_macros(std::move(found), active_text(pieces_, dialect_, read_).directives);
     for (Diagnostic& diagnostic : found) {
         make_strict(diagnostic, prologue, (further_messages_ & EShMsgRelaxedErrors) != 0);
         name_built_ins(diagnostic);

@@ -85,20 +85,13 @@ Diagnostic mismatch_message(std::string_view message, const PieceList& pieces, c
                          help);
 }
 
-/// Where the stage's files define macros, the first time.
-std::map<std::string_view, Place> macros_of(const PieceList& pieces) {
+/// Where the stage defines macros, the first time.
+std::map<std::string_view, Place> macros_of(const std::vector<ActiveDirective>& directives) {
     std::map<std::string_view, Place> macros;
-    for (const Piece* const piece : pieces) {
-        int number = 0;
-        for (std::string_view rest = piece->text; !rest.empty() && piece != pieces.front();) {
-            const std::string_view line = rest.substr(0, rest.find('\n'));
-            rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-            ++number;
-            if (!trim(line).starts_with('#')) continue;
-            const std::vector<std::string_view> tokens = tokens_of(line);
-            if (tokens.size() > 2 && tokens[1] == "define")
-                macros.try_emplace(tokens[2], Place{piece->path, number, 0});
-        }
+    for (const ActiveDirective& directive : directives) {
+        const std::vector<std::string_view> tokens = tokens_of(directive.rest);
+        if (directive.word == "define" && !tokens.empty())
+            macros.try_emplace(tokens.front(), Place{directive.piece->path, directive.line, 0});
     }
     return macros;
 }
@@ -144,13 +137,13 @@ Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceL
     return found;
 }
 
-Diagnostics with_macros(Diagnostics found, const PieceList& pieces) {
+Diagnostics with_macros(Diagnostics found, const std::vector<ActiveDirective>& directives) {
     // What Vulkan cannot bind is an error of its own.
     std::erase_if(found, [](const Diagnostic& diagnostic) {
         return diagnostic.message.starts_with("'[][]' : Generating SPIR-V array-of-arrays");
     });
     if (found.empty()) return found;
-    const std::map<std::string_view, Place> macros = macros_of(pieces);
+    const std::map<std::string_view, Place> macros = macros_of(directives);
     for (Diagnostic& diagnostic : found) {
         if (diagnostic.message.ends_with("only allowed when using GLSL for Vulkan")) {
             diagnostic.help = "it is written for Vulkan: --dialect vulkan takes it";

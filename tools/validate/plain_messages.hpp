@@ -6,6 +6,7 @@
 
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
+#include "validate/active_text.hpp"
 
 namespace gobo {
 
@@ -17,7 +18,7 @@ using PieceList = std::vector<const Piece*>;
                                       const PieceList& earlier = {});
 
 /// For messages of parsing: names the macro of another line where a line does not read as it is written,
-/// and the dialect that takes what is Vulkan's alone.
-[[nodiscard]] Diagnostics with_macros(Diagnostics found, const PieceList& pieces);
+/// and the dialect that takes what is Vulkan's alone. `directives` are those of the stage.
+[[nodiscard]] Diagnostics with_macros(Diagnostics found, const std::vector<ActiveDirective>& directives);
 
 }  // namespace gobo

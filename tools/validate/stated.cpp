@@ -30,7 +30,10 @@ class Statements {
                 const std::size_t end = closing(i);
                 const Range head{begin, i};
                 if (is_block(head)) add_block(head, {i + 1, end});
-                if (i > begin + 1 && at(i - 2) == "struct") add_struct({i + 1, end}, std::string(at(i - 1)));
+                if (i > begin + 1 && at(i - 2) == "struct") {
+                    structs_.insert(at(i - 1));
+                    add_struct({i + 1, end}, std::string(at(i - 1)));
+                }
                 if (i > begin && at(i - 1) == ")") {
                     add_reads(head, {i + 1, end});
                     begin = end + 1;  // a function's body ends its statement
@@ -48,6 +51,7 @@ class Statements {
                     for (const std::size_t name : names_in(whole))
                         inputs_[at(name)].push_back(std::string(at(name)));
                 if (is_varying) add_precisions(whole, "");
+                if (is_varying) add_arrays_of_structs(whole);
                 if (has(whole, "uniform")) add_format(whole);
                 if (i == begin + 3 && at(begin) == "precision" && !precisions_.empty())
                     precisions_[at(i - 1)] = at(i - 2);
@@ -181,6 +185,14 @@ class Statements {
         }
     }
 
+    /// Linkers compare the names of structs that arrays are of.
+    void add_arrays_of_structs(Range range) {
+        for (std::size_t type = range.begin; type < range.end; ++type)
+            if (structs_.contains(at(type)))
+                for (const std::size_t name : names_in({type + 1, range.end}))
+                    if (at(name + 1) == "[") add(std::string(at(name)), fmt::format("struct:{}", at(type)));
+    }
+
     /// The layout that a block states; empty where it states none.
     [[nodiscard]] std::string_view packing_in(Range head) const {
         for (const std::string_view packing : {"std140", "std430", "shared", "packed"})
@@ -239,6 +251,7 @@ class Statements {
     const ActiveText& text_;
     std::map<std::string_view, std::string_view> defaults_;  ///< layouts of "uniform" and "buffer"
     DefaultPrecisions precisions_;
+    std::set<std::string_view> structs_;
     std::set<std::string, std::less<>> precise_;  ///< structs of whose members precisions are known
     /// By the name under which a stage mentions them, an input or a block's instance.
     std::map<std::string_view, std::vector<std::string>> inputs_;

@@ -61,6 +61,16 @@ std::string_view precision_of(const Variable& variable) {
     return variable.whole == Whole::block || is_array ? variable.usage.precision : std::string_view();
 }
 
+/// The struct that an array of them is of, in OpenGL; empty of others, and where each vertex has one.
+std::string_view struct_of(const Variable& variable) {
+    constexpr std::string_view begin = "struct:";
+    const std::string_view words = variable.usage.stated;
+    const std::size_t at = words.find(begin);
+    const bool is_array = variable.name[root_of(variable.name).size()] == '[';
+    if (at == std::string_view::npos || !is_array) return {};
+    return words.substr(at + begin.size(), words.find(' ', at) - at - begin.size());
+}
+
 /// Whether the members of a block that states one location leave others free between them.
 bool has_gaps(const std::vector<Variable>& list, std::string_view block) {
     std::map<int, int> ends;  // by where they begin
@@ -243,6 +253,12 @@ class VaryingCheck {
         if (input.type != output.type || extents != other_extents)
             return differ(Severity::error, with_extents(input.type, extents),
                           with_extents(output.type, other_extents), "", "declare it alike in both stages");
+        const std::string_view type = struct_of(input);
+        const std::string_view other_type = struct_of(output);
+        if (type != other_type && !type.empty() && !other_type.empty())
+            return differ(Severity::error, fmt::format("of the struct '{}'", type),
+                          fmt::format("of '{}'", other_type), ": an array's must have one name",
+                          "declare the struct once, in a piece that both stages include");
         const std::string_view precision = precision_of(input);
         const std::string_view other_precision = precision_of(output);
         const bool is_known = !version_.es || (!precision.empty() && !other_precision.empty());
