@@ -216,8 +216,16 @@ TEST_F(Includes, ThatDoubleAtEachStepAreRefused) {
         files[std::to_string(i) + ".glsl"] = "int i;\n" + next + next;
     }
     files["30.glsl"] = "int last;\n";
+    EXPECT_THAT(source(), HasSubstr("error: the stage takes more than 10000 includes [default]\n"));
+}
+
+TEST_F(Includes, OfTooMuchTextAreRefused) {
+    files["tiny.frag"] = "int a;\n";
+    for (int i = 0; i < 10; ++i) files["tiny.frag"] += "#include \"long.glsl\"\n";
+    files["long.glsl"] = "int b;\n" + std::string(2'000'000, 'x') + "\n";
     EXPECT_THAT(source(),
-                HasSubstr("error: the stage takes more than 10000 includes or 16000000 bytes [default]\n"));
+                HasSubstr("error: the stage's text is longer than 16000000 bytes: what stands behind "
+                          "an #include below the top of a file begins with"));
 }
 
 TEST_F(Includes, MacrosWithoutEndAreRefused) {

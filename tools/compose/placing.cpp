@@ -129,11 +129,17 @@ Result<void> Placer::place(Placement& placement, int file, const Include& includ
     if (placement.open.size() > kDeepestInclude)
         return fail_at(include, fmt::format("includes are nested more than {} deep", kDeepestInclude),
                        "include the piece from the template");
-    if (placement.files.size() > kMostIncludes || placement.bytes > kMostBytes)
+    const char* const fewer =
+        "include files at the top, where each comes once, or put #pragma once into them";
+    if (placement.files.size() > kMostIncludes)
+        return fail_at(include, fmt::format("the stage takes more than {} includes", kMostIncludes), fewer);
+    if (placement.bytes > kMostBytes)
         return fail_at(
             include,
-            fmt::format("the stage takes more than {} includes or {} bytes", kMostIncludes, kMostBytes),
-            "include files at the top, where each comes once, or put #pragma once into them");
+            fmt::format("the stage's text is longer than {} bytes: what stands behind an #include "
+                        "below the top of a file begins with as many empty lines as stand before it",
+                        kMostBytes),
+            fewer);
     GOBO_TRY_DO(check_version(placement, source));
     if (placement.version.empty()) placement.version = source.version;
     placement.open.push_back(file);
