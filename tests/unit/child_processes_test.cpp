@@ -41,7 +41,7 @@ int depth_of(volatile int* above) {
 }
 
 void spin() {
-    for (volatile int i = 0;;) i = i + 1;
+    for (volatile unsigned i = 0;;) i = i + 1;
 }
 
 void take_memory() {

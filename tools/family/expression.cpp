@@ -65,13 +65,15 @@ class Parser {
         Expression expression{.kind = Expression::Kind::compare, .features = sum()};
         expression.comparison = comparison();
         check_kinds(expression.features, expression.comparison);
+        const bool is_sum = expression.features.size() > 1;
         const Feature& first = features_[expression.features.front()];
-        if (first.kind == FeatureKind::count && next_is_count()) {
+        if ((is_sum || first.kind == FeatureKind::count) && next_is_sum()) {
             expression.subtracted = sum();
             check_kinds(expression.subtracted, expression.comparison);
         } else {
-            expression.value = value(first);
-            if (fault_ == Fault::usage) check_range(expression.features, expression.value);
+            expression.value = is_sum ? number() : value(first);
+            if (fault_ == Fault::usage && (is_sum || first.kind == FeatureKind::count))
+                check_range(expression.features, expression.value);
         }
         for (const int feature : expression.features) expression.value -= features_[feature].lowest;
         for (const int feature : expression.subtracted) expression.value += features_[feature].lowest;
@@ -81,7 +83,6 @@ class Parser {
     /// A rule that a family shares with others may say more than its counts allow; who types a condition
     /// errs.
     void check_range(const std::vector<int>& counts, int value) const {
-        if (features_[counts.front()].kind != FeatureKind::count) return;
         int least = 0;
         int most = 0;
         std::vector<std::string> names;
@@ -103,11 +104,11 @@ class Parser {
         return features;
     }
 
-    /// Whether a count's name follows, which is left to be read.
-    bool next_is_count() {
+    /// Whether the name of what can be added follows, which is left to be read.
+    bool next_is_sum() {
         skip_blanks();
         const auto index = index_of(features_, identifier());
-        return index && features_[*index].kind == FeatureKind::count;
+        return index && features_[*index].kind != FeatureKind::choice;
     }
 
     /// What follows, up to the next character that no name has.
@@ -134,8 +135,10 @@ class Parser {
         for (const int index : summands) {
             const Feature& feature = features_[index];
             if (feature.kind == FeatureKind::count) continue;
+            if (summands.size() > 1 && feature.kind == FeatureKind::define) continue;
             if (summands.size() > 1)
-                stop(fmt::format("'{}' is not a count and cannot be added", feature.name), "add counts only");
+                stop(fmt::format("'{}' is not a count and cannot be added", feature.name),
+                     "add counts, and features that are off or on, of which one that is on is 1");
             if (!equality)
                 stop(fmt::format("'{}' is not a count and has no order", feature.name),
                      "compare it by == or !=");
@@ -143,12 +146,15 @@ class Parser {
     }
 
     int value(const Feature& feature) {
+        if (feature.kind == FeatureKind::count) return number();
         const std::string_view text = word("a value");
-        if (feature.kind != FeatureKind::count) {
-            if (const auto index = feature.index_of(text)) return *index;
-            stop(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
-                 text.size());
-        }
+        if (const auto index = feature.index_of(text)) return *index;
+        stop(fmt::format("feature '{}' has no value '{}'", feature.name, text), feature.help_for(text),
+             text.size());
+    }
+
+    int number() {
+        const std::string_view text = word("a value");
         if (const auto number = number_from<int>(text)) return *number;
         stop(fmt::format("'{}' is not a whole number", text), "counts compare with whole numbers",
              text.size());

@@ -15,7 +15,7 @@ struct Feature;
 ///
 /// Grammar: or  := and ("||" and)*        and := not ("&&" not)*
 ///          not := "!" not | "(" or ")" | sum op (value | sum)
-///          sum := feature ("+" feature)*     (more than one only for counts)
+///          sum := feature ("+" feature)*     (more than one only for counts and defines: off is 0, on 1)
 ///          op  := "==" | "!=" | "<" | "<=" | ">" | ">="
 /// Choices and defines compare with == and != only; counts compare with a whole number or with other counts.
 /// What is added and compared are the indices of values: where a count begins above 0, `value` is less by as
