@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/child_processes.hpp"
@@ -86,17 +87,24 @@ class UserFiles final : public FileSystem {
         return disk_.files_below(folder);
     }
     Result<bool> write(const std::string& path, std::string_view content) override {
-        GOBO_TRY_DO(spare(path));
+        GOBO_TRY_DO(spare({path}));
         return disk_.write(path, content);
     }
-    /// An error where the file was read. A link in its place would be replaced, not followed.
-    [[nodiscard]] Result<void> spare(const std::string& path) const {
-        std::error_code error;
-        const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
-        if (!std::filesystem::is_regular_file(status)) return {};
+    /// An error where one of the files was read. A link in its place would be replaced, not followed.
+    [[nodiscard]] Result<void> spare(const std::vector<std::string>& paths) const {
+        using OnDisk = std::pair<dev_t, ino_t>;  // a file may have several names
+        std::vector<std::pair<OnDisk, std::string>> there;
+        struct stat found {};
+        for (const std::string& path : paths)
+            if (::lstat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode))
+                there.push_back({{found.st_dev, found.st_ino}, path});
+        if (there.empty()) return {};
+        std::set<OnDisk> inputs;
         const std::lock_guard lock(mutex_);
         for (const std::string& input : read_)
-            if (std::filesystem::equivalent(input, path, error))
+            if (::stat(input.c_str(), &found) == 0) inputs.emplace(found.st_dev, found.st_ino);
+        for (const auto& [place, path] : there)
+            if (inputs.contains(place))
                 return fail(Fault::usage, fmt::format("'{}' would be written over, but is read", path),
                             "name another file or folder for what is written");
         return {};
@@ -187,7 +195,7 @@ Result<void> refuse_absent_folders(const CommonOptions& options) {
     return {};
 }
 
-Result<Outcome> answer(const Application& application, const World& world, const UserFiles& disk,
+Result<Outcome> answer(const Application& application, const World& world,
                        const std::vector<std::string>& arguments) {
     const bool completes = arguments.size() > 1 && arguments.front() == "complete";
     const std::string name = arguments.empty() ? "" : arguments[completes ? 1 : 0];
@@ -207,7 +215,9 @@ Result<Outcome> answer(const Application& application, const World& world, const
     chosen.given = line.given;
     GOBO_TRY(Outcome outcome, run_with_cache(*line.command, chosen, application.name, arguments, warnings));
     append(outcome.diagnostics, warnings);
-    for (const OutputFile& file : outcome.files) GOBO_TRY_DO(disk.spare(file.path));
+    std::vector<std::string> paths;
+    for (const OutputFile& file : outcome.files) paths.push_back(file.path);
+    GOBO_TRY_DO(world.refuse_inputs(paths));
     return with_files_written(std::move(outcome));
 }
 
@@ -225,8 +235,9 @@ int run(Application application, const std::vector<std::string>& arguments, cons
         if (is_text && !options.quiet) std::fputs((printable(told.summary) + "\n").c_str(), stderr);
         std::fflush(stderr);
     };
-    auto outcome =
-        answer(application, {disk, shipped, options, application.measure, nullptr, tell}, disk, arguments);
+    const auto spare = [&](const std::vector<std::string>& paths) { return disk.spare(paths); };
+    auto outcome = answer(application,
+                          {disk, shipped, options, application.measure, nullptr, tell, {}, spare}, arguments);
     if (!outcome) {
         for (Diagnostic& error : outcome.error()) {
             if (error.fault != Fault::needs_lab) continue;

@@ -56,7 +56,14 @@ struct World {
     /// Writes what is told and the summary at once, for a command that goes on.
     std::function<void(const Outcome&)> tell = nullptr;
     GivenOptions given = {};  ///< of the command line
+    /// Fault::usage where one of the paths is of a file that was read; null: none was.
+    std::function<Result<void>(const std::vector<std::string>&)> spare = nullptr;
 
+    /// An error where one of the files that a command is to write was read: asked before the first is
+    /// written.
+    [[nodiscard]] Result<void> refuse_inputs(const std::vector<std::string>& outputs) const {
+        return spare ? spare(outputs) : Result<void>();
+    }
     [[nodiscard]] int jobs() const {
         return options.jobs > 0 ? options.jobs
                                 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -100,6 +107,7 @@ struct SelectionOptions {
     std::string dialect = {};
     std::vector<std::string> keys = {};
     std::vector<std::string> key_files = {};
+    bool may_hold_none = false;  ///< files without keys are no error, but an empty selection
     std::vector<std::string> scenes = {};
     std::string bucket_lights = {};
     std::string shard = {};

@@ -77,8 +77,8 @@ Result<Outcome> run_with_cache(const Command& command, const World& world, const
             return std::move(answer->outcome);
     TracedFiles traced(world.disk);
     FileSystem& disk = command.is_repeatable ? static_cast<FileSystem&>(traced) : world.disk;
-    Result<Outcome> outcome =
-        command.run({disk, world.shipped, world.options, world.measure, &cache, world.tell, world.given});
+    Result<Outcome> outcome = command.run(
+        {disk, world.shipped, world.options, world.measure, &cache, world.tell, world.given, world.spare});
     if (command.is_repeatable) keep(cache, key, traced, outcome);
     append(warnings, cache.tidy());
     return outcome;

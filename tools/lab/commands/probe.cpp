@@ -24,24 +24,23 @@ Result<Outcome> run(const ProbeOptions& options, const World& world) {
                          "give a latitude-longitude map as an OpenEXR file with the channels R, G and B");
     GOBO_TRY(const auto environment, probe::environment_of(*image, options.map));
     Outcome outcome;
-    const auto add = [&](const std::string& path, const Result<bool>& written) {
-        if (written)
-            outcome.output += path + "\n";
-        else
-            append(outcome.diagnostics, written.error());
+    const auto add = [&](const std::string& name, std::string content) {
+        outcome.files.push_back({options.folder + "/" + name, std::move(content)});
+        outcome.output += outcome.files.back().path + "\n";
     };
-    const auto add_cube = [&](const std::string& name, double exponent, int side) {
+    const auto add_cube = [&](const std::string& name, double exponent, int side) -> Result<void> {
         const Image cube = probe::lobe_map(environment, exponent, side, world.jobs());
-        add(options.folder + name, write_image(world.disk, options.folder + name, cube));
+        GOBO_TRY(std::string content, encode_image(cube, ImageFormat::exr));
+        add(name, std::move(content));
+        return {};
     };
-    add_cube("/diffuse.exr", 1, options.diffuse_size);
-    add_cube("/specular.exr", options.shininess, options.specular_size);
+    GOBO_TRY_DO(add_cube("diffuse.exr", 1, options.diffuse_size));
+    GOBO_TRY_DO(add_cube("specular.exr", options.shininess, options.specular_size));
     if (environment.negatives > 0)
         outcome.diagnostics.push_back(
             note_in(options.map, fmt::format("{} negative radiances, down to {:.3g}, are taken as 0",
                                              environment.negatives, environment.most_negative)));
-    const std::string path = options.folder + "/harmonics.csv";
-    add(path, world.disk.write(path, probe::to_csv(probe::project(environment), stem_of(options.map))));
+    add("harmonics.csv", probe::to_csv(probe::project(environment), stem_of(options.map)));
     outcome.summary = fmt::format("{} x {} texels: diffuse {} and specular (shininess {}) {} texels a side",
                                   environment.width, environment.height, options.diffuse_size,
                                   options.shininess, options.specular_size);

@@ -118,6 +118,17 @@ Result<Environment> environment_of(const World& world, const std::string& path,
     return Environment{std::move(cubes), looks_up_brdf_table(interfaces)};
 }
 
+/// An error where a picture of a key, or what stands beside it on a page, would take the place of what was
+/// read.
+Result<void> refuse_inputs(const World& world, const PictureOptions& pictures, const Family& family,
+                           const Composition& composition, const std::vector<std::string>& ends) {
+    std::vector<std::string> files;
+    for (const Permutation& permutation : composition.permutations)
+        for (const std::string& end : ends)
+            files.push_back(pictures.folder + "/" + picture_name(key_text(family, permutation.key)) + end);
+    return world.refuse_inputs(files);
+}
+
 /// The pictures of all permutations with errors and costs, on one page.
 Result<RenderedSelection> render_page(const RenderOptions& options, const World& world,
                                       const LoadedFamily& family, const Composition& composition,
@@ -132,6 +143,8 @@ Result<RenderedSelection> render_page(const RenderOptions& options, const World&
         scene.depth_pass = shadow_pass->pass;
         scene.depth_pass.side = kPageShadowSide;
     }
+    GOBO_TRY_DO(
+        refuse_inputs(world, pictures, family.family, composition, {".png", ".expected.png", ".error.png"}));
     gallery::GalleryOptions page;
     page.folder = options.folder;
     page.driver = renderer_of(options);
@@ -195,6 +208,8 @@ Result<RenderedSelection> render_keys(const RenderOptions& options, const World&
     } else {
         GOBO_TRY(const auto shadow_pass, load_shadow_pass(world, family.family, composition));
         GOBO_TRY(const Environment environment, environment_of(world, options.environment, interfaces));
+        GOBO_TRY_DO(refuse_inputs(world, pictures, family.family, composition,
+                                  {fmt::format(".{}", name_of(pictures.format))}));
         const std::vector<Object> objects = demo_objects(std::move(mesh));
         const DrawnSelection selection{family.family, composition, interfaces, objects, pictures.view};
         const vulkan::ShadowPass vulkan_pass = shadow_pass ? shadow_pass->for_vulkan() : vulkan::ShadowPass();
@@ -274,11 +289,12 @@ Result<SceneRenderer> open_scene_renderer(const RenderOptions& options) {
     return renderer;
 }
 
-/// Draws a scene, each draw with the permutation that it needs, into a file that is named after the scene's.
+/// Draws a scene, each draw with the permutation that it needs, as a file that is named after the scene's.
 /// What of it is not drawn is added to the notes.
 Result<void> render_scene(const RenderOptions& options, const std::string& path, const World& world,
                           const LoadedFamily& family, const PictureOptions& pictures,
-                          RenderedSelection& rendered, std::vector<std::string>& notes) {
+                          RenderedSelection& rendered, std::vector<OutputFile>& files,
+                          std::vector<std::string>& notes) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(options.bucket_lights));
     GOBO_TRY(const scene::Scene scene,
              scene::read_scene(world.disk, path, scene::reading_for(family.family)));
@@ -329,13 +345,9 @@ Result<void> render_scene(const RenderOptions& options, const std::string& path,
         } else if (!picture) {
             append(rendered.diagnostics, picture.error());
         } else {
-            const std::string file = picture_path(options, pictures, path);
             rendered.renderer = picture->renderer;
             append(rendered.diagnostics, picture->warnings);
-            if (const auto written = world.disk.write(file, picture->bytes))
-                rendered.files.push_back(file);
-            else
-                append(rendered.diagnostics, written.error());
+            files.push_back({picture_path(options, pictures, path), std::move(picture->bytes)});
         }
     };
     return ask_driver(tasks);
@@ -359,14 +371,24 @@ Result<Outcome> run(const RenderOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily family, load_family(world, options.family, dialect));
     RenderedSelection rendered;
     std::vector<std::string> notes;
+    std::vector<OutputFile> files;  // written when all is read
     for (const std::string& path : options.scenes)
-        GOBO_TRY_DO(render_scene(options, path, world, family, pictures, rendered, notes));
+        GOBO_TRY_DO(render_scene(options, path, world, family, pictures, rendered, files, notes));
+    std::vector<std::string> paths;
+    for (const OutputFile& file : files) paths.push_back(file.path);
+    GOBO_TRY_DO(world.refuse_inputs(paths));
+    RenderedSelection keys;
     if (options.scenes.empty() || selects_keys(options)) {
-        GOBO_TRY(const auto keys, render_keys(options, world, family, pictures));
-        rendered.files.insert(rendered.files.end(), keys.files.begin(), keys.files.end());
-        append(rendered.diagnostics, keys.diagnostics);
-        if (!keys.renderer.empty()) rendered.renderer = keys.renderer;
+        GOBO_TRY(keys, render_keys(options, world, family, pictures));
     }
+    for (const OutputFile& file : files)
+        if (const auto written = world.disk.write(file.path, file.content))
+            rendered.files.push_back(file.path);
+        else
+            append(rendered.diagnostics, written.error());
+    rendered.files.insert(rendered.files.end(), keys.files.begin(), keys.files.end());
+    append(rendered.diagnostics, keys.diagnostics);
+    if (!keys.renderer.empty()) rendered.renderer = keys.renderer;
     return outcome_of(rendered, pictures, std::move(notes));
 }
 

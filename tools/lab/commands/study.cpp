@@ -300,6 +300,15 @@ Result<std::vector<Key>> keys_to_search(const StudyCommandOptions& options, cons
     return keys;
 }
 
+/// What a search of so many keys may write, told before it takes its time.
+std::vector<std::string> files_of_search(const StudyCommandOptions& options, std::size_t keys) {
+    std::vector<std::string> files = {options.folder + "/worst.csv"};
+    if (!options.study_file.empty()) files.push_back(options.folder + "/study.csv");
+    for (std::size_t number = 1; number <= keys; ++number)
+        files.push_back(fmt::format("{}/{}.toml", options.folder, number));
+    return files;
+}
+
 Result<Outcome> search_worst(const StudyCommandOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family));
     GOBO_TRY(const PromisesToTry promised, read_promises(options, world, loaded.family));
@@ -307,6 +316,7 @@ Result<Outcome> search_worst(const StudyCommandOptions& options, const World& wo
     GOBO_TRY_DO(narrow_domains(world, loaded, options.domain));
     const Family& family = loaded.family;
     GOBO_TRY(const std::vector<Key> keys, keys_to_search(options, world, family, promised));
+    if (!options.folder.empty()) GOBO_TRY_DO(world.refuse_inputs(files_of_search(options, keys.size())));
     const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
     GOBO_TRY(const auto cases, study::find_worst_cases(subject, keys, {options.worst}));
     const std::map<std::string, double> typical = errors_on_scenes(options, world, family);
@@ -444,6 +454,10 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
     GOBO_TRY(study_options.weights, load_weights(world, options.weights_from));
     GOBO_TRY(study_options.plan, load_plan(world, family, options.plan));
     const study::Weights& weights = study_options.weights;
+    std::vector<std::string> tables;  // told before hours of measuring; beside them are pages and charts
+    for (const char* name : {"/study.csv", "/summary.csv", "/curves.csv", "/weights.csv"})
+        tables.push_back(options.folder + name);
+    GOBO_TRY_DO(world.refuse_inputs(tables));
     study_options.progress = progress_on_terminal(world);
     study::Journal journal(world.disk, options.folder + "/measurements.jsonl", append_to_disk);
     const study::Subject subject{world.shipped, family, loaded.search, world.jobs()};
@@ -484,9 +498,10 @@ Result<Outcome> run(const StudyCommandOptions& options, const World& world) {
         GOBO_TRY(const auto measures, study::measures_of(with_chips, {}));
         files["fronts.html"] = study::fronts_page(family, study.plan.rate, with_chips, measures);
     }
-    for (const auto& [name, text] : files) GOBO_TRY_DO(world.disk.write(options.folder + "/" + name, text));
-    return Outcome{study_summary(family, study, weights), std::move(diagnostics),
-                   options.folder + "/index.html"};
+    Outcome outcome{study_summary(family, study, weights), std::move(diagnostics),
+                    options.folder + "/index.html"};
+    for (auto& [name, text] : files) outcome.files.push_back({options.folder + "/" + name, std::move(text)});
+    return outcome;
 }
 
 }  // namespace

@@ -345,6 +345,7 @@ Result<Outcome> run(const TestOptions& options, const World& world) {
     GOBO_TRY_DO(refuse_other_stages(family.family, composition, "gobo test evaluates", options.render));
     GOBO_TRY(const Validated validated, compile(world, family, composition, {.keep_spirv = true}));
     if (options.render) return compare_pictures(world, options, family.family, composition, validated);
+    if (!options.figures_file.empty()) GOBO_TRY_DO(world.refuse_inputs({options.figures_file}));
     verify_options.jobs = world.jobs();
     GOBO_TRY(Mesh teapot, load_mesh(world, "teapot"));
     verify_options.meshes = verify::test_meshes(std::move(teapot));
