@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Baseline, NeedsItsColumns) {
     EXPECT_EQ(to_text(compare_with_baseline({}, read_csv("gpu,key\n"), "costs.csv", 0).error().front()),
-              "costs.csv:1: error: there is no column 'stage'\n  help: write it anew with --update\n");
+              "costs.csv:1: error: there is no column 'stage'\n  help: name a table that --update wrote\n");
 }
 
 TEST(Cycles, StandSideBySide) {

@@ -126,6 +126,17 @@ Result<void> put_first(Subject& subject, const std::string& against) {
     return {};
 }
 
+/// An error where --update would replace what is no baseline: a name that was meant for something else.
+Result<void> refuse_other_file(const std::string& path) {
+    const DiskFileSystem disk;
+    if (!disk.is_file(path)) return {};
+    GOBO_TRY(const std::string text, disk.read(path));
+    if (trim(text).empty() || cost::is_baseline(read_csv(text))) return {};
+    return fail(Fault::usage,
+                fmt::format("'{}' would be written over, but is no table that --update wrote", path),
+                "name another file, or remove it");
+}
+
 Result<Outcome> hold_to_baseline(const World& world, const CostCommandOptions& options,
                                  const std::vector<cost::ChipCost>& costs, Diagnostics diagnostics) {
     if (options.update) {
@@ -199,6 +210,7 @@ Result<Outcome> run(const CostCommandOptions& options, const World& world) {
     if (options.names.empty())
         return fail(Fault::usage, "there is nothing to cost",
                     "name a family, or shader files: gobo cost lit");
+    if (options.update) GOBO_TRY_DO(refuse_other_file(options.baseline));
     if (!options.study.empty()) return cost_study(world, options, chips);
     if (options.specialized) return compare_specialized(world, options, chips);
     GOBO_TRY(Subject subject, load_subject(world, options.names, options.stages, options.dialect, &options));

@@ -14,6 +14,8 @@ namespace {
 
 constexpr const char* kUpdate = "write it anew with --update";
 
+constexpr std::array kNames = {"gpu", "key", "stage", "driver"};
+
 /// GPU, key and stage.
 using RowName = std::array<std::string, 3>;
 
@@ -28,13 +30,13 @@ std::string text_of(const RowName& row) {
 }
 
 Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const std::string& path) {
-    const auto missing = [&](std::string_view name) {
-        return fail({path, 1, 0}, "", fmt::format("there is no column '{}'", name), kUpdate);
+    const auto missing = [&](std::string_view name, const char* help) {
+        return fail({path, 1, 0}, "", fmt::format("there is no column '{}'", name), help);
     };
-    std::array<std::size_t, 4> names{};
-    for (std::size_t i = 0; const char* name : {"gpu", "key", "stage", "driver"}) {
+    std::array<std::size_t, kNames.size()> names{};
+    for (std::size_t i = 0; const char* name : kNames) {
         const auto column = table.column(name);
-        if (!column) return missing(name);
+        if (!column) return missing(name, "name a table that --update wrote");
         names[i++] = *column;
     }
     std::map<RowName, BaselineRow> rows;
@@ -55,7 +57,7 @@ Result<std::map<RowName, BaselineRow>> read_rows(const CsvTable& table, const st
         row.driver = cells[names[3]];
         const auto read = [&](std::string_view name, std::uint64_t& value) -> Result<void> {
             const auto column = table.column(name);
-            if (!column) return missing(name);
+            if (!column) return missing(name, kUpdate);
             const auto number = number_from<std::uint64_t>(cells[*column]);
             if (!number)
                 return fail_at_row(
@@ -100,6 +102,10 @@ std::string growth(const StageCost& before, const StageCost& now, double percent
 }
 
 }  // namespace
+
+bool is_baseline(const CsvTable& table) {
+    return std::ranges::all_of(kNames, [&](const char* name) { return table.column(name).has_value(); });
+}
 
 Result<Comparison> compare_with_baseline(const std::vector<ChipCost>& costs, const CsvTable& baseline,
                                          const std::string& path, double percent) {

@@ -18,6 +18,8 @@ struct Comparison {
 [[nodiscard]] Result<Comparison> compare_with_baseline(const std::vector<ChipCost>& costs,
                                                        const CsvTable& baseline, const std::string& path,
                                                        double percent);
+/// Whether a table is one: it has the columns that name what each row is of.
+[[nodiscard]] bool is_baseline(const CsvTable& table);
 /// How many rows of a baseline are of a chip, key and stage that the table in its place lacks.
 [[nodiscard]] std::size_t rows_lost(const CsvTable& baseline, const CsvTable& now);
 
