@@ -21,8 +21,19 @@ bool is_plain(char character) {
     return (character >= ' ' && character <= '~') || character == '\n' || character == '\t';
 }
 
+/// Whether a line ends in what joins lines, blanks behind it or not: compilers warn of it in raw literals
+/// too, some of them of the trigraph.
+bool has_joining_end(std::string_view text) {
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1)) {
+        const std::string_view line = text.substr(0, text.find_last_not_of(" \t", end - 1) + 1);
+        if (end > 0 && (line.ends_with('\\') || line.ends_with("?\?/"))) return true;
+    }
+    return false;
+}
+
 bool fits_raw_literal(std::string_view text) {
-    return text.find('\n') != std::string_view::npos && std::ranges::all_of(text, is_plain);
+    return text.find('\n') != std::string_view::npos && std::ranges::all_of(text, is_plain) &&
+           !has_joining_end(text);
 }
 
 std::string raw_literal(std::string_view text) {

@@ -62,6 +62,10 @@ TEST(CppLiteral, IsRawOnlyWhereThatIsSafe) {
                           "1"),
               R"("\015\n\0011")")
         << "a raw literal would lose the carriage return";
+    EXPECT_EQ(cpp_literal("// \\ \n"), R"("// \\ \n")") << "compilers warn of a backslash before blanks";
+    EXPECT_EQ(cpp_literal("// \\\n"), R"("// \\\n")");
+    EXPECT_EQ(cpp_literal("// ?\?/\t\n"), R"("// \077\077/\011\n")");
+    EXPECT_EQ(cpp_literal("\n\\ a\n"), "R\"gobo(\n\\ a\n)gobo\"");
 }
 
 TEST(CppLiteral, LongTextsAreCutAtLineEnds) {

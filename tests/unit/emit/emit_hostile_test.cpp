@@ -28,6 +28,7 @@ const std::vector<std::pair<const char*, std::string>> hostile = {
     {"end_of_other_raw_literals", "a\n)gobo\")gobo2\")\"))delim\";int pwned;R\"("},
     {"escape", "\x1b[2J\x1b]0;int pwned;\x07"},
     {"trigraph", "a?\?/\nint pwned;?\?/"},
+    {"backslash_and_blanks", "a \\ \nint pwned; \\\t"},
     {"line_separator", "a\xE2\x80\xA8int pwned;\xE2\x80\xA9"},
     {"next_line", "a\xC2\x85int pwned;"},
     {"no_utf8", "a\xFF\xC0\xAFint pwned;\x80"},
