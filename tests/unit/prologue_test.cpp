@@ -187,6 +187,23 @@ INSTANTIATE_TEST_SUITE_P(
             "default",
             "#version 450 core\n#pragma unroll_loop_start\n{ const int i = 0;\n"
             "for (;;) if (a) { b; } else break;\ndo { continue; } while (c);\n}\nbreak;\n"},
+        Row{"loop_within_a_loop", lamps,
+            "#pragma unroll_loop_start\nfor (int i = 0; i < LAMPS; i++) {\n#ifdef LIT\n"
+            "#pragma unroll_loop_start\nfor (int k = 0; k < 2; k++) {}\n#pragma unroll_loop_end\n"
+            "#endif\n}\n#pragma unroll_loop_end\n",
+            "default",
+            "tiny.frag:4:1: error: a loop to be unrolled within that behind line 1, which is to be unrolled, "
+            "too [default]\n"
+            "    #pragma unroll_loop_start\n"
+            "    ^\n"
+            "  help: take the two pragmas of one of them away\n"},
+        Row{"loops_one_of_which_is_left_out", lamps,
+            "#ifdef LIT\n#pragma unroll_loop_start\n#include \"none\"\n#pragma unroll_loop_end\n#else\n"
+            "#pragma unroll_loop_start\nfor (int i = 0; i < 1; i++) { i; }\n#pragma unroll_loop_end\n"
+            "#endif\n",
+            "default",
+            "#version 450 core\n#ifdef LIT\n#pragma unroll_loop_start\n#pragma unroll_loop_end\n#else\n"
+            "#pragma unroll_loop_start\n{ const int i = 0; i; }\n#endif\n"},
         Row{"loop_without_a_known_end", lamps,
             "#pragma unroll_loop_start\nfor (int i = 0; i < GL_many; i++) {}\n#pragma unroll_loop_end\n",
             "default",

@@ -180,12 +180,18 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
         Conditions& conditions = *placement.conditions;
         if (directive.word == "pragma" && family_.unrolls_loops) {
             const bool is_end = directive.rest == kUnrollEnd && loop != nullptr && conditions.is_active();
+            if (directive.rest == kUnrollStart && loop != nullptr)
+                return fail_at(directive,
+                               fmt::format("a loop to be unrolled within that behind line {}, which is to be "
+                                           "unrolled, too",
+                                           loop->place.line),
+                               "take the two pragmas of one of them away");
             if (is_end) {
                 GOBO_TRY_DO(place_rounds(placement, *piece++, *loop));
             } else {
                 place_piece(placement, *piece++);
             }
-            loop = directive.rest == kUnrollStart ? &directive : nullptr;
+            loop = directive.rest == kUnrollStart && conditions.is_active() ? &directive : nullptr;
             placement.walked = placement.placed.size();
         } else if (directive.word == "include") {
             if (loop != nullptr)
