@@ -47,10 +47,10 @@ std::string value_fault(const Option& option, const std::string& text) {
             using Value = std::decay_t<decltype(*target)>;
             if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>)
                 return number_fault<Value>(option.rule, text);
-            else if (!text.empty())
-                return "";
             else if (names_path(option))
-                return "the name is empty";
+                return text.empty() ? "the name is empty" : "";
+            else if (!trim(text).empty())
+                return "";
             else  // a script's variable that is not set
                 return option.is_argument() ? "" : "the value is empty: give one, or leave the option out";
         },

@@ -95,10 +95,10 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
     return named;
 }
 
-Result<std::vector<NamedKey>> keys_of_file(const World& world, const std::string& path) {
+Result<std::vector<NamedKey>> keys_of_file(const World& world, const std::string& path, bool may_hold_none) {
     GOBO_TRY(const std::string text, read_input(world, path));
     std::vector<NamedKey> keys = keys_of_text(text, path == "-" ? "stdin" : path);
-    if (keys.empty())
+    if (keys.empty() && !may_hold_none)
         return fail(Place{path}, {}, "holds no keys",
                     "write one key a line; 'default' is the key with every feature at its default");
     return keys;
@@ -353,7 +353,7 @@ Result<Selection> load_selection(const World& world, LoadedFamily& family, const
     GOBO_TRY(selection.over, names_in("--over", options.more.over));
     for (const std::string& text : options.keys) selection.keys.push_back({text});
     for (const std::string& path : options.key_files) {
-        GOBO_TRY(const auto keys, keys_of_file(world, path));
+        GOBO_TRY(const auto keys, keys_of_file(world, path, options.may_hold_none));
         selection.keys.insert(selection.keys.end(), keys.begin(), keys.end());
         if (path != "-") family.files.push_back(path);
     }
@@ -368,6 +368,10 @@ Result<std::vector<Key>> load_keys(const World& world, LoadedFamily& family,
                                    const SelectionOptions& options) {
     const std::vector<std::string> own_files = family.files;
     GOBO_TRY(const Selection selection, load_selection(world, family, options));
+    // To select() it would mean the family's default set.
+    const bool holds_none = options.may_hold_none && !options.key_files.empty() && selection.keys.empty() &&
+                            !selection.all && selection.cover == 0;
+    if (holds_none) return std::vector<Key>();
     GOBO_TRY(std::vector<Key> keys, select(family.family, selection, name_of(family.dialect)));
     if (!options.shard.empty()) family.run = run_of_shards(world, family, own_files, keys);
     return shard_of(std::move(keys), options.shard);

@@ -120,12 +120,14 @@ std::string compared_json(const Family& family, const Compared& compared) {
 Result<Outcome> run(const ListOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
     const Family& family = loaded.family;
-    GOBO_TRY(const Selection selection, load_selection(world, loaded, options));
     if (options.count) {
+        GOBO_TRY(const Selection selection, load_selection(world, loaded, options));
         GOBO_TRY(const auto count, count_selected(family, selection, name_of(loaded.dialect)));
         return Outcome{count.text() + "\n"};
     }
-    GOBO_TRY(const auto keys, load_keys(world, loaded, options));
+    SelectionOptions selected = options;
+    selected.may_hold_none = !options.against.empty();  // an application that asked for nothing
+    GOBO_TRY(const auto keys, load_keys(world, loaded, selected));
     if (!options.against.empty()) {
         GOBO_TRY(const auto built, keys_of_manifest(world, loaded, options.against));
         const Compared compared = compare(keys, built);

@@ -155,7 +155,10 @@ std::string read_uri(const FileSystem& disk, const Value& uri, Scene& scene) {
     const bool has_scheme = colon != std::string::npos && text.find('/') > colon;  // RFC 3986: `https:`
     if (has_scheme || text.starts_with('/'))
         uri.fail_with("buffers and pictures are data URIs or paths relative to the file", "is '{}'", text);
-    const std::string path = scene.path.substr(0, scene.path.rfind('/') + 1) + decode_percent(text);
+    const std::string name = decode_percent(text);
+    if (name.find('\0') != std::string::npos)
+        uri.fail_with("name a file beside it, or put its content into a data URI", "holds a NUL byte");
+    const std::string path = scene.path.substr(0, scene.path.rfind('/') + 1) + name;
     Result<std::string> content = disk.read(path);
     if (!content) {
         content.error().front().help = fmt::format("{} of {} names it", uri.path, scene.path);
