@@ -64,7 +64,8 @@ struct DescriptorPlace {
 /// The head of a prologue: the version line, the extensions, sorted, then of the macros those that the stage
 /// mentions: BLOCK(binding, name), VARYING(location), ATTRIBUTE(location), OUTPUT(location),
 /// SAMPLER(binding, type), DEPTH(qualifier). `own_version` is the template's own #version, used where the
-/// dialect is Dialect::own, and by those of SPIR-V where it is later than theirs. `places`, of the resources that the stage declares, count for Vulkan alone.
+/// dialect is Dialect::own, and by those of SPIR-V where it is later than theirs. `places`, of the resources
+/// that the stage declares, count for Vulkan alone.
 [[nodiscard]] std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view own_version,
                                            Extensions extensions, const Mentions& mentions,
                                            const std::vector<DescriptorPlace>& places = {});

@@ -169,9 +169,10 @@ void DiskCache::keep(const Digest& key, std::string_view result) {
     if (error == ENOTDIR && fs::is_directory(folder_, made)) place = part;
     if (error == 0 && ::rename(beside.c_str(), path.c_str()) != 0) {
         place = path;
+        error = errno;
         // An empty folder is damage as any other.
-        const bool is_free = errno == EISDIR && ::rmdir(path.c_str()) == 0;
-        if (!is_free || ::rename(beside.c_str(), path.c_str()) != 0) error = EISDIR;
+        if (error == EISDIR && ::rmdir(path.c_str()) == 0)
+            error = ::rename(beside.c_str(), path.c_str()) == 0 ? 0 : errno;
     }
     if (error != 0) {
         ::unlink(beside.c_str());
