@@ -22,6 +22,7 @@ enum class DescriptorKind : std::uint32_t {
     uniform_buffer = 6,
     storage_buffer = 7,
     input_attachment = 10,
+    acceleration_structure = 1000150000,
 };
 
 /// Where a sampler is bound.

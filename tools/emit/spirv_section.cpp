@@ -23,6 +23,7 @@ unsigned stage_bits(const std::vector<std::string>& stages) {
 
 /// The enumerator of gobo::DescriptorKind for a sampler's GLSL type.
 std::string_view kind_of(std::string_view type) {
+    if (type.starts_with("accelerationStructure")) return "acceleration_structure";
     if (type.find("subpassInput") != std::string_view::npos) return "input_attachment";
     const bool is_buffer = type.ends_with("Buffer");
     if (type.find("image") != std::string_view::npos)

@@ -303,6 +303,12 @@ class Reflection {
         if (lacks_size(array))
             return stop("sampler '{}' is an array without a size, which Vulkan 1.0 cannot bind", name,
                         Fault::input, kStateSize);
+        const spv::Op kind = module_.type(element).opcode;
+        if (kind == spv::OpTypeAccelerationStructureKHR && api_ == Api::opengl)
+            return stop("acceleration structure '{}': OpenGL has none", name);
+        if (!is_opaque(element) && kind > spv::OpTypeStruct)
+            return stop("uniform '{}' is of a type by which nothing can be bound", name, Fault::input,
+                        "declare it as a sampler, an image, an acceleration structure or a block");
         if (is_opaque(element)) {
             usage.access = spirv::format_name(module_.type(element).image.format);
             interface_.samplers.push_back({name, type, stated(module_, spv::DecorationBinding, variable.id),
@@ -325,7 +331,9 @@ class Reflection {
     }
 
     [[nodiscard]] bool is_opaque(Id type) const {
-        return module_.type(type).is_image() || module_.type(type).opcode == spv::OpTypeSampler;
+        const spv::Op kind = module_.type(type).opcode;
+        return module_.type(type).is_image() || kind == spv::OpTypeSampler ||
+               kind == spv::OpTypeAccelerationStructureKHR;
     }
 
     [[nodiscard]] bool holds_opaque(Id structure) const {

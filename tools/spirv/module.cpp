@@ -48,6 +48,14 @@ std::optional<Scalar> scalar_of(const Instruction& number) {
     return kBySize[kind][std::countr_zero(size)];
 }
 
+/// Also those that extensions add: nothing else has a result and no type, but labels and what stands before
+/// all types.
+bool declares_type(const Instruction& instruction) {
+    return instruction.opcode >= spv::OpTypeVoid && instruction.opcode != spv::OpDecorationGroup &&
+           instruction.opcode != spv::OpLabel && instruction.result != Id::none &&
+           instruction.type == Id::none;
+}
+
 std::uint32_t limited(std::uint64_t scalars) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(scalars, Type::kMostScalars));
 }
@@ -154,8 +162,7 @@ class Reader {
             case spv::OpVariable:
                 return read_variable(instruction);
             default:
-                if (instruction.opcode >= spv::OpTypeVoid && instruction.opcode <= spv::OpTypeFunction)
-                    read_type(instruction);
+                if (declares_type(instruction)) read_type(instruction);
         }
     }
 
@@ -388,6 +395,8 @@ std::string type_name(const Module& module, Id id) {
             return image_name(module, type, type.image.storage ? "image" : "texture");
         case spv::OpTypeSampler:
             return "sampler";
+        case spv::OpTypeAccelerationStructureKHR:
+            return "accelerationStructureEXT";
         default:
             return type.value.name();
     }

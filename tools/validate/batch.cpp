@@ -35,10 +35,6 @@ std::uint64_t hash_of(const SpirvModule& module) {
     return hash;
 }
 
-spv_target_env environment_of(Dialect dialect) {
-    return dialect == Dialect::vulkan ? SPV_ENV_VULKAN_1_0 : SPV_ENV_OPENGL_4_5;
-}
-
 }  // namespace
 
 std::vector<Batch> batches_of(const std::vector<Program>& programs, int jobs) {

@@ -408,12 +408,16 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
     stage.spirv = spirv_of(intermediate, debug_information);
+    GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_, dialect_));
     if (is_spirv(dialect_)) {
-        GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_));
         GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv, count_ids(pieces_.front()->text)));
     }
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
-    if (!read) return placed(std::move(read).error(), pieces_);
+    if (!read) {  // spirv_type() makes types that SPIR-V does not have
+        Diagnostics refused = check_module(stage.spirv, environment_of(dialect_), pieces_);
+        return has_errors(refused) ? tl::unexpected(std::move(refused))
+                                   : placed(std::move(read).error(), pieces_);
+    }
     const spirv::Module& module = *read;
     const spirv::Usage usage = spirv::usage_of(module);
     Result<Interface> interface = reflect_stage(module, usage, is_vulkan ? Api::vulkan : Api::opengl);

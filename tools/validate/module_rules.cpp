@@ -1,5 +1,7 @@
 #include "validate/module_rules.hpp"
 
+#include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,11 +40,13 @@ Declaration declaration_in(std::string_view said, const std::vector<const Piece*
     return {{pieces.back()->path, 0, 0}, "", false};
 }
 
-/// The first line that has a word which begins so.
-Declaration first_use(std::string_view begins, const std::vector<const Piece*>& pieces) {
+/// The first line that has a word which begins as one of these.
+Declaration first_use(std::initializer_list<std::string_view> beginnings,
+                      const std::vector<const Piece*>& pieces) {
     for (const Piece* const piece : pieces)
         for (const std::string_view token : tokens_of(piece->text))
-            if (token.starts_with(begins)) return use_of(token, pieces);
+            if (std::ranges::any_of(beginnings, [&](auto begins) { return token.starts_with(begins); }))
+                return declaration_of(token, "", pieces);
     return {{pieces.back()->path, 0, 0}, "", false};
 }
 
@@ -75,19 +79,32 @@ Result<void> refuse_optimized(const std::vector<std::uint32_t>& module, spv_targ
     return {};
 }
 
+spv_target_env environment_of(Dialect dialect) {
+    return dialect == Dialect::vulkan ? SPV_ENV_VULKAN_1_0 : SPV_ENV_OPENGL_4_5;
+}
+
 Result<void> refuse_capabilities(std::span<const std::uint32_t> module,
-                                 const std::vector<const Piece*>& pieces) {
+                                 const std::vector<const Piece*>& pieces, Dialect dialect) {
     constexpr std::size_t kHeader = 5;
     for (std::size_t at = kHeader; at + 1 < module.size() && module[at] >> spv::WordCountShift != 0;
          at += module[at] >> spv::WordCountShift) {
         if ((module[at] & spv::OpCodeMask) != spv::OpCapability) break;  // they stand first
         const std::uint32_t capability = module[at + 1];
+        if (dialect != Dialect::vulkan && capability == spv::CapabilityRayQueryKHR)
+            return fail(diagnostic_at(first_use({"rayQuery", "accelerationStructure"}, pieces),
+                                      Severity::error, "OpenGL has no ray queries",
+                                      "build it with --dialect vulkan"));
+        if (dialect != Dialect::vulkan && capability == spv::CapabilityCooperativeMatrixNV)
+            return fail(diagnostic_at(first_use({"fcoopmat", "icoopmat", "ucoopmat"}, pieces),
+                                      Severity::error, "OpenGL has no cooperative matrices",
+                                      "build it with --dialect vulkan"));
+        if (!is_spirv(dialect)) continue;
         if (capability == spv::CapabilityPhysicalStorageBufferAddresses)
-            return fail(diagnostic_at(first_use("buffer_reference", pieces), Severity::error,
+            return fail(diagnostic_at(first_use({"buffer_reference"}, pieces), Severity::error,
                                       "Vulkan 1.0 has no buffer_reference",
                                       "bind the buffer as a block, and index it by numbers"));
         if (capability >= spv::CapabilityGroupNonUniform && capability <= spv::CapabilityGroupNonUniformQuad)
-            return fail(diagnostic_at(first_use("gl_Subgroup", pieces), Severity::error,
+            return fail(diagnostic_at(first_use({"gl_Subgroup"}, pieces), Severity::error,
                                       "the SPIR-V of Vulkan 1.0 and OpenGL has no subgroups",
                                       "do it without GL_KHR_shader_subgroup_..."));
     }

@@ -11,6 +11,9 @@
 
 namespace gobo {
 
+/// Whose rules the validator goes by.
+[[nodiscard]] spv_target_env environment_of(Dialect dialect);
+
 /// What the validator says of a module with names: errors of the input, which asks for what the environment
 /// lacks, at the first line that declares what the validator names. Empty where the module is valid.
 [[nodiscard]] Diagnostics check_module(const std::vector<std::uint32_t>& module, spv_target_env environment,
@@ -20,9 +23,10 @@ namespace gobo {
 [[nodiscard]] Result<void> refuse_optimized(const std::vector<std::uint32_t>& module,
                                             spv_target_env environment);
 
-/// Errors of the capabilities that Vulkan 1.0 and OpenGL lack and glslang gives to a module all the same:
-/// subgroups, and pointers to buffers, which gobo's reader of SPIR-V does not know.
+/// Errors of the capabilities that the dialect lacks and glslang gives to a module all the same: in SPIR-V
+/// that is shipped subgroups, and pointers to buffers, which gobo's reader of SPIR-V does not know; in OpenGL
+/// ray queries and cooperative matrices.
 [[nodiscard]] Result<void> refuse_capabilities(std::span<const std::uint32_t> module,
-                                               const std::vector<const Piece*>& pieces);
+                                               const std::vector<const Piece*>& pieces, Dialect dialect);
 
 }  // namespace gobo
