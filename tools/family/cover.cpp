@@ -124,26 +124,26 @@ class Coverer {
           combinations_(find_combinations(space, strength, undecided(only_))),
           touching_(space.feature_count()),
           nothing_decided_(space) {
-        for (const Combination& combination : combinations_)
+        for (Combination& combination : combinations_) {
             for (std::size_t i = 0; i < combination.features.size(); ++i)
                 touching_[combination.features[i]].push_back({&combination, combination.strides[i]});
+            if (combination.left > 0) open_.push_back(&combination);
+            tuples_ += combination.left;
+        }
     }
 
     /// Nothing where it would take too long: what the keys so far took tells.
     std::optional<std::vector<Key>> run() {
-        const auto most_left = std::ranges::max_element(combinations_, {}, &Combination::left);
-        const std::size_t fewest_keys = most_left == combinations_.end() ? 0 : most_left->left;
         std::vector<Key> keys;
         PartialKey start;
         while (next_start(start)) {
-            if (sums_ > most_sums) return std::nullopt;
-            if (!keys.empty() && looks_ / keys.size() * std::max(fewest_keys, keys.size()) > most_looks)
-                return std::nullopt;
+            // The first keys cover most: it takes more than at their rate.
+            if (work_ / std::max<std::size_t>(covered_, 1) * tuples_ > most_work) return std::nullopt;
             OpenPaths paths = nothing_decided_;
             for (std::size_t i = 0; i < start.size(); ++i)
                 if (start[i] >= 0) paths.decide(i, start[i]);
             Attempt best;
-            for (int i = 0; i < attempts; ++i) {
+            for (int i = 0; i < (keys.size() < many_keys ? attempts : 1); ++i) {
                 Attempt attempt = complete(start, paths);
                 if (best.key.empty() || attempt.gain > best.gain) best = std::move(attempt);
             }
@@ -158,12 +158,14 @@ class Coverer {
     /// Orders of features tried for each key; more gave covers smaller by under one per cent.
     static constexpr int attempts = 6;
 
-    /// Each some 25 ns. The covers of `lit` by triples and by fours take 25 and some
-    /// 250 million.
-    static constexpr std::size_t most_looks = 2'000'000'000;
+    /// Keys after which one order is tried: nobody waits for fewer of so many. The cover of `lit` by fours
+    /// has 11,322 keys.
+    static constexpr std::size_t many_keys = 15'000;
 
-    /// Each some 5 ns. The cover of `lit` by fours takes some 950 million.
-    static constexpr std::size_t most_sums = 8'000'000'000;
+    /// In some ns. The cover of `lit` by fours takes 10'000'000'000.
+    static constexpr std::size_t most_work = 20'000'000'000;
+    static constexpr std::size_t work_of_look = 25;
+    static constexpr std::size_t work_of_combination = 5;
 
     /// A key, and how many open tuples it has besides the one that it began with.
     struct Attempt {
@@ -195,17 +197,18 @@ class Coverer {
             if (start[i] < 0) order.push_back(i);
         for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random_() % i]);
         for (const std::size_t feature : order) {
-            attempt.gain += decide_best(attempt.key, feature, paths);
-            paths.decide(feature, attempt.key[feature]);
+            const std::vector<char> allowed = paths.allowed(feature);
+            attempt.gain += decide_best(attempt.key, feature, allowed);
+            // Where one value alone is left, deciding it closes nothing.
+            if (std::ranges::count(allowed, 1) > 1) paths.decide(feature, attempt.key[feature]);
         }
-        looks_ += paths.looks() - looks_before;
+        work_ += (paths.looks() - looks_before) * work_of_look;
         return attempt;
     }
 
     /// Gives the feature the value that covers most open tuples with what is decided already, of those that
     /// some key still allows; the number of those tuples.
-    std::size_t decide_best(PartialKey& key, std::size_t feature, const OpenPaths& paths) {
-        const std::vector<char> allowed = paths.allowed(feature);
+    std::size_t decide_best(PartialKey& key, std::size_t feature, const std::vector<char>& allowed) {
         const std::vector<std::size_t> gains = gains_of(key, feature);
         const std::size_t first = random_() % allowed.size();  // so that ties take turns
         std::size_t best_gain = 0;
@@ -220,12 +223,13 @@ class Coverer {
 
     /// Per value of the feature: how many open tuples it makes up with what is decided already.
     [[nodiscard]] std::vector<std::size_t> gains_of(PartialKey& key, std::size_t feature) {
-        sums_ += touching_[feature].size();
+        work_ += touching_[feature].size() * work_of_combination;
         key[feature] = 0;  // only for the index of the first tuple
         std::vector<std::size_t> gains(space_.value_count(feature), 0);
         for (const auto& [combination, stride] : touching_[feature]) {
             const std::optional<std::size_t> first = tuple_index(*combination, key);
             if (!first) continue;
+            work_ += gains.size();
             for (std::size_t value = 0; value < gains.size(); ++value)
                 gains[value] += combination->open[*first + value * stride];
         }
@@ -235,13 +239,15 @@ class Coverer {
 
     /// Combinations of which nothing is open any more are left out of all further sums.
     void mark(const Key& key) {
+        work_ += open_.size() * work_of_combination;
         std::vector<char> has_closed(touching_.size(), 0);
-        for (std::size_t number = cursor_; number < combinations_.size(); ++number) {
-            Combination& combination = combinations_[number];
-            if (std::exchange(combination.open[*tuple_index(combination, key)], 0) == 0) continue;
-            if (--combination.left > 0) continue;
-            for (const std::size_t feature : combination.features) has_closed[feature] = 1;
-        }
+        std::erase_if(open_, [&](Combination* combination) {
+            if (std::exchange(combination->open[*tuple_index(*combination, key)], 0) == 0) return false;
+            ++covered_;
+            if (--combination->left > 0) return false;
+            for (const std::size_t feature : combination->features) has_closed[feature] = 1;
+            return true;
+        });
         for (std::size_t feature = 0; feature < touching_.size(); ++feature)
             if (has_closed[feature] != 0)
                 std::erase_if(touching_[feature],
@@ -258,10 +264,12 @@ class Coverer {
     PartialKey only_;  ///< what is decided before any key
     std::vector<Combination> combinations_;
     std::vector<std::vector<Touch>> touching_;  ///< per feature
+    std::vector<Combination*> open_;            ///< those of which something is open
     OpenPaths nothing_decided_;
     std::size_t cursor_ = 0;
-    std::size_t looks_ = 0;       ///< at nodes of the space, over all attempts
-    std::size_t sums_ = 0;        ///< combinations that a value's gain was summed over
+    std::size_t tuples_ = 0;  ///< that there are to cover
+    std::size_t covered_ = 0;
+    std::size_t work_ = 0;
     std::mt19937 random_{20231};  // a fixed seed: the same cover everywhere
 };
 

@@ -18,7 +18,7 @@ inline constexpr int kLargestCover = 8;
 ///
 /// Greedy, one key at a time, as in AETG (Cohen, Dalal, Fredman, Patton: The AETG System, IEEE TSE 23(7),
 /// 1997): a key starts from a combination not covered yet, and each further feature takes the value that
-/// covers most new ones.
+/// covers most new ones; of several orders of features the best is taken.
 [[nodiscard]] std::optional<std::vector<Key>> cover(const KeySpace& space, int strength);
 
 }  // namespace gobo

@@ -362,12 +362,19 @@ bool OpenPaths::leads_on(std::size_t level, int node) const {
     return decided_[level] < 0 ? std::ranges::any_of(next, is_open) : is_open(next[decided_[level]]);
 }
 
-bool OpenPaths::is_reached(std::size_t level, int node) const {
+bool OpenPaths::close_unreached(std::size_t level) {
+    const std::vector<char>& is_open_before = is_open_[level - 1];
     const int value = decided_[level - 1];
-    return std::ranges::any_of(space_->previous(level, node), [&](int before) {
-        return is_open_[level - 1][before] != 0 &&
-               (value < 0 || space_->next(level - 1, before)[value] == node);
-    });
+    if (value < 0)
+        return close(level, [&](int node) {
+            return std::ranges::any_of(space_->previous(level, node),
+                                       [&](int before) { return is_open_before[before] != 0; });
+        });
+    std::vector<char> is_reached(is_open_[level].size(), 0);
+    for (const int before : open_[level - 1])
+        if (const int node = space_->next(level - 1, before)[value]; node != KeySpace::dead)
+            is_reached[node] = 1;
+    return close(level, [&](int node) { return is_reached[node] != 0; });
 }
 
 bool OpenPaths::close(std::size_t level, const auto& hold) {
@@ -383,7 +390,7 @@ void OpenPaths::decide(std::size_t feature, int value) {
     const std::size_t start = levels_[feature];
     decided_[start] = value;
     for (std::size_t level = start + 1; level < open_.size(); ++level)
-        if (!close(level, [&](int node) { return is_reached(level, node); })) break;
+        if (!close_unreached(level)) break;
     for (std::size_t level = start + 1; level-- > 0;)
         if (!close(level, [&](int node) { return leads_on(level, node); })) break;
 }

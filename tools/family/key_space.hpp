@@ -101,8 +101,9 @@ class OpenPaths {
     /// Whether what is decided leaves a way from the node of the level to an open one of the next.
     [[nodiscard]] bool leads_on(std::size_t level, int node) const;
 
-    /// Whether it leaves a way to the node of the level from an open one of the level before.
-    [[nodiscard]] bool is_reached(std::size_t level, int node) const;
+    /// Closes the open nodes of a level to which no open one of the level before leads; whether there were
+    /// any.
+    bool close_unreached(std::size_t level);
 
     /// Closes the open nodes of a level that do not `hold`; whether there were any.
     bool close(std::size_t level, const auto& hold);
