@@ -42,8 +42,44 @@ uniform mat4 legacy_ModelViewProjectionMatrixInverseTranspose;
 #piece NormalMatrix
 uniform mat3 legacy_NormalMatrix;
 
+#piece NormalScale
+uniform float legacy_NormalScale;
+
 #piece TextureMatrix
 uniform mat4 legacy_TextureMatrix[8];
+
+#piece TextureMatrixInverse
+uniform mat4 legacy_TextureMatrixInverse[8];
+
+#piece TextureMatrixTranspose
+uniform mat4 legacy_TextureMatrixTranspose[8];
+
+#piece TextureMatrixInverseTranspose
+uniform mat4 legacy_TextureMatrixInverseTranspose[8];
+
+#piece EyePlaneS
+uniform vec4 legacy_EyePlaneS[8];
+
+#piece EyePlaneT
+uniform vec4 legacy_EyePlaneT[8];
+
+#piece EyePlaneR
+uniform vec4 legacy_EyePlaneR[8];
+
+#piece EyePlaneQ
+uniform vec4 legacy_EyePlaneQ[8];
+
+#piece ObjectPlaneS
+uniform vec4 legacy_ObjectPlaneS[8];
+
+#piece ObjectPlaneT
+uniform vec4 legacy_ObjectPlaneT[8];
+
+#piece ObjectPlaneR
+uniform vec4 legacy_ObjectPlaneR[8];
+
+#piece ObjectPlaneQ
+uniform vec4 legacy_ObjectPlaneQ[8];
 
 #piece in
 #if __VERSION__ >= 130
@@ -202,9 +238,6 @@ uniform legacy_PointParameters legacy_Point;
 #piece ClipPlane
 uniform vec4 legacy_ClipPlane[8];
 
-#piece ClipVertex
-#error gl_ClipVertex went with the fixed clip planes: write gl_ClipDistance[i] = dot(gl_ClipPlane[i], position)
-
 #piece LightModel
 struct legacy_LightModelParameters {
     vec4 ambient;
@@ -228,19 +261,33 @@ uniform legacy_MaterialParameters legacy_FrontMaterial;
 #include "compatibility/material.glsl"
 uniform legacy_MaterialParameters legacy_BackMaterial;
 
-#piece FrontLightModelProduct
+#piece light_model_products
 struct legacy_LightModelProducts {
     vec4 sceneColor;
 };
+
+#piece FrontLightModelProduct
+#include "compatibility/light_model_products.glsl"
 uniform legacy_LightModelProducts legacy_FrontLightModelProduct;
 
-#piece FrontLightProduct
+#piece BackLightModelProduct
+#include "compatibility/light_model_products.glsl"
+uniform legacy_LightModelProducts legacy_BackLightModelProduct;
+
+#piece light_products
 struct legacy_LightProducts {
     vec4 ambient;
     vec4 diffuse;
     vec4 specular;
 };
+
+#piece FrontLightProduct
+#include "compatibility/light_products.glsl"
 uniform legacy_LightProducts legacy_FrontLightProduct[8];
+
+#piece BackLightProduct
+#include "compatibility/light_products.glsl"
+uniform legacy_LightProducts legacy_BackLightProduct[8];
 
 #piece Fog
 struct legacy_FogParameters {
@@ -358,9 +405,23 @@ highp vec4 legacy_shadow2D(highp sampler2DShadow map, highp vec3 place) { return
 #define shadow2D legacy_shadow2D
 #endif
 
+#piece shadow2D.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow2D(highp sampler2DShadow map, highp vec3 place) { return vec4(texture(map, place)); }
+highp vec4 legacy_shadow2D(highp sampler2DShadow map, highp vec3 place, highp float bias) { return vec4(texture(map, place, bias)); }
+#define shadow2D legacy_shadow2D
+#endif
+
 #piece shadow2DProj
 #if __VERSION__ >= 130
 highp vec4 legacy_shadow2DProj(highp sampler2DShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+#define shadow2DProj legacy_shadow2DProj
+#endif
+
+#piece shadow2DProj.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow2DProj(highp sampler2DShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+highp vec4 legacy_shadow2DProj(highp sampler2DShadow map, highp vec4 place, highp float bias) { return vec4(textureProj(map, place, bias)); }
 #define shadow2DProj legacy_shadow2DProj
 #endif
 
@@ -374,4 +435,195 @@ highp vec4 legacy_shadow2DProj(highp sampler2DShadow map, highp vec4 place) { re
 #include "compatibility/textureCubeLod.glsl"
 #if __VERSION__ >= 130
 #define textureCubeLodEXT textureCubeLod
+#endif
+
+#piece texture1DProj
+#if __VERSION__ >= 130
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec2 place) { return textureProj(map, place); }
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec4 place) { return textureProj(map, place); }
+#define texture1DProj legacy_texture1DProj
+#endif
+
+#piece texture1DProj.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec2 place) { return textureProj(map, place); }
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec4 place) { return textureProj(map, place); }
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec2 place, highp float bias) { return textureProj(map, place, bias); }
+highp vec4 legacy_texture1DProj(highp sampler1D map, highp vec4 place, highp float bias) { return textureProj(map, place, bias); }
+#define texture1DProj legacy_texture1DProj
+#endif
+
+#piece texture3DProj
+#if __VERSION__ >= 130
+highp vec4 legacy_texture3DProj(highp sampler3D map, highp vec4 place) { return textureProj(map, place); }
+#define texture3DProj legacy_texture3DProj
+#endif
+
+#piece texture3DProj.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_texture3DProj(highp sampler3D map, highp vec4 place) { return textureProj(map, place); }
+highp vec4 legacy_texture3DProj(highp sampler3D map, highp vec4 place, highp float bias) { return textureProj(map, place, bias); }
+#define texture3DProj legacy_texture3DProj
+#endif
+
+#piece texture2DRect
+#if __VERSION__ >= 140
+highp vec4 legacy_texture2DRect(highp sampler2DRect map, highp vec2 place) { return texture(map, place); }
+#define texture2DRect legacy_texture2DRect
+#endif
+
+#piece texture2DRectProj
+#if __VERSION__ >= 140
+highp vec4 legacy_texture2DRectProj(highp sampler2DRect map, highp vec3 place) { return textureProj(map, place); }
+highp vec4 legacy_texture2DRectProj(highp sampler2DRect map, highp vec4 place) { return textureProj(map, place); }
+#define texture2DRectProj legacy_texture2DRectProj
+#endif
+
+#piece texture1DLod
+#if __VERSION__ >= 130
+highp vec4 legacy_texture1DLod(highp sampler1D map, highp float place, highp float lod) { return textureLod(map, place, lod); }
+#define texture1DLod legacy_texture1DLod
+#endif
+
+#piece texture3DLod
+#if __VERSION__ >= 130
+highp vec4 legacy_texture3DLod(highp sampler3D map, highp vec3 place, highp float lod) { return textureLod(map, place, lod); }
+#define texture3DLod legacy_texture3DLod
+#endif
+
+#piece texture1DProjLod
+#if __VERSION__ >= 130
+highp vec4 legacy_texture1DProjLod(highp sampler1D map, highp vec2 place, highp float lod) { return textureProjLod(map, place, lod); }
+highp vec4 legacy_texture1DProjLod(highp sampler1D map, highp vec4 place, highp float lod) { return textureProjLod(map, place, lod); }
+#define texture1DProjLod legacy_texture1DProjLod
+#endif
+
+#piece texture2DProjLod
+#if __VERSION__ >= 130
+highp vec4 legacy_texture2DProjLod(sampler2D map, highp vec3 place, highp float lod) { return textureProjLod(map, place, lod); }
+highp vec4 legacy_texture2DProjLod(sampler2D map, highp vec4 place, highp float lod) { return textureProjLod(map, place, lod); }
+#define texture2DProjLod legacy_texture2DProjLod
+#endif
+
+#piece texture3DProjLod
+#if __VERSION__ >= 130
+highp vec4 legacy_texture3DProjLod(highp sampler3D map, highp vec4 place, highp float lod) { return textureProjLod(map, place, lod); }
+#define texture3DProjLod legacy_texture3DProjLod
+#endif
+
+#piece shadow1D
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1D(highp sampler1DShadow map, highp vec3 place) { return vec4(texture(map, place)); }
+#define shadow1D legacy_shadow1D
+#endif
+
+#piece shadow1D.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1D(highp sampler1DShadow map, highp vec3 place) { return vec4(texture(map, place)); }
+highp vec4 legacy_shadow1D(highp sampler1DShadow map, highp vec3 place, highp float bias) { return vec4(texture(map, place, bias)); }
+#define shadow1D legacy_shadow1D
+#endif
+
+#piece shadow1DProj
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1DProj(highp sampler1DShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+#define shadow1DProj legacy_shadow1DProj
+#endif
+
+#piece shadow1DProj.frag
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1DProj(highp sampler1DShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+highp vec4 legacy_shadow1DProj(highp sampler1DShadow map, highp vec4 place, highp float bias) { return vec4(textureProj(map, place, bias)); }
+#define shadow1DProj legacy_shadow1DProj
+#endif
+
+#piece shadow2DRect
+#if __VERSION__ >= 140
+highp vec4 legacy_shadow2DRect(highp sampler2DRectShadow map, highp vec3 place) { return vec4(texture(map, place)); }
+#define shadow2DRect legacy_shadow2DRect
+#endif
+
+#piece shadow2DRectProj
+#if __VERSION__ >= 140
+highp vec4 legacy_shadow2DRectProj(highp sampler2DRectShadow map, highp vec4 place) { return vec4(textureProj(map, place)); }
+#define shadow2DRectProj legacy_shadow2DRectProj
+#endif
+
+#piece shadow1DLod
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1DLod(highp sampler1DShadow map, highp vec3 place, highp float lod) { return vec4(textureLod(map, place, lod)); }
+#define shadow1DLod legacy_shadow1DLod
+#endif
+
+#piece shadow1DProjLod
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow1DProjLod(highp sampler1DShadow map, highp vec4 place, highp float lod) { return vec4(textureProjLod(map, place, lod)); }
+#define shadow1DProjLod legacy_shadow1DProjLod
+#endif
+
+#piece shadow2DLod
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow2DLod(highp sampler2DShadow map, highp vec3 place, highp float lod) { return vec4(textureLod(map, place, lod)); }
+#define shadow2DLod legacy_shadow2DLod
+#endif
+
+#piece shadow2DProjLod
+#if __VERSION__ >= 130
+highp vec4 legacy_shadow2DProjLod(highp sampler2DShadow map, highp vec4 place, highp float lod) { return vec4(textureProjLod(map, place, lod)); }
+#define shadow2DProjLod legacy_shadow2DProjLod
+#endif
+
+#piece texture1DGradARB
+#if __VERSION__ >= 130
+#define texture1DGradARB textureGrad
+#endif
+
+#piece texture2DGradARB
+#if __VERSION__ >= 130
+#define texture2DGradARB textureGrad
+#endif
+
+#piece texture3DGradARB
+#if __VERSION__ >= 130
+#define texture3DGradARB textureGrad
+#endif
+
+#piece textureCubeGradARB
+#if __VERSION__ >= 130
+#define textureCubeGradARB textureGrad
+#endif
+
+#piece texture1DProjGradARB
+#if __VERSION__ >= 130
+#define texture1DProjGradARB textureProjGrad
+#endif
+
+#piece texture2DProjGradARB
+#if __VERSION__ >= 130
+#define texture2DProjGradARB textureProjGrad
+#endif
+
+#piece texture3DProjGradARB
+#if __VERSION__ >= 130
+#define texture3DProjGradARB textureProjGrad
+#endif
+
+#piece shadow1DGradARB
+#if __VERSION__ >= 130
+#define shadow1DGradARB(map, place, dx, dy) vec4(textureGrad(map, place, dx, dy))
+#endif
+
+#piece shadow2DGradARB
+#if __VERSION__ >= 130
+#define shadow2DGradARB(map, place, dx, dy) vec4(textureGrad(map, place, dx, dy))
+#endif
+
+#piece shadow1DProjGradARB
+#if __VERSION__ >= 130
+#define shadow1DProjGradARB(map, place, dx, dy) vec4(textureProjGrad(map, place, dx, dy))
+#endif
+
+#piece shadow2DProjGradARB
+#if __VERSION__ >= 130
+#define shadow2DProjGradARB(map, place, dx, dy) vec4(textureProjGrad(map, place, dx, dy))
 #endif

@@ -31,6 +31,11 @@ TEST(StaysInside, OnlyBelowItsFolder) {
     for (const auto& [path, expected] : rows) EXPECT_EQ(stays_inside(path), expected) << path;
 }
 
+Piece shipped_piece(Piece piece) {
+    piece.is_shipped = true;
+    return piece;
+}
+
 TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
     MemoryFileSystem own;
     ASSERT_TRUE(own.write("mine/fog/linear.glsl", "mine"));
@@ -42,7 +47,9 @@ TEST(SearchPath, TakesTheFirstFolderThatHasThePiece) {
     EXPECT_EQ(search.find("fog/linear.glsl").value(),
               (Piece{"fog/linear.glsl", "mine/fog/linear.glsl", "mine", true}));
     EXPECT_EQ(search.find("fog/none.glsl").value(),
-              (Piece{"shader_lib/fog/none.glsl", "shader_lib/fog/none.glsl", "none", false}));
+              shipped_piece({"shader_lib/fog/none.glsl", "shader_lib/fog/none.glsl", "none"}));
+    EXPECT_EQ(search.find("fog/linear.glsl", "mine", Whose::shipped).value(),
+              shipped_piece({"shader_lib/fog/linear.glsl", "shader_lib/fog/linear.glsl", "shipped"}));
     EXPECT_EQ(search.find("fog/thick.glsl").value(), std::nullopt);
     EXPECT_THAT(search.folders(), testing::ElementsAre("mine", "shader_lib"));
     EXPECT_THAT(search.all_include_paths(), testing::ElementsAre("fog/linear.glsl", "fog/none.glsl"));
@@ -71,8 +78,8 @@ TEST(SearchPath, FindsPiecesThatShareAFile) {
     search.add(files, "lib", "lib/", false);
     const auto text = [&](const char* path) { return search.find(path).value().value().text; };
     EXPECT_EQ(search.find("fog/linear.glsl").value(),
-              (Piece{"lib/fog.glsl#linear", "lib/fog.glsl", "\n\n\na\nb\n\n", false,
-                     files.read("lib/fog.glsl").value()}))
+              shipped_piece({"lib/fog.glsl#linear", "lib/fog.glsl", "\n\n\na\nb\n\n", false,
+                             files.read("lib/fog.glsl").value()}))
         << "lines have the file's numbers, and messages quote them";
     EXPECT_EQ(text("fog/distance/radial.glsl"), "\n\n\n\n\n\n\nc\n");
     EXPECT_EQ(text("fog/none.glsl"), "none");

@@ -40,6 +40,7 @@ struct Piece {
                                  ///< piece empty
     /// Of a prologue, by line: where an #extension stands, and that line.
     std::map<int, std::pair<Place, std::string>> moved_lines = {};
+    bool is_shipped = false;  ///< gobo's own
 
     friend bool operator==(const Piece&, const Piece&) = default;
 };

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/rewrite.hpp"
 #include "core/text.hpp"
 
 namespace gobo {
@@ -68,6 +69,15 @@ std::string_view depth_extension(Dialect dialect, const Mentions& mentions) {
     if (dialect == Dialect::glsl450 || is_spirv(dialect) || !mentions("DEPTH")) return "";
     if (mentions("early_fragment_tests")) return "GL_ARB_shader_image_load_store";
     return dialect == Dialect::es300 ? "GL_EXT_conservative_depth" : "GL_ARB_conservative_depth";
+}
+
+/// Where vertex stages before 1.30 mention texture2DLod and its kin, which GLSL 1.20, 8.7, has there of
+/// itself: glslang wants the extension that brings them to fragment stages. Drivers without it but warn of
+/// `enable`.
+bool needs_lod_extension(StageKind stage, std::string_view version_line, const Mentions& mentions) {
+    const GlslVersion version = version_of(version_line);
+    return stage == StageKind::vertex && !version.es && version.number < 130 &&
+           std::ranges::any_of(lookups_of_level(), mentions);
 }
 
 /// The dialect whose macros suit a version line: explicit bindings and locations came with 4.2.
@@ -159,6 +169,8 @@ std::string dialect_prologue(Dialect dialect, StageKind stage, std::string_view 
     const DialectRow& row = row_of(is_own ? spelling_of(text) : dialect);
     if (const std::string needed(depth_extension(row.dialect, mentions)); !needed.empty())
         extensions.try_emplace(needed, Extension{"enable"});
+    if (needs_lod_extension(stage, text, mentions))
+        extensions.try_emplace("GL_ARB_shader_texture_lod", Extension{"enable"});
     const auto of_all = extensions.extract("all");  // it would undo those before it
     if (of_all) text += fmt::format("#extension all : {}\n", of_all.mapped().behavior);
     for (const auto& [name, extension] : extensions)

@@ -40,17 +40,19 @@ PieceLibrary::PieceLibrary(const Family& family, const SearchPath& search, Comme
     }
     for (const Varying& varying : family.varyings) interest_.push_back(varying.name);
     if (!family.substitutions.empty() || family.compatibility || is_vulkan_) has_substitutions_ = true;
+    interest_.insert(interest_.end(), lookups_of_level().begin(), lookups_of_level().end());
     if (family.compatibility) interest_.insert(interest_.end(), legacy_names().begin(), legacy_names().end());
 }
 
 void PieceLibrary::substitute_for(const Key& key, StageKind stage) {
     if (!has_substitutions_) return;
-    substitutions_ = substitutions_of(family_, key, stage);
+    replaced_ = {substitutions_of(family_, key),
+                 family_.compatibility ? legacy_substitutions(stage) : Substitutions{},
+                 {}};
     if (is_vulkan_ && stage == StageKind::vertex)
-        substitutions_.insert(substitutions_.end(),
-                              {{"gl_VertexID", "gl_VertexIndex"}, {"gl_InstanceID", "gl_InstanceIndex"}});
+        replaced_.by_vulkan = {{"gl_VertexID", "gl_VertexIndex"}, {"gl_InstanceID", "gl_InstanceIndex"}};
     const auto next = static_cast<int>(variants_.size());
-    variant_ = variants_.try_emplace(substitutions_, next).first->second;
+    variant_ = variants_.try_emplace(replaced_, next).first->second;
 }
 
 Result<int> PieceLibrary::prologue(const PrologueText& part) {
@@ -107,31 +109,42 @@ int PieceLibrary::add(Piece piece, Entry entry) {
     return static_cast<int>(entries_.size()) - 1;
 }
 
-Result<std::optional<int>> PieceLibrary::load(const std::string& path, const std::string& root) {
-    const auto [known, is_new] = by_path_.try_emplace({root, path, variant_});
-    if (!is_new) return known->second;
-    GOBO_TRY(std::optional<Piece> piece, search_.find(path, root));
-    if (!piece) return std::nullopt;
+Result<std::optional<int>> PieceLibrary::load(const std::string& path, const std::string& root, Whose whose) {
+    const std::tuple at(root, path, whose, variant_);
+    if (const auto known = by_path_.find(at); known != by_path_.end()) return known->second;
+    GOBO_TRY(std::optional<Piece> piece, search_.find(path, root, whose));
+    if (!piece) return by_path_[at] = std::nullopt;
     const bool is_of_root = piece->path.ends_with("/" + path);
     const std::string found_in =
         is_of_root ? piece->path.substr(0, piece->path.size() - path.size() - 1) : "";
-    GOBO_TRY(known->second, add_file(std::move(*piece), folder_of(path), found_in));
-    return known->second;
+    GOBO_TRY(const int file, add_file(std::move(*piece), folder_of(path), found_in));
+    return by_path_[at] = file;
+}
+
+std::string PieceLibrary::rewritten(const Piece& piece, bool is_legacy) const {
+    std::string text = piece.text;
+    const auto replace = [&](const Substitutions& substitutions) {
+        if (!substitutions.empty()) text = substituted(text, substitutions);
+    };
+    if (!piece.is_shipped) {
+        replace(replaced_.by_family);
+        replace(replaced_.by_legacy);
+        if (family_.compatibility) text = without_redeclarations(std::move(text));
+    }
+    replace(replaced_.by_vulkan);
+    // A family that extends one of ours may put pieces of its own where that has others.
+    const bool has_own_includes = piece.is_shipped && (is_legacy || !family_.extends);
+    return family_.include_rules.empty() || has_own_includes ? text : with_includes(text, family_);
 }
 
 Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string root) {
     if (piece.file_text.empty()) piece.file_text = piece.text;
-    std::string text = substitutions_.empty() || folder == kLegacyFolder
-                           ? piece.text
-                           : substituted(piece.text, substitutions_);
-    if (family_.compatibility && folder != kLegacyFolder) text = without_redeclarations(std::move(text));
-    const auto [found, is_unread] = by_file_.try_emplace(
-        {piece.path, piece.name, text == piece.text ? "" : text}, static_cast<int>(sources_.size()));
-    if (!is_unread) return found->second;
+    const bool is_legacy = piece.is_shipped && folder == kLegacyFolder;
+    const std::string text = rewritten(piece, is_legacy);
+    const std::tuple at(piece.path, piece.name, text == piece.text ? "" : text);
+    if (const auto known = by_file_.find(at); known != by_file_.end()) return known->second;
     note_head(piece);
-    GOBO_TRY(ScannedPiece scanned,
-             scan_piece(family_.include_rules.empty() ? text : with_includes(text, family_), piece.path,
-                        piece.text));
+    GOBO_TRY(ScannedPiece scanned, scan_piece(text, piece.path, piece.text));
     if (const int line = line_of_subroutine_array(scanned.code, chosen_functions_); line > 0)
         return fail({piece.path, line, 0}, line_of(piece, line),
                     "an array of subroutine uniforms cannot be a feature: each of its elements chooses anew",
@@ -151,6 +164,7 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
     if (!is_spirv(composition_.dialect))  // in SPIR-V every offset is stated
         append(composition_.warnings, scanned.unstated_layouts);
     append(composition_.warnings, scanned.warnings);
+    const int number = by_file_[at] = static_cast<int>(sources_.size());
     Source& source = sources_.emplace_back();
     source.name = piece.name;
     source.folder = std::move(folder);
@@ -168,8 +182,9 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
                 source.asks_for_counts.emplace_back(feature, i);
     source.extensions = std::move(scanned.extensions);
     source.is_once = scanned.is_once;
+    source.is_legacy = is_legacy;
     source.guard = std::move(scanned.guard);
-    return found->second;
+    return number;
 }
 
 void PieceLibrary::note_head(const Piece& piece) {

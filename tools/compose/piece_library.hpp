@@ -43,6 +43,7 @@ struct Source {
     std::vector<Directive> directives;
     Extensions extensions;
     bool is_once = false;
+    bool is_legacy = false;  ///< of templates/compatibility.glsl
     std::string guard;
     std::vector<SubroutineUniform> subroutines;  ///< those that become functions
     std::vector<SubroutineType> subroutine_types;
@@ -65,6 +66,8 @@ class PieceLibrary {
     /// `from` is the file that includes it; null: the family asks for it.
     [[nodiscard]] Result<std::optional<int>> find(const Include& include, const Key& key, StageKind stage,
                                                   const Source* from);
+    /// gobo's own file that declares one of legacy_names(), whatever the user's files are called.
+    [[nodiscard]] Result<int> legacy(const std::string& name, StageKind stage);
 
     /// The text that the family puts in front of stages, as a file.
     [[nodiscard]] Result<int> prologue(const PrologueText& part);
@@ -110,7 +113,10 @@ class PieceLibrary {
     [[nodiscard]] const Entry& entry(int piece) const { return entries_[static_cast<std::size_t>(piece)]; }
 
     int add(Piece piece, Entry entry);
-    Result<std::optional<int>> load(const std::string& path, const std::string& root);
+    Result<std::optional<int>> load(const std::string& path, const std::string& root,
+                                    Whose whose = Whose::anyone);
+    /// The text of a file as the family rewrites it.
+    [[nodiscard]] std::string rewritten(const Piece& piece, bool is_legacy) const;
     /// The number of a file, which is scanned where it is new, as the family rewrites it.
     Result<int> add_file(Piece piece, std::string folder, std::string root);
     /// Notes what stands before the first mark of a file that is split into pieces.
@@ -142,15 +148,22 @@ class PieceLibrary {
                                           "SAMPLER", "DEPTH",   "early_fragment_tests"};
     std::deque<Entry> entries_;   ///< of the pieces
     std::deque<Source> sources_;  ///< not a vector: who holds one may load more of them
-    /// What features replace, and the number of that in `variants_`; 0 where none does.
-    Substitutions substitutions_;
-    std::map<Substitutions, int> variants_;
+    /// What is replaced one after the other, and the number of that in `variants_`; 0 where nothing is.
+    struct Replaced {
+        Substitutions by_family;
+        Substitutions by_legacy;  ///< `gl_Vertex` of compatibility = true
+        Substitutions by_vulkan;  ///< in gobo's own files, too
+
+        friend auto operator<=>(const Replaced&, const Replaced&) = default;
+    };
+    Replaced replaced_;
+    std::map<Replaced, int> variants_;
     int variant_ = 0;
     bool has_substitutions_ = false;
     std::set<std::string> subroutines_;
     std::set<std::string> chosen_functions_;  ///< macros of choices: where a file has them as subroutines
-    /// Root, path and variant; also what is known to be absent.
-    std::map<std::tuple<std::string, std::string, int>, std::optional<int>> by_path_;
+    /// Root, path, whose and variant; also what is known to be absent.
+    std::map<std::tuple<std::string, std::string, Whose, int>, std::optional<int>> by_path_;
     /// Path, name and, where something is replaced in it, text: two paths may lead to one file.
     std::map<std::tuple<std::string, std::string, std::string>, int> by_file_;
     std::map<std::string, int, std::less<>> by_generated_text_;

@@ -53,6 +53,15 @@ Result<std::optional<int>> PieceLibrary::find(const Include& include, const Key&
     return by_choice_[choice] = file;
 }
 
+Result<int> PieceLibrary::legacy(const std::string& name, StageKind stage) {
+    const std::string path = legacy_piece(name);
+    for (const std::string& candidate : {with_infix(path, stage), path}) {
+        GOBO_TRY(const std::optional<int> file, load(candidate, "", Whose::shipped));
+        if (file) return *file;
+    }
+    return fail(Fault::internal, fmt::format("templates/compatibility.glsl declares no '{}'", name));
+}
+
 Result<std::optional<int>> PieceLibrary::find_file(const Include& include, StageKind stage,
                                                    const Source* from) {
     const bool is_template = include.place.line == 0;  // no line of a file includes it
@@ -106,7 +115,9 @@ Result<std::optional<int>> PieceLibrary::find_value(const Include& include, cons
 
 Result<std::optional<int>> PieceLibrary::first_of(const std::vector<std::string>& paths, const Source* from) {
     for (const std::string& path : paths) {
-        GOBO_TRY(const std::optional<int> file, load(path, from == nullptr ? "" : from->root));
+        GOBO_TRY(const std::optional<int> file,
+                 load(path, from == nullptr ? "" : from->root,
+                      from != nullptr && from->is_legacy ? Whose::shipped : Whose::anyone));
         if (file) return file;
     }
     return std::nullopt;

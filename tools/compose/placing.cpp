@@ -70,8 +70,10 @@ std::string Placer::version_beside(const Placement& placement) {
 Result<void> Placer::place_legacy(Placement& placement) {
     const std::vector<int> mentioning = placement.placed;
     for (const std::string& name : legacy_names())
-        if (library_.mentions(mentioning, name))
-            GOBO_TRY_DO(follow(placement, {false, legacy_piece(name), {family_.path, 0, 0}, ""}, nullptr));
+        if (library_.mentions(mentioning, name)) {
+            GOBO_TRY(const int file, library_.legacy(name, placement.stage));
+            GOBO_TRY_DO(place(placement, file, {false, legacy_piece(name), {family_.path, 0, 0}, ""}));
+        }
     const auto begin = placement.placed.begin();
     const auto prologue = static_cast<std::ptrdiff_t>(placement.behind_prologue);
     const auto added = static_cast<std::ptrdiff_t>(mentioning.size());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <regex>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -83,15 +84,23 @@ std::string without_redeclarations(std::string text) {
 
 const std::vector<std::string>& legacy_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all = {
-            "attribute",         "varying",       "texture1D",    "texture2D",      "texture3D",
-            "textureCube",       "texture2DProj", "texture2DLod", "textureCubeLod", "texture2DLodEXT",
-            "textureCubeLodEXT", "shadow2D",      "shadow2DProj", "ftransform"};
-        for (const char* matrix : {"ModelViewMatrix", "ProjectionMatrix", "ModelViewProjectionMatrix"})
+        std::vector<std::string> all = {"attribute",       "varying",           "ftransform",
+                                        "texture2DLodEXT", "textureCubeLodEXT", "textureCube",
+                                        "textureCubeLod",  "textureCubeGradARB"};
+        for (const char* lookup : {"texture1D", "texture2D", "texture3D", "shadow1D", "shadow2D"})
+            for (const char* kind : {"", "Proj", "Lod", "ProjLod", "GradARB", "ProjGradARB"})
+                all.push_back(fmt::format("{}{}", lookup, kind));
+        for (const char* lookup : {"texture2DRect", "shadow2DRect"})
+            for (const char* kind : {"", "Proj"}) all.push_back(fmt::format("{}{}", lookup, kind));
+        for (const char* matrix :
+             {"ModelViewMatrix", "ProjectionMatrix", "ModelViewProjectionMatrix", "TextureMatrix"})
             for (const char* kind : {"", "Inverse", "Transpose", "InverseTranspose"})
                 all.push_back(fmt::format("{}{}{}", kLegacy, matrix, kind));
+        for (const char* plane : {"EyePlane", "ObjectPlane"})
+            for (const char coordinate : {'S', 'T', 'R', 'Q'})
+                all.push_back(fmt::format("{}{}{}", kLegacy, plane, coordinate));
         for (const char* name : {"NormalMatrix",
-                                 "TextureMatrix",
+                                 "NormalScale",
                                  "Vertex",
                                  "Normal",
                                  "Color",
@@ -114,7 +123,6 @@ const std::vector<std::string>& legacy_names() {
                                  "FogFragCoord",
                                  "Point",
                                  "ClipPlane",
-                                 "ClipVertex",
                                  "FragColor",
                                  "FragData",
                                  "LightSource",
@@ -123,6 +131,8 @@ const std::vector<std::string>& legacy_names() {
                                  "BackMaterial",
                                  "FrontLightModelProduct",
                                  "FrontLightProduct",
+                                 "BackLightModelProduct",
+                                 "BackLightProduct",
                                  "Fog"})
             all.push_back(fmt::format("{}{}", kLegacy, name));
         return all;
@@ -130,30 +140,47 @@ const std::vector<std::string>& legacy_names() {
     return names;
 }
 
+std::span<const std::string_view> lookups_of_level() {
+    static constexpr std::array<std::string_view, 11> names = {
+        "texture1DLod",    "texture1DProjLod", "texture2DLod",   "texture2DProjLod",
+        "texture3DLod",    "texture3DProjLod", "textureCubeLod", "shadow1DLod",
+        "shadow1DProjLod", "shadow2DLod",      "shadow2DProjLod"};
+    return names;
+}
+
 std::string legacy_piece(const std::string& name) {
-    return fmt::format("compatibility/{}.glsl",
+    return fmt::format("{}/{}.glsl", kLegacyFolder,
                        name.starts_with(kLegacy) ? name.substr(kLegacy.size()) : name);
 }
 
-Substitutions substitutions_of(const Family& family, const Key& key, StageKind stage) {
-    Substitutions substitutions(family.substitutions.begin(), family.substitutions.end());
-    if (family.compatibility) {
-        for (const std::string& name : legacy_names()) {
-            if (!name.starts_with(kLegacy)) continue;
-            const std::string plain = name.substr(kLegacy.size());
-            // To the fragment stage its color is what the vertex stage calls the front's.
-            const bool is_color =
-                stage == StageKind::fragment && (plain == "Color" || plain == "SecondaryColor");
-            substitutions.emplace_back("gl_" + plain,
-                                       is_color ? fmt::format("{}Front{}", kLegacy, plain) : name);
-        }
-    }
-    for (std::size_t i = 0; i < key.size(); ++i)
-        if (const Feature& feature = family.features[i]; !feature.substituted.empty())
-            substitutions.emplace_back(feature.substituted, feature.text_of(key[i]).value_or("0"));
+namespace {
+
+Substitutions longest_first(Substitutions substitutions) {
     std::ranges::stable_sort(substitutions, std::ranges::greater(),
                              [](const auto& substitution) { return substitution.first.size(); });
     return substitutions;
+}
+
+}  // namespace
+
+Substitutions substitutions_of(const Family& family, const Key& key) {
+    Substitutions substitutions(family.substitutions.begin(), family.substitutions.end());
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (const Feature& feature = family.features[i]; !feature.substituted.empty())
+            substitutions.emplace_back(feature.substituted, feature.text_of(key[i]).value_or("0"));
+    return longest_first(std::move(substitutions));
+}
+
+Substitutions legacy_substitutions(StageKind stage) {
+    Substitutions substitutions;
+    for (const std::string& name : legacy_names()) {
+        if (!name.starts_with(kLegacy)) continue;
+        const std::string plain = name.substr(kLegacy.size());
+        // To the fragment stage its color is what the vertex stage calls the front's.
+        const bool is_color = stage == StageKind::fragment && (plain == "Color" || plain == "SecondaryColor");
+        substitutions.emplace_back("gl_" + plain, is_color ? fmt::format("{}Front{}", kLegacy, plain) : name);
+    }
+    return longest_first(std::move(substitutions));
 }
 
 std::string substituted(std::string_view text, const Substitutions& substitutions) {

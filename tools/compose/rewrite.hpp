@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,15 +16,20 @@ namespace gobo {
 /// What is replaced, and by what.
 using Substitutions = std::vector<std::pair<std::string, std::string>>;
 
-/// What the family and its features replace for a key, in the files of a stage.
-[[nodiscard]] Substitutions substitutions_of(const Family& family, const Key& key, StageKind stage);
+/// What the family and its features replace for a key.
+[[nodiscard]] Substitutions substitutions_of(const Family& family, const Key& key);
+/// What `compatibility = true` replaces in the files of a stage, behind that: `gl_Vertex` by `legacy_Vertex`.
+[[nodiscard]] Substitutions legacy_substitutions(StageKind stage);
 
-/// In its files nothing is replaced: they hold what the names stand for.
-inline constexpr std::string_view kLegacyFolder = "compatibility";
 /// What a stage of a family with `compatibility = true` may mention, each declared by the piece
-/// `compatibility/NAME.glsl`: `legacy_Vertex`, which is what the files call `gl_Vertex`, and `texture2D`.
+/// NAME of `templates/compatibility.glsl`: `legacy_Vertex`, which is what the files call `gl_Vertex`, and
+/// `texture2D`.
 [[nodiscard]] const std::vector<std::string>& legacy_names();
-/// The piece that declares one of them.
+/// The lookups that a vertex stage alone has in GLSL 1.10 and 1.20: `texture2DLod`.
+[[nodiscard]] std::span<const std::string_view> lookups_of_level();
+/// The folder of the include paths of those pieces.
+inline constexpr std::string_view kLegacyFolder = "compatibility";
+/// The include path of the piece that declares one of them.
 [[nodiscard]] std::string legacy_piece(const std::string& name);
 
 /// The text with each of them replaced, the longest that fits first; one that begins or ends as a name does

@@ -79,13 +79,13 @@ void SearchPath::add_file(const FileSystem& files, const std::string& path) {
 }
 
 Result<std::optional<Piece>> SearchPath::find(const std::string& include_path,
-                                              const std::string& first_folder) const {
+                                              const std::string& first_folder, Whose whose) const {
     if (include_path.size() > kLongestPath) return std::nullopt;
     for (const bool is_first : {true, false}) {
         for (const Root& root : roots_) {
             const bool goes_first =
                 named_files_ > 0 && root.only.empty() && !first_folder.empty() && root.folder == first_folder;
-            if (goes_first != is_first) continue;
+            if (goes_first != is_first || (whose == Whose::shipped && root.name_prefix.empty())) continue;
             Result<std::optional<Piece>> piece = find_in(root, include_path);
             if (!piece || *piece) return piece;
         }
@@ -131,7 +131,12 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     std::optional<std::string> found = section_of(text, section);
     if (!found) return std::nullopt;
     const std::string name = root.name_prefix + file + (section.empty() ? "" : "#" + section);
-    return Piece{name, path, std::move(*found), root.on_disk, section.empty() ? "" : text};
+    return Piece{.name = name,
+                 .path = path,
+                 .text = std::move(*found),
+                 .on_disk = root.on_disk,
+                 .file_text = section.empty() ? "" : text,
+                 .is_shipped = !root.name_prefix.empty()};
 }
 
 std::vector<std::string> SearchPath::folders() const {

@@ -11,11 +11,15 @@
 
 namespace gobo {
 
+/// Whose files count.
+enum class Whose { anyone, shipped };
+
 /// Folders searched in order for an include path.
 class SearchPath {
   public:
     /// A folder of `files`. `name_prefix` goes before an include path to make the portable name of what is
-    /// found there; `on_disk` says whether a depfile must name it. `files` must outlive the search path.
+    /// found there, and is that of gobo's own folders: those of users have none. `on_disk` says whether a
+    /// depfile must name it. `files` must outlive the search path.
     void add(const FileSystem& files, std::string folder, std::string name_prefix, bool on_disk);
 
     /// One file, found by its name alone and before any folder; a link is followed wherever it leads, since
@@ -28,7 +32,8 @@ class SearchPath {
     /// its own goes before. Fault::file where it cannot be read; Fault::input where a link leads out of its
     /// folder. Where files are named by themselves, `first_folder` goes before the others.
     [[nodiscard]] Result<std::optional<Piece>> find(const std::string& include_path,
-                                                    const std::string& first_folder = {}) const;
+                                                    const std::string& first_folder = {},
+                                                    Whose whose = Whose::anyone) const;
 
     /// The folders as diagnostics name them.
     [[nodiscard]] std::vector<std::string> folders() const;

@@ -188,6 +188,7 @@ struct Family {
     std::vector<PrologueText> prologue;                ///< of all stages first
     std::vector<IncludeRule> include_rules;            ///< longest line first
     std::map<std::string, std::string> substitutions;  ///< what is replaced in the files, and by what
+    bool extends = false;                              ///< another family
     bool unrolls_loops = false;  ///< between `#pragma unroll_loop_start` and `#pragma unroll_loop_end`
     bool compatibility = false;  ///< what OpenGL had before 3.0 (`gl_Vertex`) is read as of gobo's own piece
     std::vector<Feature> features;  ///< sorted by name

@@ -386,6 +386,7 @@ Result<Family> read_family(std::string_view text, const std::string& path, const
                       [&](toml::table& table) { unknown = leave_out(table, without); });
     Family family;
     family.path = path;
+    family.extends = !base.path.empty();
     const TomlTable root(reader, reader.root(), "the family");
     std::vector<std::string> known = {
         "name",       "extends",      "without",       "programs", "version",        "prologue", "includes",
