@@ -109,6 +109,20 @@ void name_other_uniforms(Diagnostic& diagnostic, const std::vector<const Piece*>
     if (!others.empty()) diagnostic.help += fmt::format("; so must those of {}", join(others, ", "));
 }
 
+/// Of what OpenGL once had built in and no declaration can bring back.
+std::string_view help_of_lost(std::string_view message) {
+    if (message.starts_with("'gl_ClipVertex' : "))
+        return "it went with the fixed clip planes: write gl_ClipDistance[i] = dot(gl_ClipPlane[i], "
+               "position), which GLSL has from 1.30 on";
+    constexpr std::array<std::string_view, 4> kNoise = {
+        "'noise1' : ", "'noise2' : ", "'noise3' : ", "'noise4' : "};
+    if (message.ends_with("no matching overloaded function found") &&
+        std::ranges::any_of(kNoise, [&](std::string_view name) { return message.starts_with(name); }))
+        return "SPIR-V, by which shaders are checked, has no noise, and drivers give 0 for it (GLSL 4.60, "
+               "8.14): write 0.0, or a noise function of your own";
+    return {};
+}
+
 /// Adds what glslang leaves out: which extension, which numbers.
 void explain(Diagnostic& diagnostic) {
     if (diagnostic.severity == Severity::warning &&
@@ -146,6 +160,10 @@ void explain(Diagnostic& diagnostic) {
             "declare it by BLOCK(N, name) or SAMPLER(N, type), or write layout(set = S, binding = N)";
     if (diagnostic.message.starts_with("'location' : SPIR-V requires location"))
         diagnostic.help = "write layout(location = N): where there is SPIR-V, names do not count";
+    if (diagnostic.message.starts_with("'GL_ARB_bindless_texture' : not allowed"))
+        diagnostic.help =
+            "SPIR-V, by which shaders are checked, has no bindless textures: bind them to units";
+    if (const std::string_view lost = help_of_lost(diagnostic.message); !lost.empty()) diagnostic.help = lost;
     if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
     const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
     const auto at = std::ranges::find(tokens, "offset");

@@ -96,6 +96,11 @@ MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
         }
         found.renamed.emplace_back(built_in.name, name);
     }
+    // OpenGL ES 2 has it by the extension; what is read as another version has it without.
+    const GlslVersion own = version_of(pieces.front()->text);
+    if (stage == StageKind::fragment && own.es && !makes_spirv(own) &&
+        contains(prologue, "GL_EXT_frag_depth "))
+        found.renamed.emplace_back("gl_FragDepthEXT", "gl_FragDepth");
     return found;
 }
 

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "compose/rewrite.hpp"
+#include "compose/search_path.hpp"
+
 namespace gobo {
 namespace {
 
@@ -27,12 +30,12 @@ constexpr std::string_view kEsFunctions =
 
 /// Extensions that drivers have and glslang does not know; what they bring is in the versions that glslang
 /// checks by, or is told where it is used.
-constexpr std::array<std::string_view, 13> kUnknownToGlslang = {
+constexpr std::array<std::string_view, 14> kUnknownToGlslang = {
     "GL_ARB_arrays_of_arrays",     "GL_ARB_compatibility",    "GL_ARB_conservative_depth",
     "GL_AMD_conservative_depth",   "GL_ARB_cull_distance",    "GL_ARB_draw_buffers",
     "GL_ARB_ES3_1_compatibility",  "GL_ARB_shader_precision", "GL_ARB_fragment_layer_viewport",
     "GL_ARB_texture_query_levels", "GL_EXT_texture_array",    "GL_AMD_vertex_shader_layer",
-    "GL_EXT_clip_cull_distance"};
+    "GL_EXT_clip_cull_distance",   "GL_EXT_draw_buffers"};
 
 /// Extensions that drivers have and glslang does not know, nor what they bring: a stage may require them, and
 /// use what glslang knows.
@@ -51,11 +54,28 @@ constexpr std::array<std::string_view, 14> kOnlyOfDrivers = {"GL_AMD_gpu_shader_
                                                              "GL_MESA_shader_integer_functions",
                                                              "GL_NV_shader_atomic_float"};
 
+bool is_any_of(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
 /// The lowest version that has what this one has and of which glslang makes SPIR-V.
 std::string raised_version(const GlslVersion& version) {
     // ES 100 goes with the desktop's: 310 es has no attribute and varying, 330 core still has.
     if (version.es && version.number != 100) return "310 es";
     return fmt::format("{} core", std::max(version.number, 330));
+}
+
+/// Those of GL_ARB_shader_texture_lod.
+std::string renamed_gradients() {
+    std::string text;
+    for (const char* kind : {"", "Proj"}) {
+        for (const char* shape : {"1D", "2D", "3D", "Cube"})
+            text += fmt::format("#define texture{0}{1}GradARB texture{1}Grad\n", shape, kind);
+        for (const char* shape : {"1D", "2D"})
+            text += fmt::format("#define shadow{0}{1}GradARB(s, p, x, y) vec4(texture{1}Grad(s, p, x, y))\n",
+                                shape, kind);
+    }
+    return text;
 }
 
 }  // namespace
@@ -65,18 +85,18 @@ std::string renamed_functions() {
     for (const char* shape : {"1D", "2D", "3D", "Cube", "2DRect"})
         for (const char* kind : {"", "Proj", "Lod", "ProjLod"})
             text += fmt::format("#define texture{0}{1} texture{1}\n", shape, kind);
-    for (const char* shape : {"1D", "2D"}) {
+    for (const char* shape : {"1D", "2D", "2DRect"}) {
         for (const char* kind : {"", "Proj"}) {
             text += fmt::format("#define shadow{0}{1}(s, p) vec4(texture{1}(s, p))\n", shape, kind);
             text +=
                 fmt::format("#define shadow{0}{1}Lod(s, p, l) vec4(texture{1}Lod(s, p, l))\n", shape, kind);
         }
     }
-    return text;
+    return text + renamed_gradients();
 }
 
 std::string old_functions(StageKind stage) {
-    std::string text;
+    std::string text = renamed_gradients();
     const auto add = [&](std::string_view name, std::string_view sampler, std::string_view place,
                          std::string_view kind) {
         const bool is_shadow = name.starts_with("shadow");
@@ -167,12 +187,38 @@ bool is_unknown_to_glslang(std::string_view extension) {
 Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version) {
     std::erase_if(diagnostics, [](const Diagnostic& found) { return found.severity != Severity::error; });
     for (Diagnostic& diagnostic : diagnostics) {
+        if (!diagnostic.help.empty()) continue;
         diagnostic.help = fmt::format(
             "glslang makes no SPIR-V of GLSL {}{}{}, so gobo reads it as {}, which lacks this; write it with "
             "what that has",
             version.number, version.profile.empty() ? "" : " ", version.profile, raised_version(version));
     }
     return diagnostics;
+}
+
+Diagnostics with_version_missed(Diagnostics found, const Family& family, const Composition& composition) {
+    if (composition.dialect != Dialect::own || !family.version.empty() || exit_status(found) == 0)
+        return found;
+    const auto states_version = [](const Piece& piece) {
+        return piece.file_text.find("#version") != std::string::npos;
+    };
+    if (std::ranges::any_of(composition.pieces, states_version)) return found;
+    for (Diagnostic& diagnostic : found) {
+        const std::string_view message = diagnostic.message;
+        if (diagnostic.severity != Severity::error || !message.starts_with('\'')) continue;
+        const std::string name(message.substr(1, message.find('\'', 1) - 1));
+        const bool is_output = name == "gl_FragColor" || name == "gl_FragData";
+        const bool is_built_in =
+            name.starts_with("gl_") && is_any_of(legacy_names(), "legacy_" + name.substr(3));
+        if (!is_built_in && !is_any_of(legacy_names(), name)) continue;
+        const bool is_gone = (is_built_in && !is_output) || name == "ftransform";
+        diagnostic.help =
+            fmt::format("no file states a #version, so 450 core is taken: write {}",
+                        is_shader_file(family.path) ? "it at the top, as #version 120, or 100 for OpenGL ES"
+                        : is_gone ? "version = \"120\" and compatibility = true into the family file"
+                                  : "version = \"120\" into the family file, or \"100\" for OpenGL ES");
+    }
+    return found;
 }
 
 }  // namespace gobo

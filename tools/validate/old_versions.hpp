@@ -29,6 +29,10 @@ namespace gobo {
 /// The shader is right by its own version's rules, so the errors of the raised one need a word.
 [[nodiscard]] Diagnostics explained(Diagnostics diagnostics, const GlslVersion& version);
 
+/// Says of each error at what an older version has that no file of the family states one, if so.
+[[nodiscard]] Diagnostics with_version_missed(Diagnostics found, const Family& family,
+                                              const Composition& composition);
+
 /// The prologue for glslang, which refuses to require extensions that it does not know: of those that drivers
 /// have.
 [[nodiscard]] std::string without_requirements(std::string prologue);

@@ -21,6 +21,7 @@
 #include "validate/glslang_stage.hpp"
 #include "validate/known_results.hpp"
 #include "validate/link_rules.hpp"
+#include "validate/old_versions.hpp"
 
 namespace gobo {
 namespace {
@@ -323,7 +324,9 @@ bool is_of_stopped_glslang(const Diagnostic& diagnostic) {
 }
 
 Validated validate(const Family& family, const Composition& composition, const ValidateOptions& options) {
-    return Validator(composition, options).run(family);
+    Validated validated = Validator(composition, options).run(family);
+    validated.diagnostics = with_version_missed(std::move(validated.diagnostics), family, composition);
+    return validated;
 }
 
 Diagnostics same_programs(const Family& family, const Composition& composition, const Validated& validated) {
