@@ -157,6 +157,131 @@ INSTANTIATE_TEST_SUITE_P(
                   {"Pushed place@0 vertex", "Tints place@16 fragment"}}),
     [](const auto& row) { return std::string(row.param.name); });
 
+struct ResourceRow {
+    const char* name;
+    const char* vertex;    ///< declares what gives `place`
+    const char* fragment;  ///< declares what gives `tint`
+    std::vector<std::string> resources;
+    const char* message = "";
+};
+
+/// Vulkan knows a resource by its set and binding, whatever a stage calls it.
+class ResourcesOfStages : public testing::TestWithParam<ResourceRow> {};
+
+TEST_P(ResourcesOfStages, MatchByTheirPlaces) {
+    const ResourceRow& row = GetParam();
+    MemoryFileSystem files;
+    files.write("tiny.vert", fmt::format("{}\nvoid main() {{ gl_Position = place; }}\n", row.vertex));
+    files.write("tiny.frag", fmt::format("{}\nlayout(location = 0) out vec4 color;\n"
+                                         "void main() {{ color = tint; }}\n",
+                                         row.fragment));
+    SearchPath search;
+    const Family family = family_of_files({"tiny.vert", "tiny.frag"}, files, search).value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const Validated validated = validate(family, composition, {.spirv_val = true});
+    const std::string text = first_text(validated.diagnostics);
+    EXPECT_EQ(text.substr(0, text.find(" [")), row.message);
+    if (text.find("error") != std::string::npos) return;
+    const Interface interface = interface_of(validated, composition.permutations[0]);
+    std::vector<std::string> resources;
+    const auto add = [&](const auto& list) {
+        for (const auto& entry : list)
+            resources.push_back(
+                fmt::format("{} {}.{} {}", entry.name, entry.set, entry.binding, join(entry.stages, "+")));
+    };
+    add(interface.blocks);
+    add(interface.storage_blocks);
+    add(interface.samplers);
+    EXPECT_EQ(resources, row.resources);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, ResourcesOfStages,
+    testing::Values(
+        ResourceRow{"blocks_of_one_name",
+                    "layout(set = 0, binding = 0) uniform UBO { mat4 m; } ubo;\n#define place ubo.m[0]",
+                    "layout(set = 0, binding = 1) uniform UBO { vec4 t; } ubo;\n#define tint ubo.t",
+                    {"UBO 0.0 vertex", "UBO 0.1 fragment"}},
+        ResourceRow{"blocks_of_one_name_and_layout",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(set = 1, binding = 0) uniform UBO { vec4 t; } ubo;\n#define tint ubo.t",
+                    {"UBO 0.0 vertex", "UBO 1.0 fragment"}},
+        ResourceRow{"one_block",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 0) uniform UBO { vec4 t; } of_light;\n#define tint of_light.t",
+                    {"UBO 0.0 vertex+fragment"}},
+        ResourceRow{"members_of_blocks_without_instance",
+                    "layout(binding = 0) uniform Camera { vec4 place; vec4 tint; };",
+                    "layout(binding = 1) uniform Light { float more; vec4 tint; };",
+                    {"Camera 0.0 vertex", "Light 0.1 fragment"}},
+        ResourceRow{"storage_and_uniform_of_one_name",
+                    "layout(binding = 0) readonly buffer Values { vec4 all[]; } v;\n#define place v.all[1]",
+                    "layout(binding = 1) uniform Values { vec4 one; } v;\n#define tint v.one",
+                    {"Values 0.1 fragment", "Values 0.0 vertex"}},
+        ResourceRow{"samplers_of_one_name",
+                    "layout(binding = 0) uniform highp sampler2D map;\n#define place textureLod(map, "
+                    "vec2(0.0), 0.0)",
+                    "layout(binding = 1) uniform samplerCube map;\n#define tint texture(map, vec3(1.0))",
+                    {"map 0.0 vertex", "map 0.1 fragment"}},
+        ResourceRow{"sampler_called_as_a_block",
+                    "layout(binding = 0) uniform sampler2D map;\n#define place textureLod(map, vec2(0.0), "
+                    "0.0)",
+                    "layout(binding = 1) uniform map { vec4 t; } inside;\n#define tint inside.t",
+                    {"map 0.1 fragment", "map 0.0 vertex"}},
+        ResourceRow{"two_names_at_one_place",
+                    "layout(binding = 1) uniform sampler2D heights;\n#define place textureLod(heights, "
+                    "vec2(0.0), 0.0)",
+                    "layout(binding = 1) uniform sampler2D displacement;\n#define tint "
+                    "texture(displacement, vec2(0.0))",
+                    {"displacement 0.1 fragment", "heights 0.1 vertex"}},
+        ResourceRow{"two_views_of_one_buffer",
+                    "layout(binding = 0) uniform UBO { mat4 m; vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 0) uniform Camera { mat4 m; } camera;\n#define tint camera.m[0]",
+                    {"Camera 0.0 fragment", "UBO 0.0 vertex"}},
+        ResourceRow{"the_beginning_of_a_block",
+                    "layout(binding = 0) uniform UBO { mat4 m; vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 0) uniform UBO { mat4 m; } ubo;\n#define tint ubo.m[0]",
+                    {"UBO 0.0 vertex", "UBO 0.0 fragment"}},
+        ResourceRow{"other_members_of_one_name_and_place",
+                    "layout(binding = 0) uniform UBO { mat4 m; } ubo;\n#define place ubo.m[0]",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define tint ubo.t",
+                    {"UBO 0.0 vertex", "UBO 0.0 fragment"},
+                    "tiny.frag:1: warning: the uniform block 'UBO' is at set 0, binding 0, with other "
+                    "members than in tiny.vert:1: both read the same buffer"},
+        ResourceRow{"block_and_sampler_at_one_place",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 0) uniform sampler2D map;\n#define tint texture(map, vec2(0.0))",
+                    {},
+                    "tiny.frag:1: error: the sampler 'map' is at set 0, binding 0, where tiny.vert:1 binds "
+                    "'UBO'"},
+        ResourceRow{"uniform_and_storage_block_at_one_place",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 0) readonly buffer UBO { vec4 t; } ubo;\n#define tint ubo.t",
+                    {},
+                    "tiny.frag:1: error: the storage block 'UBO' is at set 0, binding 0, where tiny.vert:1 "
+                    "binds 'UBO'"},
+        ResourceRow{"shapes_at_one_place",
+                    "layout(binding = 0) uniform sampler2D map;\n#define place textureLod(map, vec2(0.0), "
+                    "0.0)",
+                    "layout(binding = 0) uniform samplerCube sky;\n#define tint texture(sky, vec3(1.0))",
+                    {},
+                    "tiny.frag:1: error: the sampler 'sky' is at set 0, binding 0, as samplerCube, where "
+                    "tiny.vert:1 binds 'map' as sampler2D"},
+        ResourceRow{"sizes_at_one_place",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo[2];\n#define place ubo[1].t",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo[3];\n#define tint ubo[2].t",
+                    {},
+                    "tiny.frag:1: error: the uniform block 'UBO' is at set 0, binding 0, as block[3], where "
+                    "tiny.vert:1 binds 'UBO' as block[2]"},
+        ResourceRow{"two_in_one_stage",
+                    "layout(binding = 0) uniform UBO { vec4 t; } ubo;\n#define place ubo.t",
+                    "layout(binding = 1) uniform A { vec4 t; } a;\n"
+                    "layout(binding = 1) uniform B { vec4 t; } b;\n#define tint (a.t + b.t)",
+                    {},
+                    "tiny.frag:2: error: the uniform block 'B' is at set 0, binding 1, where tiny.frag:1 "
+                    "binds 'A'"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
 TEST(VulkanInterface, NamesTheSizesOfWorkGroups) {
     MemoryFileSystem files;
     files.write("a.comp",

@@ -12,6 +12,7 @@
 #include "lit.hpp"
 #include "pushed_by_stage.hpp"
 #include "pushed_sizes.hpp"
+#include "resources_by_stage.hpp"
 #include "spirv.hpp"
 
 namespace gobo {
@@ -156,6 +157,19 @@ INSTANTIATE_TEST_SUITE_P(
                          {{"Tint", 32, kFragment, 16}, {"Tone", 80, kFragment, 64}, {"Place", 64, kVertex}},
                          {{kVertex, 0, 64}, {kFragment, 16, 64}}}),
     [](const auto& row) { return std::string(row.param.name); });
+
+TEST(VulkanHeader, HasAStructForEachBlockOfOneName) {
+    namespace here = resources_by_stage;
+    static_assert(here::Values::binding == 1 && here::Values_2::binding == 2);
+    static_assert(offsetof(here::Values, shift) == 0 && offsetof(here::Values_2, tint) == 16);
+    static_assert(here::sampler::map.binding == 0 && here::sampler::map_2.binding == 1);
+    const VkDescriptorBufferInfo buffer{};
+    EXPECT_EQ(vulkan::write_block<here::Values_2>(VK_NULL_HANDLE, buffer).dstBinding, 2u);
+    const auto layout = vulkan::layout_bindings(here::descriptors, 0);
+    ASSERT_EQ(layout.size(), 3u);
+    EXPECT_EQ(layout[1].stageFlags, static_cast<VkShaderStageFlags>(VK_SHADER_STAGE_VERTEX_BIT));
+    EXPECT_EQ(layout[2].stageFlags, static_cast<VkShaderStageFlags>(VK_SHADER_STAGE_FRAGMENT_BIT));
+}
 
 struct PushedSizeRow {
     const char* name;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "emit/sections.hpp"
+#include "reflect/descriptor_kind.hpp"
 #include "spirv/glsl_type.hpp"
 #include "spirv/vertex_locations.hpp"
 
@@ -19,19 +20,6 @@ unsigned stage_bits(const std::vector<std::string>& stages) {
     for (const std::string& name : stages)
         if (const auto kind = stage_named(name)) bits |= 1U << static_cast<unsigned>(*kind);
     return bits;
-}
-
-/// The enumerator of gobo::DescriptorKind for a sampler's GLSL type.
-std::string_view kind_of(std::string_view type) {
-    if (type.starts_with("accelerationStructure")) return "acceleration_structure";
-    if (type.find("subpassInput") != std::string_view::npos) return "input_attachment";
-    const bool is_buffer = type.ends_with("Buffer");
-    if (type.find("image") != std::string_view::npos)
-        return is_buffer ? "storage_texel_buffer" : "storage_image";
-    if (is_buffer) return "uniform_texel_buffer";
-    if (type == "sampler" || type == "samplerShadow") return "sampler";
-    if (type.find("texture") != std::string_view::npos) return "sampled_image";
-    return "combined_image_sampler";
 }
 
 /// A row of the table of descriptors before it is a text.
@@ -72,7 +60,7 @@ std::vector<std::string> descriptor_rows(const Interface& interface, const Decla
     add(descriptors, interface.blocks, "uniform block", declarations, as("uniform_buffer"));
     add(descriptors, interface.storage_blocks, "storage block", declarations, as("storage_buffer"));
     add(descriptors, interface.samplers, "sampler", declarations, [](const Sampler& sampler) {
-        return std::pair(kind_of(sampler.type), element_count(sampler.array));
+        return std::pair(descriptor_kind(sampler.type), element_count(sampler.array));
     });
     std::vector<std::string> rows;
     for (const auto& [place, list] : descriptors) {

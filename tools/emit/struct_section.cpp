@@ -303,8 +303,6 @@ std::optional<CppMemberType> cpp_type_of(const Member& member) {
 
 namespace {
 
-constexpr std::string_view kPushConstants = "push constant block";
-
 /// Adds the structs of a list of blocks. The elements of an array of blocks share a struct
 /// where they have one layout.
 Result<void> add_blocks(const std::vector<Block>& blocks, std::string_view kind,
@@ -332,7 +330,7 @@ Result<void> add_blocks(const std::vector<Block>& blocks, std::string_view kind,
             const auto differing = declarations.find(kind, block.name);
             std::string users =
                 differing ? " as declared by " + cpp_comment(declarations.example(*differing, number)) : "";
-            if (kind == kPushConstants && std::ranges::count(blocks, block.name, &Block::name) > 1)
+            if (!differing && std::ranges::count(blocks, block.name, &Block::name) > 1)
                 users = fmt::format(" of stage {}", fmt::join(block.stages, ", "));
             layout = layouts.insert(layout, {{name, std::move(sorted), kind != "uniform block"}, users, {}});
         }
@@ -362,7 +360,7 @@ Result<std::vector<CppBlock>> block_section(const Interface& interface, const st
     std::vector<CppBlock> written;
     GOBO_TRY_DO(add_blocks(interface.blocks, "uniform block", declarations, writer, written));
     GOBO_TRY_DO(add_blocks(interface.storage_blocks, "storage block", declarations, writer, written));
-    GOBO_TRY_DO(add_blocks(interface.push_constants, kPushConstants, declarations, writer, written));
+    GOBO_TRY_DO(add_blocks(interface.push_constants, "push constant block", declarations, writer, written));
     values["structs"] = writer.text();
     return written;
 }

@@ -20,13 +20,30 @@ void add_stages(std::vector<std::string>& stages, const std::vector<std::string>
     std::ranges::sort(stages, {}, rank);
 }
 
+/// Whether stages that declare a name declare one thing: to OpenGL always, to Vulkan at one place.
+template <class Entry>
+bool is_same_thing(const Entry& one, const Entry& other) {
+    if constexpr (requires { one.set; }) {
+        if (one.set < 0) return true;
+        if (one.set != other.set || one.binding != other.binding) return false;
+        if constexpr (requires { one.members; })
+            return one.members == other.members;
+        else
+            return one.type == other.type;
+    }
+    return true;
+}
+
 /// Adds what a later stage declares to `list`, both sorted by name.
 template <class Entry>
 void add_entries(std::vector<Entry>& list, const std::vector<Entry>& more) {
     for (const Entry& other : more) {
-        const auto place = std::ranges::lower_bound(list, other.name, {}, &Entry::name);
-        if (place == list.end() || place->name != other.name) {
-            list.insert(place, other);
+        const auto first = std::ranges::lower_bound(list, other.name, {}, &Entry::name);
+        const auto last = std::ranges::upper_bound(list, other.name, {}, &Entry::name);
+        const auto place =
+            std::find_if(first, last, [&](const Entry& entry) { return is_same_thing(entry, other); });
+        if (place == last) {
+            list.insert(last, other);
             continue;
         }
         if (place_of(*place) < 0) place_of(*place) = place_of(other);
@@ -126,7 +143,7 @@ void unite_list(const std::string& kind, std::vector<Entry> Interface::*list,
     struct Declarations {
         std::vector<Entry> entries;
         std::map<std::size_t, int> declared;  ///< by program
-        bool differ_by_stage = false;         ///< push constants, of which a program has several by one name
+        bool differ_by_stage = false;         ///< of Vulkan's a program may have several by one name
     };
     std::map<std::string, Declarations> names;
     const auto add = [&names](std::size_t program, const Entry& entry) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "family/key.hpp"
+#include "reflect/descriptor_kind.hpp"
 #include "validate/batch.hpp"
 #include "validate/declaration.hpp"
 #include "validate/validate.hpp"
@@ -26,11 +27,11 @@ class ClashesOfKeys {
                 const Interface& interface = validated_.stage(stage).interface;
                 if (composition_.dialect == Dialect::vulkan) {
                     for (const Block& block : interface.blocks)
-                        add(permutation, stage, "uniform block", block);
+                        add(permutation, stage, "uniform block", block, "uniform block");
                     for (const Block& block : interface.storage_blocks)
-                        add(permutation, stage, "storage block", block);
+                        add(permutation, stage, "storage block", block, "storage block");
                     for (const Sampler& sampler : interface.samplers)
-                        add(permutation, stage, "sampler", sampler);
+                        add(permutation, stage, "sampler", sampler, descriptor_kind(sampler.type));
                 }
                 for (const SpecializationConstant& constant : interface.specialization_constants)
                     add(permutation, stage, constant);
@@ -44,14 +45,17 @@ class ClashesOfKeys {
         std::string name;
         int stage;
         const Key* key;
+        std::string_view kind = {};  ///< of the descriptor: names are each stage's own
     };
 
     template <class Resource>
-    void add(const Permutation& permutation, int stage, const char* kind, const Resource& resource) {
+    void add(const Permutation& permutation, int stage, const char* kind, const Resource& resource,
+             std::string_view descriptor) {
         const std::string name(root_of(resource.name));  // the elements of an array of blocks share a place
         const auto place = std::pair(resource.set, resource.binding);
-        const auto [at, is_new] = places_.try_emplace(place, First{name, stage, &permutation.key});
-        if (is_new || at->second.name == name) return;
+        const auto [at, is_new] =
+            places_.try_emplace(place, First{name, stage, &permutation.key, descriptor});
+        if (is_new || at->second.name == name || at->second.kind == descriptor) return;
         refuse(permutation, declared(name, "", stage), at->second, name,
                fmt::format("the {} '{}' is at set {}, binding {}, where {} binds '{}' for the key '{}'", kind,
                            name, resource.set, resource.binding,

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "reflect/descriptor_kind.hpp"
+#include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
 #include "validate/glslang_log.hpp"
 #include "validate/link_rules.hpp"
@@ -27,9 +29,11 @@ class DescriptorCheck {
 
     Diagnostics run() {
         for (const StageView& stage : stages_) {
-            for (const Block& block : stage.interface.blocks) add(stage, "uniform block", block);
-            for (const Block& block : stage.interface.storage_blocks) add(stage, "storage block", block);
-            for (const Sampler& sampler : stage.interface.samplers) add(stage, "sampler", sampler);
+            add_blocks(stage, "uniform block", stage.interface.blocks);
+            add_blocks(stage, "storage block", stage.interface.storage_blocks);
+            for (const Sampler& sampler : stage.interface.samplers)
+                add(stage, "sampler", sampler,
+                    {descriptor_kind(sampler.type), with_extents(sampler.type, sampler.array), nullptr});
             for (const Block& block : stage.interface.push_constants) {
                 if (const DescriptorSet* const set = set_with(block.name))
                     refuse(stage, block.name,
@@ -47,24 +51,38 @@ class DescriptorCheck {
     }
 
   private:
+    /// What stages that bind it must agree about.
+    struct Bound {
+        std::string_view kind;
+        std::string type;    ///< of a sampler; of a block its extents
+        const Block* block;  ///< null of a sampler
+    };
+
     struct Taken {
         std::string name;
         const StageView* stage;
+        Bound bound;
     };
 
+    void add_blocks(const StageView& stage, const char* kind, const std::vector<Block>& blocks) {
+        for (const Block& block : blocks) {
+            const auto elements = std::ranges::count(blocks, root_of(block.name),
+                                                     [](const Block& one) { return root_of(one.name); });
+            add(stage, kind, block,
+                {kind, elements > 1 ? fmt::format("block[{}]", elements) : "block", &block});
+        }
+    }
+
     template <class Resource>
-    void add(const StageView& stage, const char* kind, const Resource& resource) {
+    void add(const StageView& stage, const char* kind, const Resource& resource, const Bound& bound) {
         const std::string name(root_of(resource.name));  // the elements of an array of blocks share a place
         const auto place = std::pair(resource.set, resource.binding);
-        const auto [at, is_new] = taken_.try_emplace(place, Taken{name, &stage});
-        if (!is_new && at->second.name != name) {
-            refuse(stage, name,
-                   fmt::format("the {} '{}' is at set {}, binding {}, where {} binds '{}'", kind, name,
-                               resource.set, resource.binding,
-                               declaration_of(at->second.name, "", at->second.stage->pieces).text(),
-                               at->second.name),
-                   kCountedTogether);
-        }
+        const auto [at, is_new] = taken_.try_emplace(place, Taken{name, &stage, bound});
+        if (!is_new)
+            compare(stage,
+                    fmt::format("the {} '{}' is at set {}, binding {}", kind, name, resource.set,
+                                resource.binding),
+                    name, bound, at->second);
         const DescriptorSet* const set = set_with(name);
         const DescriptorPlace listed = descriptor_place(family_, name, resource.binding, false);
         if (set != nullptr && place != std::pair(listed.set, listed.binding))
@@ -74,17 +92,34 @@ class DescriptorCheck {
                                listed.binding),
                    "declare it by BLOCK or SAMPLER, state the place that the family gives it, or take it out "
                    "of the set");
-        const auto [known, is_first] = place_of_.try_emplace(name, place);
-        if (!is_first && known->second != place)
-            refuse(
-                stage, name,
-                fmt::format("'{}' is at set {}, binding {}, and in an earlier stage at set {}, binding {}",
-                            name, resource.set, resource.binding, known->second.first, known->second.second),
-                kCountedTogether);
-        if (resource.set >= kGuaranteedSets && is_first)
+        if (resource.set >= kGuaranteedSets && is_new)
             add_warning(
                 stage, name, fmt::format("'{}' is in set {}", name, resource.set),
                 fmt::format("Vulkan guarantees {} sets, 0 to {}", kGuaranteedSets, kGuaranteedSets - 1));
+    }
+
+    /// Stages may call what is bound there by two names, or view a buffer by two blocks.
+    void compare(const StageView& stage, const std::string& here, const std::string& name, const Bound& bound,
+                 const Taken& taken) {
+        const bool is_same_stage = taken.stage == &stage;
+        if (is_same_stage && taken.name == name) return;
+        const std::string where = declaration_of(taken.name, "", taken.stage->pieces).text();
+        if (is_same_stage || bound.kind != taken.bound.kind)
+            return refuse(stage, name, fmt::format("{}, where {} binds '{}'", here, where, taken.name),
+                          kCountedTogether);
+        if (bound.type != taken.bound.type)
+            return refuse(stage, name,
+                          fmt::format("{}, as {}, where {} binds '{}' as {}", here, bound.type, where,
+                                      taken.name, taken.bound.type),
+                          "stages that bind one thing declare it with one type and size; for another state "
+                          "another place");
+        if (bound.block == nullptr || taken.name != name) return;
+        const auto [mine, theirs] = std::ranges::mismatch(bound.block->members, taken.bound.block->members);
+        if (mine != bound.block->members.end() && theirs != taken.bound.block->members.end())
+            add_warning(
+                stage, name,
+                fmt::format("{}, with other members than in {}: both read the same buffer", here, where),
+                "declare the block once, in a piece that both stages include");
     }
 
     /// The set of the family's that lists a block or sampler; null where none does.
@@ -110,7 +145,6 @@ class DescriptorCheck {
     const std::vector<StageView>& stages_;
     const Family& family_;
     std::map<std::pair<int, int>, Taken> taken_;
-    std::map<std::string, std::pair<int, int>> place_of_;
     Diagnostics found_;
 };
 

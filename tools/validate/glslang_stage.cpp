@@ -343,9 +343,13 @@ Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
 
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
     Diagnostics found = link_by_glslang(stages);
-    if (stages.front()->dialect_ != Dialect::vulkan || !has_errors(found)) return found;
-    // glslang compares the push constants of stages. To Vulkan they are views of one memory, so they are
-    // linked with names of their own.
+    if (stages.front()->dialect_ != Dialect::vulkan) return found;
+    std::erase_if(found, [](const Diagnostic& said) {
+        return said.message.find("different instance names") != std::string::npos;
+    });
+    if (!has_errors(found)) return found;
+    // glslang compares what stages call by one name. To Vulkan a resource is its place and push constants are
+    // views of one memory, so they are linked with names of their own.
     std::deque<Piece> prologues;
     std::vector<std::unique_ptr<GlslangStage>> apart;
     std::vector<GlslangStage*> linked;
@@ -353,7 +357,7 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
     for (const GlslangStage* const stage : stages) {
         std::vector<const Piece*> pieces = stage->pieces_;
         Piece& prologue = prologues.emplace_back(*pieces.front());
-        for (const std::string& name : names_of_push_constants(pieces))
+        for (const std::string& name : names_of_resources(pieces))
             prologue.text += fmt::format("#define {0} {0}_of_{1}\n", name, name_of(stage->kind_));
         is_changed = is_changed || prologue.text.size() > pieces.front()->text.size();
         pieces.front() = &prologue;
@@ -413,8 +417,10 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
         GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv, count_ids(pieces_.front()->text)));
     }
     Result<spirv::Module> read = spirv::read_module(stage.spirv);
-    if (!read) {  // spirv_type() makes types that SPIR-V does not have
-        Diagnostics refused = check_module(stage.spirv, environment_of(dialect_), pieces_);
+    if (!read) {
+        const bool is_malformed = read.error().front().fault == Fault::internal;
+        Diagnostics refused;  // spirv_type() makes types that SPIR-V does not have
+        if (is_malformed) refused = check_module(stage.spirv, environment_of(dialect_), pieces_);
         return has_errors(refused) ? tl::unexpected(std::move(refused))
                                    : placed(std::move(read).error(), pieces_);
     }

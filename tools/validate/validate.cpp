@@ -283,10 +283,11 @@ class Validator {
         }
         if (views.empty()) return;
         Diagnostics& all = of_programs_[index];
-        const Diagnostics found = check_link(views);
+        const bool is_vulkan = composition_.dialect == Dialect::vulkan;
+        Diagnostics found = is_vulkan ? check_varyings(views) : check_link(views);
+        if (is_vulkan) append(found, check_descriptors(views, family));
         if (exit_status(found) != 0) all.clear();
         append(all, found);
-        if (composition_.dialect == Dialect::vulkan) append(all, check_descriptors(views, family));
         if (is_spirv(composition_.dialect)) append(all, check_constants(views));
         if (exit_status(all) == 0) append(all, check_limits(views, composition_.dialect));
     }

@@ -16,8 +16,8 @@ namespace gobo {
 [[nodiscard]] Diagnostics check_vulkan(StageKind kind, const Interface& interface,
                                        const std::vector<const Piece*>& pieces);
 
-/// What the stage's text calls its block of push constants: the block, its instance, and its members where it
-/// has no instance.
-[[nodiscard]] std::set<std::string> names_of_push_constants(const std::vector<const Piece*>& pieces);
+/// What the stage's text calls its resources and push constants: samplers, blocks, their instances, and the
+/// members of those without an instance.
+[[nodiscard]] std::set<std::string> names_of_resources(const std::vector<const Piece*>& pieces);
 
 }  // namespace gobo

@@ -37,8 +37,11 @@ bool is_resource(const Variable& variable) {
            variable.storage == spv::StorageClassUniform || variable.storage == spv::StorageClassStorageBuffer;
 }
 
-/// What OpenGL knows a resource by: a block's name, or a variable's.
-std::string name_of(const Module& module, const Variable& variable) {
+/// What OpenGL knows a resource by: a block's name, or a variable's; Vulkan its place.
+std::string name_of(const Module& module, const Variable& variable, bool is_opengl) {
+    const auto at = [&](spv::Decoration kind) { return module.decoration(variable.id, kind).value_or(0); };
+    if (!is_opengl)
+        return fmt::format("{:08}.{:08}", at(spv::DecorationDescriptorSet), at(spv::DecorationBinding));
     if (variable.storage == spv::StorageClassUniformConstant) return module.name(variable.id);
     return "block " + module.name(element_of(module, variable.type).first);
 }
@@ -193,8 +196,8 @@ std::vector<std::optional<Scalar>> outputs_of(const Module& module) {
     return outputs;
 }
 
-/// `match` gives varyings that meet by name the same locations.
-Result<Pipeline> linked(std::vector<PipelineStage> stages, bool match) {
+/// OpenGL's stages match by names, and varyings that meet by name get the same locations.
+Result<Pipeline> linked(std::vector<PipelineStage> stages, bool is_opengl) {
     Pipeline pipeline;
     std::vector<Module> modules;
     for (PipelineStage& stage : stages) {
@@ -215,7 +218,7 @@ Result<Pipeline> linked(std::vector<PipelineStage> stages, bool match) {
                              .help = "count in a storage block, with atomicAdd()",
                              .subject = module.name(variable.id)});
             if (is_resource(variable))
-                by_name.try_emplace(name_of(module, variable), descriptor_of(module, variable));
+                by_name.try_emplace(name_of(module, variable, is_opengl), descriptor_of(module, variable));
         }
     std::map<std::string, std::uint32_t> binding_of;
     for (const auto& [name, descriptor] : by_name) {
@@ -223,12 +226,13 @@ Result<Pipeline> linked(std::vector<PipelineStage> stages, bool match) {
         pipeline.descriptors.push_back(descriptor);
     }
     std::vector<Numbers> locations(modules.size());
-    if (match && modules.size() == 2)
+    if (is_opengl && modules.size() == 2)
         std::tie(locations[0], locations[1]) = matched_locations(modules[0], modules[1]);
     for (std::size_t i = 0; i < stages.size(); ++i) {
         Numbers bindings;
         for (const Variable& variable : modules[i].variables)
-            if (is_resource(variable)) bindings[variable.id] = binding_of.at(name_of(modules[i], variable));
+            if (is_resource(variable))
+                bindings[variable.id] = binding_of.at(name_of(modules[i], variable, is_opengl));
         stages[i].words = rewritten(modules[i], stages[i].words, bindings, locations[i]);
     }
     pipeline.stages = std::move(stages);

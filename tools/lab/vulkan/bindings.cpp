@@ -43,7 +43,16 @@ Result<void> Bindings::make(std::size_t objects, const std::vector<RenderValue>&
 
 Result<void> Bindings::make_layouts() {
     const Functions& vk = resources_.state().vk;
+    std::map<std::pair<int, int>, std::string_view> names;
+    std::string shared;  // by two names, each of which has contents of its own
     const auto add = [&](const auto& entry, VkDescriptorType type, int count) {
+        const std::string_view root = root_of(entry.name);
+        const auto named = names.try_emplace({entry.set, entry.binding}, root).first;
+        if (named->second != root)
+            shared = fmt::format(
+                "the renderer has contents for '{}' and for '{}', but both are at set {}, "
+                "binding {}",
+                named->second, root, entry.set, entry.binding);
         const auto set = static_cast<std::size_t>(std::max(entry.set, 0));
         const auto binding = static_cast<std::uint32_t>(entry.binding);
         VkShaderStageFlags stages = 0;
@@ -66,6 +75,17 @@ Result<void> Bindings::make_layouts() {
                     "leave its keys out, or have the shaders read a uniform block");
     for (const Sampler& sampler : interface_.samplers)
         add(sampler, descriptor_type(sampler), element_count(sampler.array));
+    const auto apart =
+        std::ranges::adjacent_find(interface_.samplers, [](const Sampler& one, const Sampler& next) {
+            return one.name == next.name && one.type != next.type;
+        });
+    if (apart != interface_.samplers.end())
+        return fail(Fault::input,
+                    fmt::format("the renderer has one texture for '{}', which is a {} and a {}", apart->name,
+                                apart->type, std::next(apart)->type),
+                    "leave its keys out, or give them two names");
+    if (!shared.empty())
+        return fail(Fault::input, shared, "leave its keys out, or call it alike in all stages");
     for (const std::vector<VkDescriptorSetLayoutBinding>& set : bindings_) {
         auto info =
             made<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
