@@ -101,7 +101,8 @@ TEST(SceneFunnel, CountsFromTheFamilyDownToTheScene) {
     std::vector<Draw> draws = {draw("a", points(1)), draw("b", points(2)), draw("c", points(2)),
                                draw("d", {})};
     draws.push_back({0, 0, "lines", "its primitives are lines", {}, {}});
-    const auto funnel = measure_funnel(family, draws, {0, 2}, "450");
+    const auto funnel =
+        measure_funnel(family, keys_for_draws(family, draws, {}, "450").value(), {0, 2}, "450");
     ASSERT_TRUE(funnel);
     EXPECT_EQ(funnel->full_product, 24U) << "4 counts, 3 highlights, 2 fogs";
     EXPECT_EQ(funnel->valid, 20U) << "without lights, 2 of 3 highlights times 2 fogs are not canonical";
@@ -112,8 +113,11 @@ TEST(SceneFunnel, CountsFromTheFamilyDownToTheScene) {
 
 TEST(SceneFunnel, BucketingsTradePermutationsForUnusedLights) {
     const Family family = small_family();
-    const auto rows = compare_bucketings(family, {draw("a", points(1)), draw("b", points(2)), draw("c", {})},
-                                         {0, 3}, "450");
+    const auto rows = compare_bucketings(
+        family,
+        keys_for_draws(family, {draw("a", points(1)), draw("b", points(2)), draw("c", {})}, {}, "450")
+            .value(),
+        {0, 3}, "450");
     ASSERT_TRUE(rows);
     std::string table;
     for (const BucketingRow& row : *rows) {
@@ -168,6 +172,30 @@ TEST(SceneDemo, CallsForTwoPermutationsOfLit) {
     EXPECT_EQ(key_text(*family, (*keys)[0]->key), "directional=1 fog=linear point=1 specular=blinn spot=1");
     EXPECT_EQ(key_text(*family, (*keys)[1]->key), "directional=1 fog=linear point=1 spot=1");
     EXPECT_TRUE((*keys)[0]->missing.empty());
+}
+
+TEST(KeysOfAScene, AreThoseOfItsDrawsAndKeepNothingOfTheirEffects) {
+    const Family family = small_family();
+    DiskFileSystem disk;
+    const auto scene =
+        read_scene(disk, std::string(GOBO_SOURCE_DIR) + "/examples/still_life/still_life.gltf");
+    ASSERT_TRUE(scene) << to_text(scene.error().front());
+    const EyePlace eye = eye_of_cameras(*scene);
+    const auto draws = required_effects(*scene, eye, {});
+    const auto expected = keys_for_draws(family, draws, {0, 2}, "450").value();
+    const auto keys = keys_for_scene(family, SceneDraws(*scene, eye, {}), {0, 2}, "450").value();
+    EXPECT_EQ(keys.notes, notes_on_scene(*scene, draws, expected));
+    ASSERT_EQ(keys.keys.size(), expected.size());
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(keys.keys[i].has_value(), expected[i].has_value());
+        if (!expected[i]) continue;
+        EXPECT_EQ(keys.keys[i]->key, expected[i]->key) << expected[i]->name;
+        EXPECT_EQ(missing_effects(family, draws[i]), expected[i]->missing);
+        EXPECT_EQ(keys.keys[i]->missing.capacity(), 0U) << "of all draws: as many as draws times lights";
+        missing += expected[i]->missing.size();
+    }
+    EXPECT_GT(missing, 0U);
 }
 
 TEST(NotesOnAScene, SayOnceWhatIsNotDrawn) {

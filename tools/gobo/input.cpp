@@ -85,11 +85,13 @@ Result<std::vector<NamedKey>> keys_of_scene(const World& world, LoadedFamily& fa
                                             const std::string& bucket_lights) {
     GOBO_TRY(const scene::Buckets buckets, scene::parse_buckets(bucket_lights));
     GOBO_TRY(const scene::Scene scene, load_scene(world, family, path));
-    const auto draws = scene::required_effects(scene, scene::eye_of_cameras(scene), {});
-    GOBO_TRY(const auto keys, scene::keys_for_draws(family.family, draws, buckets, name_of(family.dialect)));
-    std::ranges::move(scene::notes_on_scene(scene, draws, keys), std::back_inserter(family.scene_notes));
+    const scene::SceneDraws draws(scene, scene::eye_of_cameras(scene), {});
+    GOBO_TRY(const auto needed,
+             scene::keys_for_scene(family.family, draws, buckets, name_of(family.dialect)));
+    std::ranges::copy(needed.notes, std::back_inserter(family.scene_notes));
     std::vector<NamedKey> named;
-    for (const Key& key : scene::distinct_keys(keys)) named.push_back({key_text(family.family, key), {path}});
+    for (const Key& key : scene::distinct_keys(needed.keys))
+        named.push_back({key_text(family.family, key), {path}});
     // An empty selection would mean the family's default set.
     if (named.empty()) return fail(Place{path}, {}, "needs no permutation: it draws no triangles");
     return named;

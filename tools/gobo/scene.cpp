@@ -29,7 +29,7 @@ struct SceneOptions {
 /// What the command tells.
 struct SceneReport {
     const Family& family;
-    const std::vector<scene::Draw>& draws;
+    const scene::SceneDraws& draws;
     std::vector<std::optional<scene::DrawKey>> keys;  ///< per draw
     std::vector<scene::BucketingRow> bucketings;
     scene::Buckets buckets;  ///< those that `keys` follow
@@ -40,7 +40,7 @@ struct SceneReport {
 
 /// Names come from the file: on a terminal they must do nothing.
 std::string draw_text(const SceneReport& report, std::size_t index) {
-    const scene::Draw& draw = report.draws[index];
+    const scene::Draw draw = report.draws.judged(index);
     if (!report.keys[index]) return one_line(fmt::format("{}: out, {}", draw.name, draw.excluded)) + "\n";
     const scene::DrawKey& key = *report.keys[index];
     std::string text = one_line(fmt::format("{}: {}", draw.name, key_text(report.family, key.key))) + "\n";
@@ -48,7 +48,8 @@ std::string draw_text(const SceneReport& report, std::size_t index) {
         text +=
             one_line(fmt::format("  {}: {}, {}", effect.name, effect.is_in ? "in" : "out", effect.reason)) +
             "\n";
-    for (const std::string& missing : key.missing) text += one_line("  ! " + missing) + "\n";
+    for (const std::string& missing : scene::missing_effects(report.family, draw))
+        text += one_line("  ! " + missing) + "\n";
     return text;
 }
 
@@ -85,7 +86,7 @@ ordered_json triple(const glm::dvec3& value) {
 }
 
 ordered_json draw_json(const SceneReport& report, std::size_t index) {
-    const scene::Draw& draw = report.draws[index];
+    const scene::Draw draw = report.draws.judged(index);
     const auto& key = report.keys[index];
     ordered_json json = {{"name", draw.name}, {"node", draw.node}, {"primitive", draw.primitive}};
     json["key"] = key ? ordered_json(key_text(report.family, key->key)) : ordered_json();
@@ -95,7 +96,7 @@ ordered_json draw_json(const SceneReport& report, std::size_t index) {
     json["effects"] = ordered_json::array();
     for (const scene::Effect& effect : draw.effects)
         json["effects"].push_back({{"name", effect.name}, {"in", effect.is_in}, {"reason", effect.reason}});
-    json["missing"] = key ? key->missing : std::vector<std::string>();
+    json["missing"] = scene::missing_effects(report.family, draw);
     return json;
 }
 
@@ -106,7 +107,8 @@ std::string scene_text(const SceneReport& report) {
     text += "keys\n";
     for (const Key& key : scene::distinct_keys(report.keys))
         text += fmt::format("  {}\n", key_text(report.family, key));
-    return text + "\n" + funnel_text(report) + "\n" + bucketings_text(report);
+    text += "\n" + funnel_text(report) + "\n" + bucketings_text(report);
+    return text;
 }
 
 /// {"family", "draws": [{"name", "node", "primitive", "key", "excluded", "bounds", "effects": [{"name", "in",
@@ -157,11 +159,11 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
     GOBO_TRY(const scene::Scene scene,
              scene::read_scene(world.disk, options.scene, scene::reading_for(family)));
     GOBO_TRY(const scene::EyePlace eye, place_eye(scene, options.camera));
-    const auto draws = scene::required_effects(scene, eye, options.thresholds);
-    SceneReport report{family, draws, {}, {}, buckets, {}};
-    GOBO_TRY(report.keys, scene::keys_for_draws(family, draws, buckets, dialect));
-    GOBO_TRY(report.bucketings, scene::compare_bucketings(family, draws, buckets, dialect));
-    GOBO_TRY(report.funnel, scene::measure_funnel(family, draws, buckets, dialect));
+    const scene::SceneDraws draws(scene, eye, options.thresholds);
+    GOBO_TRY(auto needed, scene::keys_for_scene(family, draws, buckets, dialect));
+    SceneReport report{family, draws, std::move(needed.keys), {}, buckets, {}};
+    GOBO_TRY(report.bucketings, scene::compare_bucketings(family, report.keys, buckets, dialect));
+    GOBO_TRY(report.funnel, scene::measure_funnel(family, report.keys, buckets, dialect));
     if (options.budget.is_set()) {  // each draw's key becomes the one that the budget chooses for its effects
         std::vector<Key> keys;
         for (const auto& draw : report.keys)
@@ -190,7 +192,7 @@ Result<Outcome> run(const SceneOptions& options, const World& world) {
                  {.jobs = world.jobs(), .child_processes = !world.options.in_process, .cache = world.cache})
             .diagnostics);
     outcome.output = options.json ? scene_json(report) : scene_text(report);
-    outcome.summary = join(scene::notes_on_scene(scene, draws, report.keys), "\n");
+    outcome.summary = join(needed.notes, "\n");
     return outcome;
 }
 

@@ -503,7 +503,7 @@ void judge_shadows(const Subject& subject, const std::vector<PlacedLight>& light
         const PlacedLight& light = lights[i];
         if (!light.light->casts_shadow) continue;
         const bool receives = subject.overrides.shadow.value_or(true);
-        const bool is_light_in = subject.draw.effects[i].is_in;
+        const bool is_light_in = effects[i].is_in;
         const auto caster = std::ranges::find_if(draws, [&](const Draw& draw) {
             if (!receives || !is_light_in || !draw.excluded.empty()) return false;
             if (!casts_shadow(subject.scene, draw)) return false;
@@ -593,23 +593,35 @@ EyePlace eye_of_cameras(const Scene& scene, std::optional<std::size_t> camera) {
     return places.is_empty() ? EyePlace() : places;
 }
 
+SceneDraws::SceneDraws(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds)
+    : scene_(scene),
+      eye_(eye),
+      thresholds_(thresholds),
+      draws_(draws_of(scene)),
+      lights_(place_lights(scene)) {}
+
+Draw SceneDraws::judged(std::size_t index) const {
+    const Draw& draw = draws_[index];
+    Draw judged = draw;
+    if (!draw.excluded.empty()) return judged;
+    Subject subject{
+        scene_, draw, primitive_of(scene_, draw), material_of(scene_, draw), overrides_of(scene_, draw), {}};
+    subject.normals = fixed_normals(subject);
+    judge_lights(subject, lights_, thresholds_.light, judged.effects);
+    subject.is_lit = std::ranges::any_of(judged.effects, &Effect::is_in);
+    if (scene_.is_physical)
+        judge_physical_surface(subject, lights_, eye_, thresholds_.fog, judged.effects);
+    else
+        judge_surface(subject, eye_, thresholds_.fog, judged.effects);
+    judge_shadows(subject, lights_, draws_, judged.effects);
+    return judged;
+}
+
 std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds) {
-    std::vector<Draw> draws = draws_of(scene);
-    const std::vector<PlacedLight> lights = place_lights(scene);
-    for (Draw& draw : draws) {
-        if (!draw.excluded.empty()) continue;
-        Subject subject{
-            scene, draw, primitive_of(scene, draw), material_of(scene, draw), overrides_of(scene, draw), {}};
-        subject.normals = fixed_normals(subject);
-        judge_lights(subject, lights, thresholds.light, draw.effects);
-        subject.is_lit = std::ranges::any_of(draw.effects, &Effect::is_in);
-        if (scene.is_physical)
-            judge_physical_surface(subject, lights, eye, thresholds.fog, draw.effects);
-        else
-            judge_surface(subject, eye, thresholds.fog, draw.effects);
-        judge_shadows(subject, lights, draws, draw.effects);
-    }
-    return draws;
+    const SceneDraws draws(scene, eye, thresholds);
+    std::vector<Draw> judged;
+    for (std::size_t i = 0; i < draws.size(); ++i) judged.push_back(draws.judged(i));
+    return judged;
 }
 
 }  // namespace gobo::scene

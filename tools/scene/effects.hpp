@@ -62,8 +62,28 @@ using EyePlace = std::optional<Box>;
 /// of the scene holds any.
 [[nodiscard]] EyePlace eye_of_cameras(const Scene& scene, std::optional<std::size_t> camera = {});
 
-/// Every draw of the scene, in the order of its nodes. An effect is out only where it is certain that it
-/// cannot be seen, or only below a threshold.
+/// Every draw of the scene, in the order of its nodes, judged one at a time: the effects of all at once are
+/// draws times lights. An effect is out only where it is certain that it cannot be seen, or only below a
+/// threshold.
+class SceneDraws {
+  public:
+    /// `scene` must outlive this.
+    SceneDraws(const Scene& scene, const EyePlace& eye, const Thresholds& thresholds);
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] std::size_t size() const { return draws_.size(); }
+    /// The draw with its effects.
+    [[nodiscard]] Draw judged(std::size_t index) const;
+
+  private:
+    const Scene& scene_;
+    EyePlace eye_;
+    Thresholds thresholds_;
+    std::vector<Draw> draws_;  ///< without effects
+    std::vector<PlacedLight> lights_;
+};
+
+/// All of them, judged.
 [[nodiscard]] std::vector<Draw> required_effects(const Scene& scene, const EyePlace& eye,
                                                  const Thresholds& thresholds);
 

@@ -52,22 +52,51 @@ int apply_buckets(const Family& family, const Buckets& buckets, Key& key) {
     return shaded;
 }
 
-DrawKey key_of(const Family& family, const Draw& draw, const Buckets& buckets, std::string_view dialect) {
+/// What the draw asks for, before light counts are rounded up.
+DrawKey needs_of(const Family& family, const Draw& draw) {
     DrawKey result;
-    result.key = default_key(family);
-    for (std::size_t i = 0; i < result.key.size(); ++i)
-        result.key[i] -= family.features[i].lowest;  // no light
+    result.name = draw.name;
+    result.effects = default_key(family);
+    for (std::size_t i = 0; i < result.effects.size(); ++i)
+        result.effects[i] -= family.features[i].lowest;  // no light
     for (const Effect& effect : draw.effects) {
         if (!effect.is_in) continue;
-        const std::string why = add_effect(family, effect, result.key);
+        const std::string why = add_effect(family, effect, result.effects);
         if (!why.empty()) result.missing.push_back(fmt::format("{}: {}", effect.name, why));
         const bool is_light = std::ranges::find(kLightKinds, effect.feature) != kLightKinds.end();
         result.lights += is_light && why.empty() ? 1 : 0;
     }
-    for (int& value : result.key) value = std::max(value, 0);
-    result.shaded_lights = apply_buckets(family, buckets, result.key);
-    result.key = canonical(family, std::move(result.key), dialect);
+    for (int& value : result.effects) value = std::max(value, 0);
     return result;
+}
+
+/// Decides the key. Fault::input where a rule forbids it.
+Result<void> round_up(const Family& family, const Buckets& buckets, std::string_view dialect, DrawKey& draw) {
+    draw.key = draw.effects;
+    draw.shaded_lights = apply_buckets(family, buckets, draw.key);
+    draw.key = canonical(family, std::move(draw.key), dialect);
+    if (const Rule* rule = forbidding_rule(family, draw.key, dialect))
+        return fail(Fault::input, fmt::format("'{}' needs '{}', which family '{}' forbids: {}", draw.name,
+                                              key_text(family, draw.key), family.name, rule->reason));
+    return {};
+}
+
+/// Nothing for an excluded draw.
+Result<std::optional<DrawKey>> key_for_draw(const Family& family, const Draw& draw, const Buckets& buckets,
+                                            std::string_view dialect) {
+    if (!draw.excluded.empty()) return std::nullopt;
+    DrawKey key = needs_of(family, draw);
+    GOBO_TRY_DO(round_up(family, buckets, dialect, key));
+    return key;
+}
+
+/// The draws with other buckets.
+Result<std::vector<std::optional<DrawKey>>> rounded(const Family& family,
+                                                    std::vector<std::optional<DrawKey>> draws,
+                                                    const Buckets& buckets, std::string_view dialect) {
+    for (auto& draw : draws)
+        if (draw) GOBO_TRY_DO(round_up(family, buckets, dialect, *draw));
+    return draws;
 }
 
 /// "point 8 to 31" in place of these names, each of which is words and a number; others stay. In order.
@@ -95,29 +124,75 @@ std::vector<std::string> with_runs(const std::vector<std::string>& names) {
     return texts;
 }
 
-/// How many draws would cast a shadow if they were not blended.
-std::size_t blended_before_shadows(const Scene& scene, const std::vector<Draw>& draws) {
-    const std::vector<PlacedLight> lights = place_lights(scene);
-    if (std::ranges::none_of(lights, [](const PlacedLight& light) { return light.light->casts_shadow; }))
-        return 0;
-    return static_cast<std::size_t>(std::ranges::count_if(
-        draws, [&](const Draw& draw) { return draw.excluded.empty() && !casts_shadow(scene, draw); }));
-}
+/// What notes_on_scene() tells, gathered draw after draw.
+class SceneNotes {
+  public:
+    explicit SceneNotes(const Scene& scene)
+        : scene_(scene), not_drawn_(scene.not_read.begin(), scene.not_read.end()) {
+        has_casters_ = std::ranges::any_of(
+            place_lights(scene), [](const PlacedLight& light) { return light.light->casts_shadow; });
+    }
 
-/// Whether every draw is black: none has a light, an environment or an emission of its own.
-bool is_dark(const Scene& scene, const std::vector<Draw>& draws) {
-    const auto is_drawn = [](const Draw& draw) { return draw.excluded.empty(); };
-    const auto is_black = [&](const Draw& draw) {
+    void add(const Draw& draw, const std::optional<DrawKey>& key) {
+        if (key)
+            for (const std::string& missing : key->missing)
+                not_drawn_.insert(missing.substr(0, missing.find(": ")));
+        if (!draw.excluded.empty()) {
+            ++excluded_[draw.excluded];
+            return;
+        }
+        is_any_drawn_ = true;
+        is_any_seen_ = is_any_seen_ || !is_black(draw);
+        // It would cast a shadow if it were not blended.
+        blended_ += has_casters_ && !casts_shadow(scene_, draw) ? 1 : 0;
+    }
+    [[nodiscard]] std::vector<std::string> lines() const;
+
+  private:
+    /// Whether it has neither a light nor an environment nor an emission of its own.
+    [[nodiscard]] bool is_black(const Draw& draw) const {
         const auto lights = [](const Effect& effect) {
             return effect.is_in && (effect.feature == "ambient" || effect.feature == "reflection" ||
                                     std::ranges::find(kLightKinds, effect.feature) != kLightKinds.end());
         };
-        const Material& material = material_of(scene, draw);
-        return !is_drawn(draw) || (!material.unlit && material.emission == glm::dvec3(0) &&
-                                   std::ranges::none_of(draw.effects, lights));
+        const Material& material = material_of(scene_, draw);
+        return !material.unlit && material.emission == glm::dvec3(0) &&
+               std::ranges::none_of(draw.effects, lights);
+    }
+
+    const Scene& scene_;
+    std::set<std::string> not_drawn_;
+    std::map<std::string, std::size_t> excluded_;  ///< how often each reason holds
+    std::size_t blended_ = 0;
+    bool has_casters_ = false;
+    bool is_any_drawn_ = false;
+    bool is_any_seen_ = false;
+};
+
+std::vector<std::string> SceneNotes::lines() const {
+    std::vector<std::string> parts = with_runs({not_drawn_.begin(), not_drawn_.end()});
+    if (blended_ > 0)
+        parts.push_back(fmt::format("shadows of {} blended draw{}", blended_, blended_ == 1 ? "" : "s"));
+    for (const auto& [reason, count] : excluded_)
+        parts.push_back(fmt::format("{} draw{} ({})", count, count == 1 ? "" : "s", reason));
+    std::vector<std::string> notes;
+    if (!parts.empty())
+        notes.push_back(fmt::format("{}: not drawn: {}", scene_.path, fmt::join(parts, ", ")));
+    const bool is_dark = scene_.ambient == glm::dvec3(0) && is_any_drawn_ && !is_any_seen_;
+    if (!scene_.has_no_light && is_dark)
+        notes.push_back(fmt::format("{}: nothing lights this scene", scene_.path));
+    const auto needs_physical = [](const Material& material) {
+        return !material.unlit && (material.is_textured || material.is_metal);
     };
-    return scene.ambient == glm::dvec3(0) && std::ranges::any_of(draws, is_drawn) &&
-           std::ranges::all_of(draws, is_black);
+    std::vector<std::string> offers;
+    if (std::ranges::any_of(scene_.materials, needs_physical))
+        offers.emplace_back("draws its textures and metals as they are");
+    if (scene_.has_no_light && !scene_.meshes.empty())
+        offers.emplace_back("lights it with a studio, as it has no light");
+    if (!scene_.is_physical && !offers.empty())
+        notes.push_back(fmt::format("{}: family pbr {}", scene_.path, fmt::join(offers, " and ")));
+    for (std::string& note : notes) note = one_line(note);
+    return notes;
 }
 
 }  // namespace
@@ -151,48 +226,36 @@ Result<std::vector<std::optional<DrawKey>>> keys_for_draws(const Family& family,
                                                            const Buckets& buckets, std::string_view dialect) {
     std::vector<std::optional<DrawKey>> keys;
     for (const Draw& draw : draws) {
-        auto& key = keys.emplace_back();
-        if (!draw.excluded.empty()) continue;
-        key = key_of(family, draw, buckets, dialect);
-        if (const Rule* rule = forbidding_rule(family, key->key, dialect))
-            return fail(Fault::input, fmt::format("'{}' needs '{}', which family '{}' forbids: {}", draw.name,
-                                                  key_text(family, key->key), family.name, rule->reason));
+        GOBO_TRY(std::optional<DrawKey> key, key_for_draw(family, draw, buckets, dialect));
+        keys.push_back(std::move(key));
     }
     return keys;
 }
 
+Result<SceneKeys> keys_for_scene(const Family& family, const SceneDraws& draws, const Buckets& buckets,
+                                 std::string_view dialect) {
+    SceneKeys scene;
+    SceneNotes notes(draws.scene());
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const Draw draw = draws.judged(i);
+        GOBO_TRY(std::optional<DrawKey> key, key_for_draw(family, draw, buckets, dialect));
+        notes.add(draw, key);
+        if (key) key->missing = std::vector<std::string>();  // its memory, too
+        scene.keys.push_back(std::move(key));
+    }
+    scene.notes = notes.lines();
+    return scene;
+}
+
+std::vector<std::string> missing_effects(const Family& family, const Draw& draw) {
+    return draw.excluded.empty() ? needs_of(family, draw).missing : std::vector<std::string>();
+}
+
 std::vector<std::string> notes_on_scene(const Scene& scene, const std::vector<Draw>& draws,
                                         const std::vector<std::optional<DrawKey>>& keys) {
-    std::set<std::string> effects;
-    std::map<std::string, std::size_t> excluded;  // how often each reason holds
-    for (const Draw& draw : draws)
-        if (!draw.excluded.empty()) ++excluded[draw.excluded];
-    for (const auto& key : keys)
-        if (key)
-            for (const std::string& missing : key->missing)
-                effects.insert(missing.substr(0, missing.find(": ")));
-    effects.insert(scene.not_read.begin(), scene.not_read.end());
-    std::vector<std::string> parts = with_runs({effects.begin(), effects.end()});
-    if (const std::size_t count = blended_before_shadows(scene, draws))
-        parts.push_back(fmt::format("shadows of {} blended draw{}", count, count == 1 ? "" : "s"));
-    for (const auto& [reason, count] : excluded)
-        parts.push_back(fmt::format("{} draw{} ({})", count, count == 1 ? "" : "s", reason));
-    std::vector<std::string> notes;
-    if (!parts.empty()) notes.push_back(fmt::format("{}: not drawn: {}", scene.path, fmt::join(parts, ", ")));
-    if (!scene.has_no_light && is_dark(scene, draws))
-        notes.push_back(fmt::format("{}: nothing lights this scene", scene.path));
-    const auto needs_physical = [](const Material& material) {
-        return !material.unlit && (material.is_textured || material.is_metal);
-    };
-    std::vector<std::string> offers;
-    if (std::ranges::any_of(scene.materials, needs_physical))
-        offers.emplace_back("draws its textures and metals as they are");
-    if (scene.has_no_light && !scene.meshes.empty())
-        offers.emplace_back("lights it with a studio, as it has no light");
-    if (!scene.is_physical && !offers.empty())
-        notes.push_back(fmt::format("{}: family pbr {}", scene.path, fmt::join(offers, " and ")));
-    for (std::string& note : notes) note = one_line(note);
-    return notes;
+    SceneNotes notes(scene);
+    for (std::size_t i = 0; i < draws.size(); ++i) notes.add(draws[i], keys[i]);
+    return notes.lines();
 }
 
 std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws) {
@@ -202,10 +265,10 @@ std::vector<Key> distinct_keys(const std::vector<std::optional<DrawKey>>& draws)
     return {keys.begin(), keys.end()};
 }
 
-Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws, const Buckets& buckets,
-                              std::string_view dialect) {
-    GOBO_TRY(const auto exact, keys_for_draws(family, draws, {}, dialect));
-    GOBO_TRY(const auto rounded, keys_for_draws(family, draws, buckets, dialect));
+Result<Funnel> measure_funnel(const Family& family, const std::vector<std::optional<DrawKey>>& draws,
+                              const Buckets& buckets, std::string_view dialect) {
+    GOBO_TRY(const auto exact, rounded(family, draws, {}, dialect));
+    GOBO_TRY(const auto bucketed, rounded(family, draws, buckets, dialect));
     Funnel funnel;
     for (const Feature& feature : family.features) funnel.full_product *= feature.values.size();
     GOBO_TRY(const KeySpace space, KeySpace::make(family, dialect, {{}, {}, true}));
@@ -213,17 +276,18 @@ Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& dra
     funnel.draws = static_cast<std::size_t>(
         std::ranges::count_if(exact, [](const auto& draw) { return draw.has_value(); }));
     funnel.needed = distinct_keys(exact).size();
-    funnel.bucketed = distinct_keys(rounded).size();
+    funnel.bucketed = distinct_keys(bucketed).size();
     return funnel;
 }
 
-Result<std::vector<BucketingRow>> compare_bucketings(const Family& family, const std::vector<Draw>& draws,
+Result<std::vector<BucketingRow>> compare_bucketings(const Family& family,
+                                                     const std::vector<std::optional<DrawKey>>& draws,
                                                      const Buckets& chosen, std::string_view dialect) {
     std::vector<Buckets> bucketings = {{}, {0, 1, 2, 4, 8}, {0, 2, 8}, {0, 8}, {8}};
     if (std::ranges::find(bucketings, chosen) == bucketings.end()) bucketings.push_back(chosen);
     std::vector<BucketingRow> rows;
     for (const Buckets& buckets : bucketings) {
-        GOBO_TRY(const auto keys, keys_for_draws(family, draws, buckets, dialect));
+        GOBO_TRY(const auto keys, rounded(family, draws, buckets, dialect));
         BucketingRow& row = rows.emplace_back(BucketingRow{buckets, distinct_keys(keys).size(), 0, 0});
         for (const auto& key : keys) {
             row.lights += key ? key->lights : 0;

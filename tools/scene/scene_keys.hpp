@@ -28,6 +28,8 @@ using Buckets = std::vector<int>;
 
 /// The permutation that a draw needs.
 struct DrawKey {
+    std::string name;                  ///< the draw's
+    Key effects;                       ///< what its effects ask for, before light counts are rounded up
     Key key;                           ///< canonical
     int lights = 0;                    ///< that the draw needs
     int shaded_lights = 0;             ///< that the permutation shades; the others are given no colour
@@ -40,6 +42,19 @@ struct DrawKey {
                                                                          const std::vector<Draw>& draws,
                                                                          const Buckets& buckets,
                                                                          std::string_view dialect);
+
+/// The keys of all draws of a scene, without what is `missing`, and notes_on_scene() on them.
+struct SceneKeys {
+    std::vector<std::optional<DrawKey>> keys;  ///< one per draw; nothing for an excluded one
+    std::vector<std::string> notes;
+};
+
+/// As keys_for_draws(), without the effects of all draws at once.
+[[nodiscard]] Result<SceneKeys> keys_for_scene(const Family& family, const SceneDraws& draws,
+                                               const Buckets& buckets, std::string_view dialect);
+
+/// The effects of the draw that are in, but that the family does not shade, with why.
+[[nodiscard]] std::vector<std::string> missing_effects(const Family& family, const Draw& draw);
 
 /// Lines on what these keys do not show of the scene, each thing once: "FILE: not drawn: sheen, 2 draws of
 /// lines"; and where it is read for `lit`, what `pbr` would make of it.
@@ -58,7 +73,8 @@ struct Funnel {
     std::size_t bucketed = 0;  ///< after light counts are rounded up
 };
 
-[[nodiscard]] Result<Funnel> measure_funnel(const Family& family, const std::vector<Draw>& draws,
+[[nodiscard]] Result<Funnel> measure_funnel(const Family& family,
+                                            const std::vector<std::optional<DrawKey>>& draws,
                                             const Buckets& buckets, std::string_view dialect);
 
 /// One way of rounding light counts up, and its price.
@@ -70,9 +86,8 @@ struct BucketingRow {
 };
 
 /// The usual bucketings and, where it is none of them, `chosen`.
-[[nodiscard]] Result<std::vector<BucketingRow>> compare_bucketings(const Family& family,
-                                                                   const std::vector<Draw>& draws,
-                                                                   const Buckets& chosen,
-                                                                   std::string_view dialect);
+[[nodiscard]] Result<std::vector<BucketingRow>> compare_bucketings(
+    const Family& family, const std::vector<std::optional<DrawKey>>& draws, const Buckets& chosen,
+    std::string_view dialect);
 
 }  // namespace gobo::scene
