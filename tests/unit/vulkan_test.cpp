@@ -282,6 +282,48 @@ INSTANTIATE_TEST_SUITE_P(
                     "binds 'A'"}),
     [](const auto& row) { return std::string(row.param.name); });
 
+struct PerVertexRow {
+    const char* name;
+    const char* vertex;    ///< declares and writes an output
+    const char* fragment;  ///< declares an input and the value `tint` of it
+    const char* message = "";
+};
+
+/// GL_EXT_fragment_shader_barycentric: an input has an element for each vertex of the triangle.
+class PerVertexInput : public testing::TestWithParam<PerVertexRow> {};
+
+TEST_P(PerVertexInput, MatchesTheOutputWithoutTheArray) {
+    const PerVertexRow& row = GetParam();
+    MemoryFileSystem files;
+    files.write("tiny.vert", fmt::format("{} gl_Position = vec4(1.0); }}\n", row.vertex));
+    files.write("tiny.frag", fmt::format("#extension GL_EXT_fragment_shader_barycentric : require\n{}\n"
+                                         "layout(location = 0) out vec4 color;\n"
+                                         "void main() {{ color = vec4(tint * gl_BaryCoordEXT, 1.0); }}\n",
+                                         row.fragment));
+    SearchPath search;
+    const Family family = family_of_files({"tiny.vert", "tiny.frag"}, files, search).value();
+    const Composition composition = compose(family, {Key{}}, search, Dialect::vulkan).value();
+    const std::string text = first_text(validate(family, composition, {.spirv_val = true}).diagnostics);
+    EXPECT_EQ(text.substr(0, text.find(" [default]")), row.message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, PerVertexInput,
+    testing::Values(
+        PerVertexRow{"vector", "layout(location = 0) out vec3 tone; void main() { tone = vec3(1.0);",
+                     "layout(location = 0) pervertexEXT in vec3 tone[];\n#define tint tone[2]"},
+        PerVertexRow{"array_of_stated_size",
+                     "layout(location = 0) out vec3 tone[2]; void main() { tone[0] = tone[1] = vec3(1.0);",
+                     "layout(location = 0) pervertexEXT in vec3 tone[3][2];\n#define tint tone[2][1]"},
+        PerVertexRow{"block",
+                     "layout(location = 0) out Surface { vec3 tone; } s; void main() { s.tone = vec3(1.0);",
+                     "layout(location = 0) pervertexEXT in Surface { vec3 tone; } s[];\n"
+                     "#define tint s[1].tone"},
+        PerVertexRow{"of_another_type", "layout(location = 0) out vec2 tone; void main() { tone = vec2(1.0);",
+                     "layout(location = 0) pervertexEXT in vec3 tone[];\n#define tint tone[2]",
+                     "tiny.frag:2: error: 'tone' is vec3 here, but vec2 in tiny.vert:1"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
 TEST(VulkanInterface, NamesTheSizesOfWorkGroups) {
     MemoryFileSystem files;
     files.write("a.comp",

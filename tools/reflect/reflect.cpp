@@ -374,13 +374,21 @@ class Reflection {
                module_.decoration(element, spv::DecorationPatch, 0);
     }
 
+    /// Whether a fragment reads what each vertex of its triangle wrote; of a block the members state it.
+    [[nodiscard]] bool is_of_vertices(const spirv::Variable& variable) const {
+        const Id element = array_element(module_, variable.type);
+        return module_.decoration(variable.id, spv::DecorationPerVertexKHR) ||
+               module_.decoration(element, spv::DecorationPerVertexKHR, 0);
+    }
+
     void add_variables(const spirv::Variable& variable, std::vector<gobo::Variable>& list) {
         const bool is_input = variable.storage == spv::StorageClassInput;
         const spv::ExecutionModel stage = module_.entry_points.front().model;
         const bool is_attribute = is_input && stage == spv::ExecutionModelVertex;
         const bool has_vertices = is_input ? stage == spv::ExecutionModelTessellationControl ||
                                                  stage == spv::ExecutionModelTessellationEvaluation ||
-                                                 stage == spv::ExecutionModelGeometry
+                                                 stage == spv::ExecutionModelGeometry ||
+                                                 is_of_vertices(variable)  // pervertexEXT
                                            : stage == spv::ExecutionModelTessellationControl;
         const bool is_of_patch = is_patch(variable);
         const bool is_per_vertex = has_vertices && !is_of_patch && module_.type(variable.type).is_array();
