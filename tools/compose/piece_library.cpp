@@ -126,15 +126,15 @@ std::string PieceLibrary::rewritten(const Piece& piece, bool is_legacy) const {
     const auto replace = [&](const Substitutions& substitutions) {
         if (!substitutions.empty()) text = substituted(text, substitutions);
     };
+    // A family that extends one of ours may change what that has; else our pieces stay as they are.
+    const bool is_kept = piece.is_shipped && (is_legacy || !family_.extends);
+    if (!is_kept) replace(replaced_.by_family);
     if (!piece.is_shipped) {
-        replace(replaced_.by_family);
         replace(replaced_.by_legacy);
         if (family_.compatibility) text = without_redeclarations(std::move(text));
     }
     replace(replaced_.by_vulkan);
-    // A family that extends one of ours may put pieces of its own where that has others.
-    const bool has_own_includes = piece.is_shipped && (is_legacy || !family_.extends);
-    return family_.include_rules.empty() || has_own_includes ? text : with_includes(text, family_);
+    return family_.include_rules.empty() || is_kept ? text : with_includes(text, family_);
 }
 
 Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string root) {

@@ -37,11 +37,8 @@ bool is_resource(const Variable& variable) {
            variable.storage == spv::StorageClassUniform || variable.storage == spv::StorageClassStorageBuffer;
 }
 
-/// What OpenGL knows a resource by: a block's name, or a variable's; Vulkan its place.
-std::string name_of(const Module& module, const Variable& variable, bool is_opengl) {
-    const auto at = [&](spv::Decoration kind) { return module.decoration(variable.id, kind).value_or(0); };
-    if (!is_opengl)
-        return fmt::format("{:08}.{:08}", at(spv::DecorationDescriptorSet), at(spv::DecorationBinding));
+/// A block's name, or a variable's.
+std::string name_of(const Module& module, const Variable& variable) {
     if (variable.storage == spv::StorageClassUniformConstant) return module.name(variable.id);
     return "block " + module.name(element_of(module, variable.type).first);
 }
@@ -196,6 +193,13 @@ std::vector<std::optional<Scalar>> outputs_of(const Module& module) {
     return outputs;
 }
 
+/// What tells a resource from others: to OpenGL its name, to Vulkan its place.
+std::string identity_of(const Module& module, const Variable& variable, bool is_opengl) {
+    const auto at = [&](spv::Decoration kind) { return module.decoration(variable.id, kind).value_or(0); };
+    return is_opengl ? name_of(module, variable)
+                     : fmt::format("{}.{}", at(spv::DecorationDescriptorSet), at(spv::DecorationBinding));
+}
+
 /// OpenGL's stages match by names, and varyings that meet by name get the same locations.
 Result<Pipeline> linked(std::vector<PipelineStage> stages, bool is_opengl) {
     Pipeline pipeline;
@@ -209,7 +213,8 @@ Result<Pipeline> linked(std::vector<PipelineStage> stages, bool is_opengl) {
         }
         if (stage.kind == StageKind::fragment) pipeline.outputs = outputs_of(modules.back());
     }
-    std::map<std::string, Descriptor> by_name;
+    std::map<std::string, std::string> names;  // by identity, that of the first stage
+    std::map<std::pair<std::string, std::string>, Descriptor> by_name;
     for (const Module& module : modules)
         for (const Variable& variable : module.variables) {
             if (variable.storage == spv::StorageClassAtomicCounter)
@@ -217,12 +222,14 @@ Result<Pipeline> linked(std::vector<PipelineStage> stages, bool is_opengl) {
                                                     module.name(variable.id)),
                              .help = "count in a storage block, with atomicAdd()",
                              .subject = module.name(variable.id)});
-            if (is_resource(variable))
-                by_name.try_emplace(name_of(module, variable, is_opengl), descriptor_of(module, variable));
+            if (!is_resource(variable)) continue;
+            const auto& [identity, name] =
+                *names.try_emplace(identity_of(module, variable, is_opengl), name_of(module, variable)).first;
+            by_name.try_emplace({name, identity}, descriptor_of(module, variable));
         }
     std::map<std::string, std::uint32_t> binding_of;
     for (const auto& [name, descriptor] : by_name) {
-        binding_of[name] = static_cast<std::uint32_t>(pipeline.descriptors.size());
+        binding_of[name.second] = static_cast<std::uint32_t>(pipeline.descriptors.size());
         pipeline.descriptors.push_back(descriptor);
     }
     std::vector<Numbers> locations(modules.size());
@@ -232,7 +239,7 @@ Result<Pipeline> linked(std::vector<PipelineStage> stages, bool is_opengl) {
         Numbers bindings;
         for (const Variable& variable : modules[i].variables)
             if (is_resource(variable))
-                bindings[variable.id] = binding_of.at(name_of(modules[i], variable, is_opengl));
+                bindings[variable.id] = binding_of.at(identity_of(modules[i], variable, is_opengl));
         stages[i].words = rewritten(modules[i], stages[i].words, bindings, locations[i]);
     }
     pipeline.stages = std::move(stages);

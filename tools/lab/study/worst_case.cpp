@@ -195,6 +195,7 @@ class Search {
 
 /// The family with what has that name declared mediump.
 Family declared_mediump(Family family, const std::string& name) {
+    family.extends = true;  // its pieces are changed, though they are shipped
     const auto varying = std::ranges::find(family.varyings, name, &Varying::name);
     if (varying != family.varyings.end()) {
         varying->type = "mediump " + varying->type;
