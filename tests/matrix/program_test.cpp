@@ -63,7 +63,7 @@ TEST(Game, ShowsItsOwnSourceWithItsTogglesSet) {
     EXPECT_THAT(shown, StartsWith("#version 330 core\n#define NUM_LIGHTS 2\n#define USE_TEXTURE 1\n"));
     EXPECT_THAT(shown, Not(HasSubstr("#define USE_FOG")));
     EXPECT_THAT(output_of("gobo show " + game + " default --stage vertex --dialect 450"),
-                StartsWith("#version 450 core\n\n"));
+                StartsWith("#version 450 core\nlayout(location = 0) in "));
     EXPECT_THAT(output_of("gobo show " + game + " default --stage vertex --pieces"),
                 testing::EndsWith("prologue\ngame.vert\n"));
     EXPECT_EQ(

@@ -73,12 +73,15 @@ TEST_F(Compose, PlacesPiecesDepthFirstEachOnce) {
                 ElementsAre("prologue", "e.glsl", "c.glsl", "d.glsl", "a.glsl", "b.glsl", "tiny.frag"));
 }
 
-TEST_F(Compose, KeepsLineNumbers) {
-    files["tiny.frag"] = "#version 330 core\n#include \"a.glsl\"\n\nvoid main() {}\n";
-    files["a.glsl"] = "float a;\n";
-    EXPECT_EQ(fragment("default").source, "#version 450 core\nfloat a;\n\n\n\nvoid main() {}\n");
+TEST_F(Compose, KeepsTheLinesBetweenTheFirstAndTheLastOfCode) {
+    files["tiny.frag"] = "#version 330 core\n#include \"a.glsl\"\n\nvoid main() {\n\n}\n\n";
+    files["a.glsl"] = "\nfloat a;\n";
+    EXPECT_EQ(fragment("default").source, "#version 450 core\nfloat a;\nvoid main() {\n\n}\n");
     EXPECT_EQ(stage("default", StageKind::fragment, Dialect::own).source,
-              "#version 330 core\nfloat a;\n\n\n\nvoid main() {}\n");
+              "#version 330 core\nfloat a;\nvoid main() {\n\n}\n");
+    const Composition composition = all_of({"default"}).value();
+    const int number = composition.permutations.front().stages[StageKind::fragment];
+    EXPECT_EQ(composition.piece(composition.stage(number).pieces.back()).first_line, 4);
 }
 
 TEST_F(Compose, ShipsCommentsOnlyOnRequest) {
@@ -88,7 +91,7 @@ TEST_F(Compose, ShipsCommentsOnlyOnRequest) {
         const int stage = composition.permutations.front().stages[StageKind::fragment];
         return source_of(composition, composition.stages.at(static_cast<std::size_t>(stage)));
     };
-    EXPECT_EQ(source(Comments::remove), "#version 450 core\n\nvoid main() {}\n");
+    EXPECT_EQ(source(Comments::remove), "#version 450 core\nvoid main() {}\n");
     EXPECT_EQ(source(Comments::keep), "#version 450 core\n// head\nvoid main() {} // b\n");
     const Composition composition = all_of({"default"}).value();
     EXPECT_EQ(line_of(composition.pieces.front(), 2), "void main() {} // b") << "as messages quote it";
@@ -154,8 +157,7 @@ TEST_F(Compose, APrologueHoldsOnlyWhatItsStageMentions) {
     EXPECT_EQ(vertex("point=3 bump=on").source,
               "#version 450 core\n#define POINTS 3\n#if POINTS > 1\n#endif\nvoid main() {}\n");
     EXPECT_EQ(fragment("point=3 bump=on").source.substr(0, 37), "#version 450 core\n#define USE_BUMP 1\n");
-    EXPECT_EQ(fragment("point=3").source.substr(0, 26), "#version 450 core\n\n#ifdef ")
-        << "off is not defined";
+    EXPECT_EQ(fragment("point=3").source.substr(0, 25), "#version 450 core\n#ifdef ") << "off is not defined";
     EXPECT_EQ(vertex("default").source.substr(0, 35), "#version 450 core\n#define POINTS 0\n");
 }
 
@@ -187,23 +189,21 @@ TEST_F(Compose, WritesExactlyTheVaryingsThatAreRead) {
     files["normal.glsl"] = "vec3 normal() { return vec3(0.0); }\n";
 
     EXPECT_EQ(vertex("default").source,
-              "#version 450 core\nvoid writeVaryings() {\n}\n\nvoid main() { writeVaryings(); }\n");
+              "#version 450 core\nvoid writeVaryings() {\n}\nvoid main() { writeVaryings(); }\n");
     EXPECT_THAT(fragment("default").names, ElementsAre("prologue", "tiny.frag"));
 
     files["tiny.frag"] = "void main() { eyePosition; } // not eyeNormal\n";
     EXPECT_EQ(
         vertex("default").source,
         "#version 450 core\n#define VARYING(location_) layout(location = location_) out\n"
-        "\n\n\n\n\n\n\n\n\n"
         "VARYING(0) vec4 eyePosition; void writeVaryingEyePosition() { eyePosition = vec4(1.0); }\n"
-        "void writeVaryings() {\n    writeVaryingEyePosition();\n}\n\nvoid main() { writeVaryings(); }\n")
-        << "declared on line 10, where the family file declares it";
+        "void writeVaryings() {\n    writeVaryingEyePosition();\n}\nvoid main() { writeVaryings(); }\n");
 
     files["tiny.frag"] = "void main() { eyeNormal; eyePosition; }\n";
     EXPECT_THAT(vertex("default").names,
                 ElementsAre("prologue", "normal.glsl", "tiny[varyings]", "tiny.vert"));
     EXPECT_EQ(fragment("default").source,
-              "#version 450 core\n#define VARYING(location_) layout(location = location_) in\n\n\n\n"
+              "#version 450 core\n#define VARYING(location_) layout(location = location_) in\n"
               "flat VARYING(1) vec3 eyeNormal;\n\n\n\n\n\nVARYING(0) vec4 eyePosition;\n"
               "void main() { eyeNormal; eyePosition; }\n");
 }
@@ -211,8 +211,7 @@ TEST_F(Compose, WritesExactlyTheVaryingsThatAreRead) {
 TEST_F(Compose, PlacesPiecesThatShareAFile) {
     files["tiny.frag"] = "#include \"a/two.glsl\"\n#include \"a/one.glsl\"\nvoid main() {}\n";
     files["a.glsl"] = "// Both\n#piece one\nint one;\n\n#piece two\n#include \"a/one.glsl\"\nint two;\n";
-    EXPECT_EQ(fragment("default").source,
-              "#version 450 core\n\n\nint one;\n\n\n\n\n\n\n\nint two;\n\n\nvoid main() {}\n");
+    EXPECT_EQ(fragment("default").source, "#version 450 core\nint one;\nint two;\nvoid main() {}\n");
     EXPECT_THAT(fragment("default").names, ElementsAre("prologue", "a.glsl#one", "a.glsl#two", "tiny.frag"));
 }
 

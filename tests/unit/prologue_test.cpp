@@ -228,10 +228,10 @@ TEST(InFront, StandsOnTheLinesOfTheFamilyFile) {
     const Stage& stage = composition.stage(composition.permutations.front().stages[StageKind::fragment]);
     const Piece& all = composition.piece(stage.pieces.at(1));
     const Piece& one = composition.piece(stage.pieces.at(2));
-    EXPECT_EQ(all.name + "|" + all.path + "|" + all.text,
-              "tiny[prologue]|tiny.toml|\n\n\n\n\nint a;\nint b;\n");
-    EXPECT_EQ(one.name + "|" + one.path + "|" + one.text,
-              "tiny[prologue.fragment]|tiny.toml|\n\n\n\n\n\n\nint c;\n");
+    EXPECT_EQ(all.name + "|" + all.path + "|" + all.text, "tiny[prologue]|tiny.toml|int a;\nint b;\n");
+    EXPECT_EQ(all.first_line, 6);
+    EXPECT_EQ(one.name + "|" + one.path + "|" + one.text, "tiny[prologue.fragment]|tiny.toml|int c;\n");
+    EXPECT_EQ(one.first_line, 8);
     EXPECT_FALSE(all.on_disk) << "a depfile names the family file anyway";
 }
 

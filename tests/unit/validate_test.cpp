@@ -351,9 +351,7 @@ TEST_P(HostileComment, MeansTheSameWhenItIsGone) {
         EXPECT_EQ(exit_status(validated.diagnostics) == 0, row.compiles)
             << first_text(validated.diagnostics) << sources.back();
     }
-    EXPECT_EQ(modules[0], modules[1]) << sources[1];
-    EXPECT_EQ(std::count(sources[0].begin(), sources[0].end(), '\n'),
-              std::count(sources[1].begin(), sources[1].end(), '\n'));
+    EXPECT_EQ(modules[0], modules[1]) << "lines included: " << sources[1];
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,7 +3,8 @@
 namespace gobo {
 
 std::string_view line_of(const Piece& piece, int number) {
-    return line_of(piece.file_text.empty() ? piece.text : piece.file_text, number);
+    return piece.file_text.empty() ? line_of(piece.text, number - piece.first_line + 1)
+                                   : line_of(piece.file_text, number);
 }
 
 void put_at(Diagnostic& diagnostic, const Piece& piece, int line) {

@@ -34,21 +34,25 @@ enum class Comments { remove, keep };
 struct Piece {
     std::string name;  ///< portable: "shader_lib/fog.glsl#linear", or relative to the folder it was found in
     std::string path;  ///< as diagnostics and depfiles show it; for a generated piece, the file it comes from
-    std::string text;  ///< what is validated and shipped, line for line as the file: includes are blanked
+    std::string text;  ///< what is validated and shipped: the file's lines from `first_line` on
     bool on_disk = false;        ///< read from a file that a depfile must name
     std::string file_text = {};  ///< all that its file holds, for messages that quote a line; of a generated
                                  ///< piece empty
     /// Of a prologue, by line: where an #extension stands, and that line.
     std::map<int, std::pair<Place, std::string>> moved_lines = {};
     bool is_shipped = false;  ///< gobo's own
+    int first_line = 1;       ///< where in its file `text` starts: no empty lines lead it there
+
+    /// The file's number of a line of `text`, counted from 1.
+    [[nodiscard]] int line_in_file(int line) const { return first_line - 1 + line; }
 
     friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// A line of a piece as its file has it.
+/// A line as the piece's file has it, by the file's number.
 [[nodiscard]] std::string_view line_of(const Piece& piece, int number);
 
-/// Puts a message at a line of a piece, which it quotes; at the line of a file that was moved there, if so.
+/// Puts a message at a line of a piece's file, which it quotes; at the line that was moved there, if so.
 void put_at(Diagnostic& diagnostic, const Piece& piece, int line);
 
 /// A stage is a list of pieces: the prologue first, then each piece once, depth first.

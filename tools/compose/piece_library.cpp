@@ -17,6 +17,16 @@ std::size_t size_of_lines(std::string_view text, int lines) {
     return size;
 }
 
+/// Takes away the empty lines around a text, and says how many led it. Of one without code the last stays.
+int cut_outer_empty_lines(std::string& text) {
+    const std::size_t end = text.find_last_not_of('\n');
+    if (end != std::string::npos) text.resize(std::min(end + 2, text.size()));
+    const std::size_t begin =
+        std::min(text.find_first_not_of('\n'), std::max<std::size_t>(text.size(), 1) - 1);
+    text.erase(0, begin);
+    return static_cast<int>(begin);
+}
+
 }  // namespace
 
 const Feature* feature_defined_by(const Directive& directive, const Family& family) {
@@ -67,7 +77,8 @@ Result<int> PieceLibrary::prologue(const PrologueText& part) {
 }
 
 int PieceLibrary::generated(Piece piece) {
-    const auto [at, is_new] = by_generated_text_.try_emplace(piece.text, -1);
+    piece.first_line += cut_outer_empty_lines(piece.text);
+    const auto [at, is_new] = by_generated_text_.try_emplace(std::pair(piece.text, piece.first_line), -1);
     if (is_new) at->second = add(std::move(piece), {std::vector<char>(interest_.size(), 0), nullptr});
     return at->second;
 }
@@ -209,10 +220,10 @@ void PieceLibrary::add_pieces(Source& source, const Piece& file, const ScannedPi
     int line = 1;  // the first of what is left
     const auto add_up_to = [&](int last) {
         Piece piece = file;
-        piece.text.assign(static_cast<std::size_t>(line - 1), '\n');
         const std::size_t size = size_of_lines(text, last - line + 1);
         const std::size_t code_size = size_of_lines(code, last - line + 1);
-        piece.text += text.substr(0, size);
+        piece.text = text.substr(0, size);
+        piece.first_line = line + cut_outer_empty_lines(piece.text);
         const auto identifiers = identifiers_of(code.substr(0, code_size));
         Entry entry{{}, &source};
         for (const std::string& identifier : interest_)

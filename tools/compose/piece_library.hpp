@@ -121,8 +121,7 @@ class PieceLibrary {
     Result<int> add_file(Piece piece, std::string folder, std::string root);
     /// Notes what stands before the first mark of a file that is split into pieces.
     void note_head(const Piece& piece);
-    /// Parts a file at the includes below its top. Each part begins with as many empty lines as stand before
-    /// it, so that lines have the file's numbers.
+    /// Parts a file at the includes below its top.
     void add_pieces(Source& source, const Piece& file, const ScannedPiece& scanned);
 
     /// A template or a file: PATH.STAGE.EXTENSION where there is one, else PATH; beside the file that
@@ -166,8 +165,8 @@ class PieceLibrary {
     std::map<std::tuple<std::string, std::string, Whose, int>, std::optional<int>> by_path_;
     /// Path, name and, where something is replaced in it, text: two paths may lead to one file.
     std::map<std::tuple<std::string, std::string, std::string>, int> by_file_;
-    std::map<std::string, int, std::less<>> by_generated_text_;
-    std::map<std::pair<int, int>, int> rounds_;  ///< by piece and index
+    std::map<std::pair<std::string, int>, int> by_generated_text_;  ///< and first line
+    std::map<std::pair<int, int>, int> rounds_;                     ///< by piece and index
     /// Of a file the one that includes it; target of the include, value (-1 of a file), stage, variant.
     std::map<std::tuple<const Source*, std::string, int, StageKind, int>, std::optional<int>> by_choice_;
 };

@@ -136,12 +136,7 @@ Result<void> Placer::place(Placement& placement, int file, const Include& includ
     if (placement.files.size() > kMostIncludes)
         return fail_at(include, fmt::format("the stage takes more than {} includes", kMostIncludes), fewer);
     if (placement.bytes > kMostBytes)
-        return fail_at(
-            include,
-            fmt::format("the stage's text is longer than {} bytes: what stands behind an #include "
-                        "below the top of a file begins with as many empty lines as stand before it",
-                        kMostBytes),
-            fewer);
+        return fail_at(include, fmt::format("the stage's text is longer than {} bytes", kMostBytes), fewer);
     GOBO_TRY_DO(check_version(placement, source));
     if (placement.version.empty()) placement.version = source.version;
     placement.open.push_back(file);
@@ -151,6 +146,10 @@ Result<void> Placer::place(Placement& placement, int file, const Include& includ
     placement.open.pop_back();
     placement.files.push_back(file);
     return {};
+}
+
+void Placer::place_part(Placement& placement, int piece) {
+    if (composition_.piece(piece).text != "\n") place_piece(placement, piece);
 }
 
 void Placer::place_piece(Placement& placement, int piece) {
@@ -191,7 +190,7 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
             if (is_end) {
                 GOBO_TRY_DO(place_rounds(placement, *piece++, *loop));
             } else {
-                place_piece(placement, *piece++);
+                place_part(placement, *piece++);
             }
             loop = directive.rest == kUnrollStart && conditions.is_active() ? &directive : nullptr;
             placement.walked = placement.placed.size();
@@ -199,14 +198,14 @@ Result<void> Placer::place_text(Placement& placement, const Source& source) {
             if (loop != nullptr)
                 return fail_at(directive, "an #include within a loop that is to be unrolled",
                                "write the loop into one file");
-            place_piece(placement, *piece++);
+            place_part(placement, *piece++);
             placement.walked = placement.placed.size();
             if (!conditions.is_active()) continue;
             GOBO_TRY(Include include, read_include(directive));
             include.at_top = false;
             GOBO_TRY_DO(follow(placement, include, &source));
         } else if (directive.word == "subroutine") {
-            place_piece(placement, *piece++);
+            place_part(placement, *piece++);
             if (conditions.is_active()) GOBO_TRY_DO(place_subroutine(placement, source, directive));
             placement.walked = placement.placed.size();
         } else if (directive.word == "extension") {
@@ -267,10 +266,12 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
                        "#include, between the two pragmas");
     const Piece& whole = composition_.piece(piece);
     GOBO_TRY(const CleanText clean, clean_text(whole.text, whole.path));
-    if (const auto jump = jump_of_loop(clean.code, *head))
-        return fail(Place{whole.path, jump->line}, line_of(whole, jump->line),
+    if (const auto jump = jump_of_loop(clean.code, *head)) {
+        const int line = whole.line_in_file(jump->line);
+        return fail(Place{whole.path, line}, line_of(whole, line),
                     fmt::format("'{}' of a loop that is unrolled, which leaves no loop behind", jump->word),
                     "write the loop without it, or take the pragmas away");
+    }
     const Directive end{"if", head->end, start.place, start.line};
     GOBO_TRY(const Known count, placement.conditions->value_of(end));
     if (!count || *count > kMostRounds)

@@ -60,6 +60,8 @@ class Placer {
     /// Places a file: what it includes at its top, then its text.
     Result<void> place(Placement& placement, int file, const Include& include);
     void place_piece(Placement& placement, int piece);
+    /// A part of a file, unless it is but an empty line.
+    void place_part(Placement& placement, int piece);
     /// Warns of those that end what another file asks for, which they do not.
     void take_extensions(Placement& placement, const Extensions& stated, int first_line = 0,
                          int last_line = std::numeric_limits<int>::max());

@@ -95,11 +95,12 @@ class TextRows {
              is_cut ? lines_of(piece.text) : std::vector<std::string_view>{piece.text})
             for (const std::string_view text : cut_for_literals(part)) {
                 const bool is_first = numbers.empty();
-                const auto [place, is_new] = numbers_.try_emplace(
-                    std::tuple(std::string_view(piece.name), text, is_first), rows_.size());
+                const int line = is_first ? piece.first_line : 0;
+                const auto [place, is_new] =
+                    numbers_.try_emplace(std::tuple(std::string_view(piece.name), text, line), rows_.size());
                 if (is_new)
                     rows_.push_back(fmt::format("{{{}, {{{}, {}}}, {}}}", cpp_literal(piece.name),
-                                                cpp_literal(text), text.size(), is_first ? 1 : 0));
+                                                cpp_literal(text), text.size(), line));
                 numbers.push_back(place->second);
             }
         return numbers;
@@ -118,7 +119,7 @@ class TextRows {
     }
 
   private:
-    std::map<std::tuple<std::string_view, std::string_view, bool>, std::size_t> numbers_;
+    std::map<std::tuple<std::string_view, std::string_view, int>, std::size_t> numbers_;
     std::vector<std::string> rows_;
 };
 

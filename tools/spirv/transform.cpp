@@ -1,6 +1,8 @@
 #include "spirv/transform.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <unordered_map>
@@ -150,6 +152,37 @@ Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
         const std::size_t at = result.size();
         result.insert(result.end(), instruction.words.begin(), instruction.words.end());
         if (is_chosen) result[at + 3] = constant;
+    }
+    return result;
+}
+
+Words with_lines_of_files(const Words& words, const std::vector<TextOfFile>& texts) {
+    Words result(words.begin(), words.begin() + kHeader);
+    std::map<std::uint32_t, const TextOfFile*> named;  // by the id of the text's number
+    for (std::size_t at = kHeader; at < words.size();) {
+        const std::uint32_t* const instruction = &words[at];
+        const std::uint32_t count = instruction[0] >> spv::WordCountShift;
+        const std::uint32_t opcode = instruction[0] & spv::OpCodeMask;
+        at += count;
+        if (opcode == spv::OpString) {
+            const char* const number = reinterpret_cast<const char*>(instruction + 2);
+            const char* const end = number + std::strlen(number);
+            std::size_t text = texts.size();
+            if (std::from_chars(number, end, text).ptr == end && text < texts.size()) {
+                named[instruction[1]] = &texts[text];
+                const std::string& path = texts[text].path;
+                const auto words_of_path = static_cast<std::uint32_t>(path.size() / 4 + 1);
+                result.insert(result.end(),
+                              {(2 + words_of_path) << spv::WordCountShift | spv::OpString, instruction[1]});
+                result.resize(result.size() + words_of_path);
+                std::memcpy(&result[result.size() - words_of_path], path.data(), path.size());
+                continue;
+            }
+        }
+        result.insert(result.end(), instruction, instruction + count);
+        const auto text = opcode == spv::OpLine ? named.find(instruction[1]) : named.end();
+        if (text != named.end())
+            result[result.size() - count + 2] += static_cast<std::uint32_t>(text->second->first_line - 1);
     }
     return result;
 }

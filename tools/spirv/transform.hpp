@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <spirv-tools/libspirv.hpp>
@@ -26,6 +27,15 @@ using Words = std::vector<std::uint32_t>;
 
 /// The module made faster by SPIRV-Tools' optimizer; specialisation constants stay.
 [[nodiscard]] Result<Words> optimized(const Words& words, spv_target_env environment);
+
+/// One of the texts that a module was made of, in its file.
+struct TextOfFile {
+    std::string path;
+    int first_line = 1;
+};
+
+/// The module whose lines are said to be of the texts "0", "1" and so on, with those of the files.
+[[nodiscard]] Words with_lines_of_files(const Words& words, const std::vector<TextOfFile>& texts);
 
 /// The module without names, lines and source.
 [[nodiscard]] Result<Words> without_names(const Words& words);

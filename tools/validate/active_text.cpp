@@ -23,8 +23,8 @@ ActiveDirective directive_of(std::string_view text, const Piece& piece, int line
 }
 
 void read_lines(std::string_view text, const Piece& piece, ReadPiece& read) {
-    for (int number = 1; !text.empty(); ++number) {
-        // Most lines are empty: those of the file that stand before the piece.
+    for (int number = piece.first_line; !text.empty(); ++number) {
+        // Many lines are empty: those of comments.
         const std::size_t empty = std::min(text.find_first_not_of('\n'), text.size());
         number += static_cast<int>(empty);
         text.remove_prefix(empty);

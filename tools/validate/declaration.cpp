@@ -44,7 +44,7 @@ void for_each_mention(std::string_view name, const std::vector<const Piece*>& pi
     for (const Piece* const piece : pieces) {
         if (piece->text.find(name) == std::string::npos) continue;
         std::string_view rest = piece->text;
-        for (int number = 1; !rest.empty(); ++number) {
+        for (int number = piece->first_line; !rest.empty(); ++number) {
             const std::string_view line = rest.substr(0, rest.find('\n'));
             const std::string_view code = line.substr(0, line.find("//"));
             if (mentions(code, name)) visit(*piece, number, code);

@@ -37,7 +37,7 @@ int line_of_directive(std::string_view message, const Piece& piece, int line) {
 /// Names what the family made of a line, where a word of it stands nowhere in the file.
 void explain_rewriting(Diagnostic& diagnostic, const Piece& piece, int line) {
     if (piece.file_text.empty() || !diagnostic.help.empty()) return;
-    const std::string_view made = trim(line_of(piece.text, line));
+    const std::string_view made = trim(line_of(piece.text, line - piece.first_line + 1));
     const std::vector<std::string_view> written = tokens_of(piece.file_text);
     const std::string own(line_of(piece, line));
     // What the composer itself puts there: the line's number, and what is as wrong as a lone quotation mark.
@@ -53,23 +53,22 @@ void explain_rewriting(Diagnostic& diagnostic, const Piece& piece, int line) {
         }
 }
 
-/// Moves `path:12: rest` of one of the pieces to its place. Paths may hold colons, so they are compared, not
-/// searched for.
+/// Moves `7:12: rest`, line 12 of the piece at position 7, to its place.
 void locate(Diagnostic& diagnostic, const std::vector<const Piece*>& pieces) {
     const std::string message = diagnostic.message;
-    for (const Piece* piece : pieces) {
-        if (!message.starts_with(piece->path + ":")) continue;
-        int line = 0;
-        const char* end = message.data() + message.size();
-        const auto parsed = std::from_chars(message.data() + piece->path.size() + 1, end, line);
-        if (parsed.ec != std::errc{} || parsed.ptr == end || *parsed.ptr != ':') continue;
-        diagnostic.message = trim({parsed.ptr + 1, end});
-        line = line_of_directive(diagnostic.message, *piece, line);
-        // A generated piece carries the lines of the file it comes from only where it stands for one.
-        put_at(diagnostic, *piece, line);
-        explain_rewriting(diagnostic, *piece, line);
-        if (!diagnostic.quoted_line.empty()) return;  // else another piece of the same file may hold it
-    }
+    const char* const end = message.data() + message.size();
+    std::size_t position = 0;
+    int line = 0;
+    const auto before = std::from_chars(message.data(), end, position);
+    if (before.ec != std::errc{} || before.ptr == end || *before.ptr != ':' || position >= pieces.size())
+        return;
+    const auto behind = std::from_chars(before.ptr + 1, end, line);
+    if (behind.ec != std::errc{} || behind.ptr == end || *behind.ptr != ':') return;
+    const Piece& piece = *pieces[position];
+    diagnostic.message = trim({behind.ptr + 1, end});
+    line = line_of_directive(diagnostic.message, piece, piece.line_in_file(line));
+    put_at(diagnostic, piece, line);
+    explain_rewriting(diagnostic, piece, line);
 }
 
 /// Says which count has the constant_id that a shader states, too.
@@ -95,7 +94,7 @@ void name_other_uniforms(Diagnostic& diagnostic, const std::vector<const Piece*>
     if (!diagnostic.message.starts_with("a uniform outside of blocks")) return;
     std::vector<std::string> others;
     for (const Piece* const piece : pieces) {
-        int number = 0;
+        int number = piece->first_line - 1;
         for_each_line(piece->text, [&](std::string_view line) {
             ++number;
             const std::vector<std::string_view> tokens = tokens_of(line);
@@ -293,7 +292,7 @@ void explain_crash(Diagnostic& error, const std::vector<const Piece*>& pieces) {
     for (const Piece* const piece : pieces)
         std::ranges::copy(specialization_constants_in(piece->text), std::back_inserter(constants));
     for (const Piece* const piece : pieces) {
-        int number = 0;
+        int number = piece->first_line - 1;
         bool is_found = false;
         for_each_line(piece->text, [&](std::string_view line) {
             ++number;

@@ -107,14 +107,18 @@ bool lacks_locations(const Interface& interface) {
     return lacks(interface.inputs) || lacks(interface.outputs) || lacks(interface.uniforms);
 }
 
-SpirvModule spirv_of(const glslang::TIntermediate& intermediate, bool debug_information) {
+SpirvModule spirv_of(const glslang::TIntermediate& intermediate, const std::vector<const Piece*>& pieces,
+                     bool debug_information) {
     glslang::SpvOptions options;
     options.disableOptimizer = true;
     options.generateDebugInfo = debug_information;
     SpirvModule module;
     spv::SpvBuildLogger logger;
     glslang::GlslangToSpv(intermediate, module, &logger, &options);
-    return module;
+    if (!debug_information) return module;
+    std::vector<spirv::TextOfFile> texts;
+    for (const Piece* const piece : pieces) texts.push_back({piece->path, piece->first_line});
+    return spirv::with_lines_of_files(module, texts);
 }
 
 /// Whether a sampler is bound to 0, which may be glslang's word for nothing stated; of a block it says so.
@@ -219,8 +223,9 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
                 : shader_->renamed.emplace_back(seen_by_drivers(substituted(piece->text, built_ins.renamed)));
         shader_->texts.push_back(text.data());
         shader_->lengths.push_back(static_cast<int>(text.size()));
-        shader_->names.push_back(piece->path.c_str());
+        shader_->numbers.push_back(std::to_string(shader_->numbers.size()));
     }
+    for (const std::string& number : shader_->numbers) shader_->names.push_back(number.c_str());
     glslang::TShader& shader = shader_->shader;
     shader.setStringsWithLengthsAndNames(shader_->texts.data(), shader_->lengths.data(),
                                          shader_->names.data(), static_cast<int>(shader_->texts.size()));
@@ -411,7 +416,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     }
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
-    stage.spirv = spirv_of(intermediate, debug_information);
+    stage.spirv = spirv_of(intermediate, pieces_, debug_information);
     GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_, dialect_));
     if (is_spirv(dialect_)) {
         GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv, count_ids(pieces_.front()->text)));
@@ -455,7 +460,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     if (!is_spirv(dialect_) && (bindings_mapped_ || lacks_locations(stage.interface))) {
         is_changed_ = true;
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());
-        stage.spirv = spirv_of(intermediate, debug_information);
+        stage.spirv = spirv_of(intermediate, pieces_, debug_information);
     }
     return stage;
 }

@@ -48,6 +48,7 @@ class GlslangStage {
         std::deque<std::string> renamed;  ///< texts in which built-ins have other names
         std::vector<const char*> texts;
         std::vector<int> lengths;
+        std::vector<std::string> numbers;  ///< of the texts: their names to glslang
         std::vector<const char*> names;
         glslang::TShader shader;
     };

@@ -35,10 +35,6 @@ bool contains(std::string_view text, std::string_view part) {
 }
 
 /// The text without the lines before its first, which only move it.
-std::string_view without_first_empty_lines(std::string_view text) {
-    return text.substr(std::min(text.find_first_not_of('\n'), text.size()));
-}
-
 std::string digits(const Digest& digest) {
     return to_bytes(digest.high, digest.low);
 }
@@ -99,9 +95,8 @@ KnownResults::KnownResults(const Composition& composition, const std::vector<Pro
 
 void KnownResults::digest_pieces() {
     for (const Piece& piece : composition_.pieces) {
-        const std::string_view text = without_first_empty_lines(piece.text);
-        std::string places =
-            to_bytes(piece.path, std::uint64_t{piece.text.size() - text.size()}, piece.file_text, piece.name);
+        const std::string& text = piece.text;
+        std::string places = to_bytes(piece.path, piece.first_line, piece.file_text, piece.name);
         for (const auto& [line, moved] : piece.moved_lines)
             places += to_bytes(line, moved.first, moved.second);
         const Digest digest = digest_of(text);

@@ -32,7 +32,7 @@ class Brackets {
     explicit Brackets(const std::vector<const Piece*>& pieces) {
         for (const Piece* piece : pieces) {
             code_.push_back(clean_text(piece->text, piece->path).value_or(CleanText{}).code);
-            int line = 1;
+            int line = piece->first_line;
             for (std::string_view rest = code_.back(); !rest.empty(); ++line) {
                 const std::string_view text = rest.substr(0, rest.find('\n'));
                 read_line(text, code_.size() - 1, line);

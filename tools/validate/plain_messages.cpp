@@ -109,7 +109,7 @@ Diagnostic push_constants_message(const PieceList& pieces) {
             const std::string_view line = line_of(piece->text, number);
             const std::vector<std::string_view> tokens = tokens_of(line);
             if (std::ranges::find(tokens, "push_constant") != tokens.end())
-                blocks.push_back({{piece->path, number, 0}, std::string(line)});
+                blocks.push_back({{piece->path, piece->line_in_file(number), 0}, std::string(line)});
         }
     }
     blocks.resize(std::max<std::size_t>(blocks.size(), 2), {{pieces.back()->path, 0, 0}, ""});

@@ -80,7 +80,8 @@ Diagnostics check_switches(std::string_view tree, const std::vector<const Piece*
                 Diagnostic& diagnostic = found.emplace_back();
                 diagnostic.message = fmt::format("a case of {} in a switch of {}", type, open.back().type);
                 diagnostic.help = type == "uint" ? "write it without the u" : "write a u behind the number";
-                put_at(diagnostic, *pieces[std::min(label->string, pieces.size() - 1)], label->line);
+                const Piece& piece = *pieces[std::min(label->string, pieces.size() - 1)];
+                put_at(diagnostic, piece, piece.line_in_file(label->line));
             }
             label.reset();
         }

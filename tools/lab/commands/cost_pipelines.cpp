@@ -25,12 +25,13 @@ void put_at_name(Diagnostic& error, const Composition& composition, const Permut
                  const std::string& name) {
     for (const int stage : permutation.stages.values)
         for (const int number : stage < 0 ? std::vector<int>() : composition.stage(stage).pieces) {
-            const std::string& text = composition.piece(number).text;
+            const Piece& piece = composition.piece(number);
+            const std::string& text = piece.text;
             for (const std::string_view token : tokens_of(text)) {
                 if (token != name) continue;
                 const auto before = text.begin() + (token.data() - text.data());
-                return put_at(error, composition.piece(number),
-                              static_cast<int>(std::count(text.begin(), before, '\n')) + 1);
+                const auto lines = static_cast<int>(std::count(text.begin(), before, '\n'));
+                return put_at(error, piece, piece.line_in_file(lines + 1));
             }
         }
 }

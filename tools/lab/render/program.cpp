@@ -12,15 +12,18 @@ namespace gobo {
 namespace {
 
 /// The piece that holds line `line` (from 1) of string number `string` (from 0) as a driver counts them;
-/// `line` becomes the piece's own. Null where there is none.
+/// `line` becomes that of the piece's file. Null where there is none.
 const Piece* piece_at(const std::vector<Piece>& pieces, int string, int& line) {
-    if (string > 0) return string < static_cast<int>(pieces.size()) ? &pieces[string] : nullptr;
-    for (const Piece& piece : pieces) {
-        const auto ends = static_cast<int>(std::count(piece.text.begin(), piece.text.end(), '\n'));
-        if (line <= ends || &piece == &pieces.back()) return &piece;
-        line -= ends;
+    const Piece* found = string > 0 && string < static_cast<int>(pieces.size()) ? &pieces[string] : nullptr;
+    for (std::size_t i = 0; string == 0 && i < pieces.size() && found == nullptr; ++i) {
+        const auto ends = static_cast<int>(std::ranges::count(pieces[i].text, '\n'));
+        if (line <= ends || i + 1 == pieces.size())
+            found = &pieces[i];
+        else
+            line -= ends;
     }
-    return nullptr;
+    if (found != nullptr) line = found->line_in_file(line);
+    return found;
 }
 
 /// A driver's form of message: which of the expression's groups is what.

@@ -171,7 +171,7 @@ Place place_of(const Composition& composition, const Stage& stage, int line) {
     for (const int number : stage.pieces) {
         const Piece& piece = composition.piece(number);
         const auto lines = static_cast<int>(std::ranges::count(piece.text, '\n'));
-        if (line <= lines) return {piece.path, line, 0};
+        if (line <= lines) return {piece.path, piece.line_in_file(line), 0};
         line -= lines;
     }
     return {};
