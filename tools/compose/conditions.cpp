@@ -293,6 +293,14 @@ MacroDefinition Conditions::definition(std::string_view text) const {
 }
 
 Result<Known> Conditions::value_of(const Directive& directive) const {
+    return value_of(directive, false);
+}
+
+Result<Known> Conditions::count_of(const Directive& directive) const {
+    return value_of(directive, true);
+}
+
+Result<Known> Conditions::value_of(const Directive& directive, bool has_variables) const {
     const Words words = words_of(directive.rest);
     if (directive.word == "ifdef" || directive.word == "ifndef") {
         const Known defined = is_defined(words.empty() ? "" : words.front());
@@ -316,7 +324,11 @@ Result<Known> Conditions::value_of(const Directive& directive) const {
                     fmt::format("the macros of this condition expand to more than {} tokens", kMostTokens),
                     "define them more simply");
     std::ranges::replace_if(
-        expanded, [&](const std::string& word) { return is_drivers(word); }, std::string(kUnknown));
+        expanded,
+        [&](const std::string& word) {
+            return is_drivers(word) || (has_variables && is_identifier_start(word.front()));
+        },
+        std::string(kUnknown));
     return Evaluator(expanded).run();
 }
 

@@ -45,6 +45,8 @@ class Conditions {
     [[nodiscard]] Known is_defined(std::string_view name) const;
     /// What a condition would hold, or another whole number; nothing where that is unknown.
     [[nodiscard]] Result<Known> value_of(const Directive& directive) const;
+    /// The same of a number that a shader's loop counts to: what is no macro is unknown there, not 0.
+    [[nodiscard]] Result<Known> count_of(const Directive& directive) const;
     /// Whether `#define NAME TEXT` would give a macro that is defined another text.
     [[nodiscard]] bool would_redefine(const Directive& directive) const;
 
@@ -57,6 +59,7 @@ class Conditions {
         bool is_certain;
     };
 
+    [[nodiscard]] Result<Known> value_of(const Directive& directive, bool has_variables) const;
     void define(std::string_view text);
     [[nodiscard]] bool is_drivers(std::string_view name) const;
     [[nodiscard]] MacroDefinition definition(std::string_view text) const;

@@ -266,6 +266,9 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
                        "#include, between the two pragmas");
     const Piece& whole = composition_.piece(piece);
     GOBO_TRY(const CleanText clean, clean_text(whole.text, whole.path));
+    if (!is_loop_alone(clean.code, *head))
+        return fail_at(start, "something other than the loop stands between the two pragmas",
+                       "put the pragmas around the loop alone, and close it outside of conditions");
     if (const auto jump = jump_of_loop(clean.code, *head)) {
         const int line = whole.line_in_file(jump->line);
         return fail(Place{whole.path, line}, line_of(whole, line),
@@ -273,7 +276,7 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
                     "write the loop without it, or take the pragmas away");
     }
     const Directive end{"if", head->end, start.place, start.line};
-    GOBO_TRY(const Known count, placement.conditions->value_of(end));
+    GOBO_TRY(const Known count, placement.conditions->count_of(end));
     if (!count || *count > kMostRounds)
         return fail_at(start,
                        fmt::format("the loop behind this ends at '{}', which is no number below {}",

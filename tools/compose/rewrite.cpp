@@ -216,6 +216,15 @@ std::optional<LoopHead> loop_head(const std::string& text) {
                     index, std::stoi(match[2]), match[4]};
 }
 
+bool is_loop_alone(std::string_view code, const LoopHead& head) {
+    int braces = 1;
+    std::size_t at = head.begin + head.size;
+    for (; at < code.size() && braces > 0; ++at) braces += code[at] == '{' ? 1 : code[at] == '}' ? -1 : 0;
+    const std::string_view rest = trim(code.substr(std::min(at, code.size())));
+    return trim(code.substr(0, head.begin)).empty() && braces == 0 &&
+           (rest.empty() || (rest.starts_with('#') && rest.find('\n') == std::string_view::npos));
+}
+
 std::optional<Jump> jump_of_loop(std::string_view code, const LoopHead& head) {
     constexpr std::array<std::string_view, 4> nesting = {"for", "while", "do", "switch"};
     struct Nested {

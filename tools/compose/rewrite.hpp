@@ -52,6 +52,9 @@ struct LoopHead {
 /// That of the first loop of a text; nothing where it has another form.
 [[nodiscard]] std::optional<LoopHead> loop_head(const std::string& text);
 
+/// Whether nothing but the loop stands in code without comments, beside the #pragma at its end.
+[[nodiscard]] bool is_loop_alone(std::string_view code, const LoopHead& head);
+
 /// A `break` or `continue`.
 struct Jump {
     std::string word;
