@@ -180,6 +180,7 @@ Substitutions legacy_substitutions(StageKind stage) {
         const bool is_color = stage == StageKind::fragment && (plain == "Color" || plain == "SecondaryColor");
         substitutions.emplace_back("gl_" + plain, is_color ? fmt::format("{}Front{}", kLegacy, plain) : name);
     }
+    substitutions.emplace_back("gl_MaxTextureCoords", "8");  // as many as compatibility.glsl declares
     return longest_first(std::move(substitutions));
 }
 

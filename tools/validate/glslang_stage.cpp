@@ -141,11 +141,12 @@ bool differ_in_component_0(std::string_view one, std::string_view other) {
     return (states ? one : other).find("component=0") != std::string_view::npos;
 }
 
-/// Drops what no linker minds: that a block's instance is called as a uniform of another stage, since its
-/// name stays in its stage; component 0 that one stage states; the order of a matrix where there is none, for
-/// the layouts of blocks are compared; and on the desktop how the memory of images is accessed. Of one pair
-/// glslang says several lines, the last with both declarations.
-bool drop_what_links(Diagnostics& log, bool is_es) {
+/// Drops what no linker minds: patch variables of one type that differ in size; in OpenGL that a block's
+/// instance is called as a uniform of another stage, since its name stays in its stage; component 0 that one
+/// stage states; the order of a matrix where there is none, for the layouts of blocks are compared; and on
+/// the desktop how the memory of images is accessed. Of one pair glslang says several lines, the last with
+/// both declarations.
+bool drop_what_links(Diagnostics& log, bool is_es, bool is_for_spirv) {
     const std::size_t known = log.size();
     for (auto first = log.begin(); first != log.end();) {
         auto last = first;
@@ -155,6 +156,11 @@ bool drop_what_links(Diagnostics& log, bool is_es) {
             const auto says = [&](std::string_view what) {
                 return line.message.find(what) != std::string::npos;
             };
+            // Of a patch's variables it takes the size for the number of vertices; the types are compared,
+            // too.
+            if (says("Array sizes must be compatible:"))
+                return says("tessellation control stage:") && parts[1] == parts[3];
+            if (is_for_spirv) return false;
             return (says("Types must match:") && is_block(parts[1]) != is_block(parts[3])) ||
                    (says("Layout component qualifier must match:") &&
                     differ_in_component_0(parts[1], parts[3])) ||
@@ -390,7 +396,7 @@ Diagnostics link_by_glslang(const std::vector<GlslangStage*>& stages) {
     Diagnostics log =
         diagnostics_of_log(program.getInfoLog(), {}, {stages.back()->pieces_.back()->path, 0, 0});
     const bool is_es = version_of(stages.front()->pieces_.front()->text).es;
-    if (!is_spirv(stages.front()->dialect_) && drop_what_links(log, is_es) && log.empty()) {
+    if (drop_what_links(log, is_es, is_spirv(stages.front()->dialect_)) && log.empty()) {
         for (GlslangStage* const stage : stages) stage->parse();  // glslang keeps the error in them
         return {};
     }

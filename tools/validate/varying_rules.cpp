@@ -105,6 +105,8 @@ class VaryingCheck {
             if (stage.kind != StageKind::fragment) check_components(stage, stage.interface.outputs);
             if (stage.kind != StageKind::vertex) check_components(stage, stage.interface.inputs);
             if (stage.kind == StageKind::fragment) check_integers(stage);
+            if (stage.kind != StageKind::fragment) check_booleans(stage, stage.interface.outputs);
+            if (stage.kind != StageKind::vertex) check_booleans(stage, stage.interface.inputs);
         }
         for (later_ = stages_.begin() + 1; later_ != stages_.end(); ++later_) {
             earlier_ = later_ - 1;
@@ -140,8 +142,10 @@ class VaryingCheck {
                                     other.type, other.name, std::max(one.location, other.location), what),
                         "give each a location of its own");
                 };
-                if (type && other_type && type->scalar != other_type->scalar)
+                if (type && other_type && numerical(type->scalar) != numerical(other_type->scalar))
                     differ("have not one numerical type");
+                else if (one.whole == Whole::structure || other.whole == Whole::structure)
+                    differ("one of them is of a struct, which drivers let share none");
                 else if (how != other_how)
                     differ(fmt::format("are {} and {}", how, other_how));
                 else if (states(one, "smooth") != states(other, "smooth"))
@@ -150,6 +154,25 @@ class VaryingCheck {
     }
 
     /// What is no float is not interpolated (GLSL 4.60, 4.5): glslang looks at no member of a block.
+    /// Integers are one type to a location, with a sign or without.
+    [[nodiscard]] static Scalar numerical(Scalar scalar) {
+        return scalar == Scalar::uint32 ? Scalar::int32 : scalar;
+    }
+
+    /// glslang sees those outside of structs.
+    void check_booleans(const StageView& stage, const std::vector<Variable>& list) {
+        std::set<std::string_view> told;
+        for (const Variable& variable : list) {
+            const auto type = glsl_type(variable.type);
+            if (variable.whole == Whole::structure && type && type->scalar == Scalar::boolean &&
+                told.insert(root_of(variable.name)).second)
+                add(declaration_of(root_of(variable.name), "", stage.pieces), Severity::error,
+                    fmt::format("'{} {}' is passed between stages, which no boolean is", variable.type,
+                                variable.name),
+                    "make it an int, and the variable flat");
+        }
+    }
+
     void check_integers(const StageView& stage) {
         std::set<std::string_view> told;
         for (const Variable& input : stage.interface.inputs) {
