@@ -264,12 +264,12 @@ static_assert(lit::sampler::shadowMaps.target == gobo::target::texture_2d_array)
 int main() {
     test_success();
     test_places();
-    // The fragment stage is common.glsl, two lines, then "piece of fog=linear", two lines.
+    // The fragment stage is common.glsl, two lines, then "piece of fog=linear", lines 31 and 32 of its file.
     test_compile_error("0:2(7): error: x\n", "shader_lib/common.glsl:2(7): error: x\n");
-    test_compile_error("0:4(1): error: Mesa\n", "piece of fog=linear:2(1): error: Mesa\n");
-    test_compile_error("0:9(1): error: past the end\n", "piece of fog=linear:7(1): error: past the end\n");
-    test_compile_error("1(2) : error C1: NVIDIA\nend", "piece of fog=linear:2 : error C1: NVIDIA\nend");
-    test_compile_error("ERROR: 1:1: 'y' : Intel", "ERROR: piece of fog=linear:1: 'y' : Intel");
+    test_compile_error("0:4(1): error: Mesa\n", "piece of fog=linear:32(1): error: Mesa\n");
+    test_compile_error("0:9(1): error: past the end\n", "piece of fog=linear:37(1): error: past the end\n");
+    test_compile_error("1(2) : error C1: NVIDIA\nend", "piece of fog=linear:32 : error C1: NVIDIA\nend");
+    test_compile_error("ERROR: 1:1: 'y' : Intel", "ERROR: piece of fog=linear:31: 'y' : Intel");
     test_compile_error("5:1: no such string\n0 errors\n123456789:1\n0:x",
                        "5:1: no such string\n0 errors\n123456789:1\n0:x");
     test_link_error();

@@ -73,6 +73,7 @@ void compose_keys(Built& built, const std::vector<std::string>& keys) {
         const std::string name = key_text(built.family, key);
         const int own =
             add_piece(composition, "piece of " + name, "// " + name + "\n\"quoted\" \\ )gobo\" )gobo2\"\n");
+        composition.pieces.back().first_line = 31;
         composition.stages.push_back({StageKind::fragment, {shared, own}});
         composition.permutations.push_back({key, {0, static_cast<int>(composition.stages.size()) - 1}});
     }
