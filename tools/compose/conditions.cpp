@@ -292,14 +292,6 @@ MacroDefinition Conditions::definition(std::string_view text) const {
     return macro;
 }
 
-Result<Known> Conditions::value_of(const Directive& directive) const {
-    return value_of(directive, false);
-}
-
-Result<Known> Conditions::count_of(const Directive& directive) const {
-    return value_of(directive, true);
-}
-
 Result<Known> Conditions::value_of(const Directive& directive, bool has_variables) const {
     const Words words = words_of(directive.rest);
     if (directive.word == "ifdef" || directive.word == "ifndef") {

@@ -44,9 +44,9 @@ class Conditions {
     /// 1 or 0; unknown where only the driver knows.
     [[nodiscard]] Known is_defined(std::string_view name) const;
     /// What a condition would hold, or another whole number; nothing where that is unknown.
-    [[nodiscard]] Result<Known> value_of(const Directive& directive) const;
-    /// The same of a number that a shader's loop counts to: what is no macro is unknown there, not 0.
-    [[nodiscard]] Result<Known> count_of(const Directive& directive) const;
+    /// With `has_variables`, where a name that is no macro may be one of the shader, such a name is unknown
+    /// too, not 0.
+    [[nodiscard]] Result<Known> value_of(const Directive& directive, bool has_variables = false) const;
     /// Whether `#define NAME TEXT` would give a macro that is defined another text.
     [[nodiscard]] bool would_redefine(const Directive& directive) const;
 
@@ -59,7 +59,6 @@ class Conditions {
         bool is_certain;
     };
 
-    [[nodiscard]] Result<Known> value_of(const Directive& directive, bool has_variables) const;
     void define(std::string_view text);
     [[nodiscard]] bool is_drivers(std::string_view name) const;
     [[nodiscard]] MacroDefinition definition(std::string_view text) const;

@@ -276,7 +276,7 @@ Result<void> Placer::place_rounds(Placement& placement, int piece, const Directi
                     "write the loop without it, or take the pragmas away");
     }
     const Directive end{"if", head->end, start.place, start.line};
-    GOBO_TRY(const Known count, placement.conditions->count_of(end));
+    GOBO_TRY(const Known count, placement.conditions->value_of(end, true));
     if (!count || *count > kMostRounds)
         return fail_at(start,
                        fmt::format("the loop behind this ends at '{}', which is no number below {}",

@@ -122,6 +122,14 @@ Result<Words> with_divisions_done(const Words& words, std::map<std::uint32_t, st
     return result;
 }
 
+/// The text whose number that is; null where it is none's.
+const TextOfFile* text_of_number(std::string_view number, const std::vector<TextOfFile>& texts) {
+    std::size_t text = texts.size();
+    const bool is_number = std::from_chars(number.data(), number.data() + number.size(), text).ptr ==
+                           number.data() + number.size();
+    return is_number && text < texts.size() ? &texts[text] : nullptr;
+}
+
 }  // namespace
 
 Result<Words> with_largest_arrays(std::span<const std::uint32_t> words,
@@ -164,20 +172,17 @@ Words with_lines_of_files(const Words& words, const std::vector<TextOfFile>& tex
         const std::uint32_t count = instruction[0] >> spv::WordCountShift;
         const std::uint32_t opcode = instruction[0] & spv::OpCodeMask;
         at += count;
-        if (opcode == spv::OpString) {
-            const char* const number = reinterpret_cast<const char*>(instruction + 2);
-            const char* const end = number + std::strlen(number);
-            std::size_t text = texts.size();
-            if (std::from_chars(number, end, text).ptr == end && text < texts.size()) {
-                named[instruction[1]] = &texts[text];
-                const std::string& path = texts[text].path;
-                const auto words_of_path = static_cast<std::uint32_t>(path.size() / 4 + 1);
-                result.insert(result.end(),
-                              {(2 + words_of_path) << spv::WordCountShift | spv::OpString, instruction[1]});
-                result.resize(result.size() + words_of_path);
-                std::memcpy(&result[result.size() - words_of_path], path.data(), path.size());
-                continue;
-            }
+        const TextOfFile* const named_here =
+            opcode == spv::OpString ? text_of_number(reinterpret_cast<const char*>(instruction + 2), texts)
+                                    : nullptr;
+        if (named_here != nullptr) {
+            named[instruction[1]] = named_here;
+            const std::string& path = named_here->path;
+            const auto size = static_cast<std::uint32_t>(path.size() / 4 + 1);
+            result.insert(result.end(), {(2 + size) << spv::WordCountShift | spv::OpString, instruction[1]});
+            result.resize(result.size() + size);
+            std::memcpy(&result[result.size() - size], path.data(), path.size());
+            continue;
         }
         result.insert(result.end(), instruction, instruction + count);
         const auto text = opcode == spv::OpLine ? named.find(instruction[1]) : named.end();

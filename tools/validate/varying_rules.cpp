@@ -145,7 +145,7 @@ class VaryingCheck {
                 if (type && other_type && numerical(type->scalar) != numerical(other_type->scalar))
                     differ("have not one numerical type");
                 else if (one.whole == Whole::structure || other.whole == Whole::structure)
-                    differ("one of them is of a struct, which drivers let share none");
+                    differ("one is a member of a struct, which drivers let share with nothing");
                 else if (how != other_how)
                     differ(fmt::format("are {} and {}", how, other_how));
                 else if (states(one, "smooth") != states(other, "smooth"))
