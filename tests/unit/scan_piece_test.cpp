@@ -92,7 +92,9 @@ INSTANTIATE_TEST_SUITE_P(
         CommentRow{"amid_a_joined_directive", "#define A \\\n/* b\n*/ 2\nint d;\n",
                    "#define A   2\n\n\nint d;\n"},
         CommentRow{"twice_amid_a_line", "int a; /*\n*/ int /*\n*/ b;\nint c;\n",
-                   "int a;   int   b;\n\n\nint c;\n"},
+                   "int a;\n   int\n   b;\nint c;\n"},
+        CommentRow{"amid_a_line_before_a_hash", "int a; /*\n*/ #define B\nint c;\n",
+                   "int a;   #define B\n\nint c;\n"},
         CommentRow{"before_a_directive", "/* a\n*/ #define B\n", "\n   #define B\n"},
         CommentRow{"of_comments", "/**//*/ /* // */ int a; //* b\nint c; // /*\nint d;\n",
                    "                 int a;\nint c;\nint d;\n"},
@@ -167,35 +169,11 @@ TEST(ScanPiece, SeesGuardsAroundTheWholeFile) {
     EXPECT_EQ(guard_of("#ifdef A\n#endif\n"), "");
 }
 
-TEST(ScanPiece, WarnsOfUniformBlocksWithoutALayout) {
-    const std::pair<const char*, std::size_t> rows[] = {
-        {"uniform A { float a; };", 1},
-        {"layout(binding = 1) uniform A\n{ float a; };", 1},
-        {"layout(shared) uniform A { float a; }; uniform B { float b; };", 2},
-        {"layout(std140) uniform A { float a; };", 0},
-        {"layout(binding = 1) layout(row_major, std140) uniform A { float a; };", 0},
-        {"layout(std140) uniform; uniform A { float a; };", 0},
-        {"layout(std140) uniform A { float a; }; uniform B { float b; };", 1},
-        {"uniform float a; void f() { { } }", 0},
-        {"uniform struct { vec3 a; float b; } s;", 0},
-        {"uniform struct S { vec3 a; float b; } s;", 0},
-    };
-    for (const auto& [text, count] : rows)
-        EXPECT_EQ(scan_piece(text, "a.glsl").value().unstated_layouts.size(), count) << text;
-    EXPECT_EQ(
-        to_text(
-            scan_piece("int a;\nuniform // b\n A { float a; };", "a.glsl").value().unstated_layouts.front()),
-        "a.glsl:3: warning: the uniform block 'A' does not state std140: drivers lay it out as they like\n"
-        "     A { float a; };\n"
-        "  help: write layout(std140) before uniform, or ask the driver for every offset\n");
-}
-
 TEST(ScanPiece, TakesLongBlanks) {
     const std::string blanks(300'000, ' ');
     const std::string text = "layout(std140" + blanks + ") uniform /*" + blanks + "*/ A" + blanks +
                              "{ float a; };" + "BLOCK(" + blanks + "1, B)\n";
     const ScannedPiece piece = scan_piece(text, "a.glsl").value();
-    EXPECT_TRUE(piece.unstated_layouts.empty());
     EXPECT_THAT(piece.bindings, testing::ElementsAre(testing::Pair("B", 1)));
 }
 

@@ -88,6 +88,7 @@ class CommentCutter {
     void put(char text, char code) {
         clean_.text += text;
         clean_.code += code;
+        if (!has_code_) is_directive_ = code == '#';
         has_code_ = has_code_ || (code != ' ' && code != '\t');
         has_quotation_ = has_quotation_ || code == '"';
         if (code == '\n') has_code_ = has_quotation_ = false;
@@ -99,9 +100,8 @@ class CommentCutter {
     /// Cuts the comment from `begin` to `end`, which is returned.
     std::size_t cut(std::size_t begin, std::size_t end) {
         const std::string_view comment = std::string_view(joined_.text).substr(begin, end - begin);
-        // Amid a line, such as a directive, a comment is a blank, however many lines it takes.
-        if (has_code_ && comment.find('\n') != std::string_view::npos &&
-            !is_blank(std::string_view(joined_.text).substr(end, joined_.text.find('\n', end) - end))) {
+        // Amid a directive, or where one would begin, a comment is a blank, however many lines it takes.
+        if (has_code_ && comment.find('\n') != std::string_view::npos && is_directive_around(end)) {
             owed_ += std::ranges::count(comment, '\n');
             put(' ', ' ');
             return end;
@@ -113,10 +113,18 @@ class CommentCutter {
         return end;
     }
 
+    /// Whether the current line is a directive that goes on behind a comment, or what goes on looks like one.
+    [[nodiscard]] bool is_directive_around(std::size_t end) const {
+        const std::string_view text = joined_.text;
+        const std::string_view behind = text.substr(end, text.find('\n', end) - end);
+        return !is_blank(behind) && (is_directive_ || behind[behind.find_first_not_of(" \t")] == '#');
+    }
+
     const JoinedText& joined_;
     CleanText clean_;
     std::ptrdiff_t owed_ = 0;  ///< line ends of comments amid the current line
     bool has_code_ = false;    ///< the current line, so far
+    bool is_directive_ = false;
     bool has_quotation_ = false;
 };
 
