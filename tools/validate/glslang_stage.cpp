@@ -23,6 +23,7 @@
 #include "validate/missing_built_ins.hpp"
 #include "validate/missing_ends.hpp"
 #include "validate/module_rules.hpp"
+#include "validate/names_by_place.hpp"
 #include "validate/old_versions.hpp"
 #include "validate/plain_messages.hpp"
 #include "validate/stage_rules.hpp"
@@ -354,13 +355,18 @@ Diagnostics GlslangStage::parse_by_glslang(const std::string& prologue) {
 
 Diagnostics link(const std::vector<GlslangStage*>& stages) {
     Diagnostics found = link_by_glslang(stages);
-    if (stages.front()->dialect_ != Dialect::vulkan) return found;
-    std::erase_if(found, [](const Diagnostic& said) {
-        return said.message.find("different instance names") != std::string::npos;
-    });
-    if (!has_errors(found)) return found;
-    // glslang compares what stages call by one name. To Vulkan a resource is its place and push constants are
-    // views of one memory, so they are linked with names of their own.
+    const bool is_vulkan = stages.front()->dialect_ == Dialect::vulkan;
+    if (is_vulkan)
+        std::erase_if(found, [](const Diagnostic& said) {
+            return said.message.find("different instance names") != std::string::npos;
+        });
+    if (!has_errors(found) || version_of(stages.front()->pieces_.front()->text).es) return found;
+    // glslang compares what stages call by one name. What stands at two locations is not one, nor is to
+    // Vulkan what stands at two bindings, while push constants are views of one memory: they are linked with
+    // names of their own.
+    std::vector<std::vector<const Piece*>> texts;
+    for (const GlslangStage* const stage : stages) texts.push_back(stage->pieces_);
+    const std::set<std::string> moved = names_at_two_locations(texts);
     std::deque<Piece> prologues;
     std::vector<std::unique_ptr<GlslangStage>> apart;
     std::vector<GlslangStage*> linked;
@@ -368,7 +374,9 @@ Diagnostics link(const std::vector<GlslangStage*>& stages) {
     for (const GlslangStage* const stage : stages) {
         std::vector<const Piece*> pieces = stage->pieces_;
         Piece& prologue = prologues.emplace_back(*pieces.front());
-        for (const std::string& name : names_of_resources(pieces))
+        std::set<std::string> names = moved;
+        if (is_vulkan) names.merge(names_of_resources(pieces));
+        for (const std::string& name : names)
             prologue.text += fmt::format("#define {0} {0}_of_{1}\n", name, name_of(stage->kind_));
         is_changed = is_changed || prologue.text.size() > pieces.front()->text.size();
         pieces.front() = &prologue;

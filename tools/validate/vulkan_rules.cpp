@@ -58,47 +58,7 @@ void check_inputs(const Interface& interface, const std::vector<const Piece*>& p
     }
 }
 
-/// The names that a declaration gives from its `uniform` or `buffer` on: "Block { members } instance;" or
-/// "sampler2D image[2];".
-void add_names(const std::vector<std::string_view>& tokens, std::size_t at, std::set<std::string>& names) {
-    std::vector<std::string> own;
-    std::vector<std::string> members;
-    int depth = 0;  // of brackets other than a block's own
-    bool is_block = false;
-    bool is_inside = false;
-    if (at + 1 < tokens.size() && tokens[at + 1] == ";") return;  // layout(std140) uniform;
-    for (++at; at < tokens.size(); ++at) {
-        const std::string_view token = tokens[at];
-        if (depth == 0 && token == "{") {
-            if (is_identifier(tokens[at - 1])) own.emplace_back(tokens[at - 1]);
-            is_block = is_inside = true;
-        } else if (depth == 0 && token == "}") {
-            is_inside = false;
-        } else if (token == "(" || token == "[" || token == ")" || token == "]" || token == "," ||
-                   token == ";") {
-            const bool is_of_type = token == "[" && !is_inside && !is_block && tokens[at - 2] == "uniform";
-            if (depth == 0 && token != "(" && is_identifier(tokens[at - 1]) && !is_of_type)
-                (is_inside ? members : own).emplace_back(tokens[at - 1]);
-            depth += (token == "(" || token == "[") - (token == ")" || token == "]");
-            if (depth == 0 && !is_inside && token == ";") break;
-        }
-    }
-    if (is_block && own.size() < 2) own.insert(own.end(), members.begin(), members.end());
-    names.insert(own.begin(), own.end());
-}
-
 }  // namespace
-
-std::set<std::string> names_of_resources(const std::vector<const Piece*>& pieces) {
-    std::set<std::string> names;
-    for (const Piece* const piece : pieces) {
-        if (piece == pieces.front()) continue;  // its macros declare nothing
-        const std::vector<std::string_view> tokens = tokens_of(piece->text);
-        for (std::size_t at = 0; at < tokens.size(); ++at)
-            if (tokens[at] == "uniform" || tokens[at] == "buffer") add_names(tokens, at, names);
-    }
-    return names;
-}
 
 Diagnostics check_vulkan(StageKind kind, const Interface& interface,
                          const std::vector<const Piece*>& pieces) {
