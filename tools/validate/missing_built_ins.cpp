@@ -36,14 +36,17 @@ struct BuiltIn {
 constexpr std::array kBuiltIns = {
     BuiltIn{"gl_DepthRange", "DepthRange", false}, BuiltIn{"gl_NumSamples", "int", false},
     BuiltIn{"gl_DrawIDARB", "int", true},          BuiltIn{"gl_BaseVertexARB", "int", true},
-    BuiltIn{"gl_BaseInstanceARB", "int", true},
+    BuiltIn{"gl_BaseInstanceARB", "int", true},    BuiltIn{"gl_ClipVertex", "vec4", false},
 };
 
-bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue) {
+/// `own` is the version that the stage states, the prologue's the one that glslang is to read it as.
+bool has(const BuiltIn& built_in, StageKind stage, const std::string& prologue, const GlslVersion& own) {
     const GlslVersion version = version_of(prologue);
     if (built_in.of_draws)
         return stage == StageKind::vertex && !version.es && version.number < 440 &&
                prologue.find("GL_ARB_shader_draw_parameters ") != std::string::npos;
+    if (built_in.name == "gl_ClipVertex")
+        return stage == StageKind::vertex && !own.es && (own.number < 140 || own.profile == "compatibility");
     if (built_in.name == "gl_NumSamples")
         return stage == StageKind::fragment && version.number >= (version.es ? 320 : 400);
     return true;
@@ -82,22 +85,24 @@ bool keeps_its_names(std::string_view line) {
 MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
                                   const std::vector<const Piece*>& pieces) {
     MissingBuiltIns found;
+    const GlslVersion own = version_of(pieces.front()->text);
     for (const BuiltIn& built_in : kBuiltIns) {
         const auto mentions = [&](const Piece* piece) { return contains(piece->text, built_in.name); };
-        if (!has(built_in, stage, prologue) || std::ranges::none_of(pieces, mentions)) continue;
+        if (!has(built_in, stage, prologue, own) || std::ranges::none_of(pieces, mentions)) continue;
         const std::string name = own_name(built_in.name);
         if (built_in.type == "DepthRange") {
             found.renamed.emplace_back("gl_DepthRangeParameters", name + "Parameters");
             found.declarations += fmt::format(
                 "struct {0}Parameters {{ highp float near, far, diff; }}; uniform {0}Parameters {0};\n",
                 name);
+        } else if (built_in.name == "gl_ClipVertex") {
+            found.declarations += fmt::format("vec4 {};\n", name);  // written, and read by the clip planes
         } else {
             found.declarations += fmt::format("uniform highp {} {};\n", built_in.type, name);
         }
         found.renamed.emplace_back(built_in.name, name);
     }
     // OpenGL ES 2 has it by the extension; what is read as another version has it without.
-    const GlslVersion own = version_of(pieces.front()->text);
     if (stage == StageKind::fragment && own.es && !makes_spirv(own) &&
         contains(prologue, "GL_EXT_frag_depth "))
         found.renamed.emplace_back("gl_FragDepthEXT", "gl_FragDepth");

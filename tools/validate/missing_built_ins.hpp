@@ -1,4 +1,4 @@
-// What GLSL has built in and SPIR-V has not, which glslang reads as uniforms of other names; and the macros
+// What GLSL has built in and SPIR-V has not, which glslang reads as variables of other names; and the macros
 // that glslang alone defines.
 #pragma once
 
@@ -19,7 +19,8 @@ struct MissingBuiltIns {
 };
 
 /// Those of a stage that its version, or an extension that the prologue states, has: `gl_DepthRange`,
-/// `gl_NumSamples`, and before GLSL 4.40 `gl_DrawIDARB` and its like.
+/// `gl_NumSamples`, before GLSL 4.40 `gl_DrawIDARB` and its like, and before 1.40 or in the compatibility
+/// profile `gl_ClipVertex`.
 [[nodiscard]] MissingBuiltIns missing_built_ins(StageKind stage, const std::string& prologue,
                                                 const std::vector<const Piece*>& pieces);
 
