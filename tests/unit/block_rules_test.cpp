@@ -238,13 +238,16 @@ const LinkRow blocks[] = {
      "layout(packed) uniform Light { vec4 tint; } lights[2];\nout vec4 c;\n"
      "void main() { c = lights[1].tint; }\n",
      Mesa::older_refuses,
-     {"tiny.frag:2: error: the block 'Light' has layout packed and is read here, but is not in tiny.vert:2"}},
+     {"tiny.vert:2: warning: the uniform block 'Light' does not state std140",
+      "tiny.frag:2: warning: the uniform block 'Light' does not state std140",
+      "tiny.frag:2: error: the block 'Light' has layout packed and is read here, but is not in tiny.vert:2"}},
     {"packed_block_that_one_stage_reads",
      "330 core",
      "layout(packed) uniform Light { vec4 tint; } light;\nvoid main() { gl_Position = vec4(0.0); }\n",
      "layout(packed) uniform Light { vec4 tint; } light;\nout vec4 c;\nvoid main() { c = light.tint; }\n",
      Mesa::links,
-     {}},
+     {"tiny.vert:2: warning: the uniform block 'Light' does not state std140",
+      "tiny.frag:2: warning: the uniform block 'Light' does not state std140"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Blocks, BlockRules, testing::ValuesIn(blocks), name_of_row);

@@ -184,6 +184,30 @@ const Row refused[] = {
         with_main("#ifdef GL_GOOGLE_include_directive\nconst float g = 1.0;\n#endif\n", "g"),
         "'g' : undeclared identifier"),
     row("quotation_in_code", "330 core", with_main("float g\" = 1.0;\n", "g"), "tiny.frag:2: error"),
+    row("layout_behind_uniform", "450", with_main("uniform layout(std140, binding = 1) B { vec4 b; };\n"),
+        "tiny.frag:2: error: 'layout' stands behind 'uniform' in the block 'B', where not every driver reads "
+        "it [default]\n"
+        "    uniform layout(std140, binding = 1) B { vec4 b; };\n"
+        "  help: write it before 'uniform'\n"),
+    row("layout_on_both_sides", "450",
+        with_main("layout(std140) uniform layout(binding = 1) B { vec4 b; };\n"),
+        "'layout' stands behind 'uniform' in the block 'B'"),
+    row("readonly_behind_buffer", "450", with_main("layout(std430) buffer readonly B { vec4 b; };\n"),
+        "'readonly' stands behind 'buffer' in the block 'B'"),
+    row("layout_behind_in", "450", with_main("in layout(location = 0) B { vec4 b; };\n"),
+        "'layout' stands behind 'in' in the block 'B'"),
+    row("precision_of_a_block", "450", with_main("layout(std140) highp uniform B { vec4 b; };\n"),
+        "tiny.frag:2: error: 'highp' stands before the block 'B', which not every driver reads [default]\n"
+        "    layout(std140) highp uniform B { vec4 b; };\n"
+        "  help: write it before its members\n"),
+    row("default_behind_uniform", "450", with_main("uniform layout(row_major);\n"),
+        "tiny.frag:2: error: 'uniform' stands before its layout, where not every driver reads it [default]\n"
+        "    uniform layout(row_major);\n"
+        "  help: write layout(...) uniform;\n"),
+    row("default_on_both_sides", "450", with_main("layout(row_major) uniform layout(std140);\n"),
+        "'uniform' stands before its layout"),
+    row("early_tests_behind_in", "450", with_main("in layout(early_fragment_tests);\n"),
+        "'in' stands before its layout"),
 };
 
 const Row taken[] = {
@@ -246,6 +270,12 @@ const Row taken[] = {
     row("extension_that_brings_what_glslang_lacks_in_es", "320 es",
         with_main("#extension GL_EXT_shader_framebuffer_fetch_non_coherent : require\n"), ""),
     row("include_extension", "450", with_main("#extension GL_GOOGLE_include_directive : require\n"), ""),
+    row("layouts_before_a_block", "450",
+        with_main("layout(std430) readonly layout(binding = 1) buffer B { vec4 b; };\n"), ""),
+    row("layout_behind_the_uniform_of_no_block", "450",
+        with_main("uniform layout(location = 3) float s = float(2);\nlayout(std140) layout(row_major) "
+                  "uniform;\n"),
+        ""),
     row("counter_with_binding", "430",
         with_main("layout(binding = 0, offset = 4) uniform atomic_uint hits;\n"), ""),
     row("case_of_uint_400", "400",
@@ -630,6 +660,21 @@ const StagesRow warned[] = {
      {{StageKind::compute, GROUP "shared float s[5000];\nvoid main() { s[0] = 1.0; b = s[0]; }\n"}},
      "tiny.comp:5: warning: bytes of shared variables: 20000, OpenGL guarantees only 16384 "
      "(MAX_COMPUTE_SHARED_MEMORY_SIZE of OpenGL ES)"},
+    {"block_without_a_layout",
+     "430",
+     {{StageKind::fragment, "int a;\nuniform // b\n A { vec4 b; };\nout vec4 c;\nvoid main() { c = b; }\n"}},
+     "tiny.frag:4: warning: the uniform block 'A' does not state std140: drivers lay it out as they like"},
+    {"block_of_another_layout",
+     "430",
+     {{StageKind::fragment,
+       "layout(shared, binding = 1) uniform A { vec4 b; };\nout vec4 c;\nvoid main() { c = b; }\n"}},
+     "the uniform block 'A' does not state std140"},
+    {"block_behind_one_that_states_its_layout",
+     "430",
+     {{StageKind::fragment,
+       "layout(std140) uniform A { vec4 a; };\nuniform B { vec4 b; };\nout vec4 c;\n"
+       "void main() { c = b; }\n"}},
+     "the uniform block 'B' does not state std140"},
 };
 
 class LanguageOfDrivers : public LanguageOfStages {};

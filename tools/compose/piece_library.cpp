@@ -172,8 +172,6 @@ Result<int> PieceLibrary::add_file(Piece piece, std::string folder, std::string 
                                            std::string(line_of(piece, uniform.line))});
     }
     composition_.stated_bindings.merge(scanned.bindings);
-    if (!is_spirv(composition_.dialect))  // in SPIR-V every offset is stated
-        append(composition_.warnings, scanned.unstated_layouts);
     append(composition_.warnings, scanned.warnings);
     const int number = by_file_[at] = static_cast<int>(sources_.size());
     Source& source = sources_.emplace_back();

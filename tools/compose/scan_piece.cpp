@@ -70,37 +70,6 @@ std::vector<StatedBinding> bindings_of(Tokens tokens) {
     return bindings;
 }
 
-/// A warning for each uniform block that states no layout: drivers then choose one, and no offset known
-/// before holds.
-Diagnostics unstated_layouts(Tokens tokens, std::string_view code, std::string_view text,
-                             const std::string& path) {
-    Diagnostics warnings;
-    bool is_stated = false;  // in the declaration so far
-    int line = 1;            // that `from` stands on
-    const char* from = code.data();
-    LineReader lines(text);
-    for (; !tokens.empty(); tokens = tokens.subspan(1)) {
-        const std::string_view token = tokens.front();
-        if (token == "#") {  // what a macro is replaced by is no declaration yet
-            const char* const end = std::find(token.data(), code.data() + code.size(), '\n');
-            while (tokens.size() > 1 && tokens[1].data() < end) tokens = tokens.subspan(1);
-        }
-        if (token == "std140") is_stated = true;
-        if (are(tokens, {"uniform", ";"}) && is_stated) return {};  // for all blocks
-        if (are(tokens, {"uniform", "name", "{"}) && tokens[1] != "struct" && !is_stated) {
-            line += static_cast<int>(std::count(from, tokens[1].data(), '\n'));
-            from = tokens[1].data();
-            warnings.push_back(warning(
-                {path, line, 0}, lines.line(line),
-                fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
-                            tokens[1]),
-                "write layout(std140) before uniform, or ask the driver for every offset"));
-        }
-        if (token == ";" || token == "{" || token == "}" || token == "#") is_stated = false;
-    }
-    return warnings;
-}
-
 /// A condition that is open: its first directive, and where its #else stands.
 struct Condition {
     Directive begin;
@@ -138,7 +107,6 @@ class Scanner {
         GOBO_TRY_DO(check_growth(tokens));
         for (StatedBinding& stated : bindings_of(tokens))
             result_.bindings[std::move(stated.name)] = stated.binding;
-        result_.unstated_layouts = unstated_layouts(tokens, clean_.code, file_, path_);
         result_.code = without_trailing_blanks(clean_.code);
         result_.text = without_trailing_blanks(clean_.text);
         return std::move(result_);

@@ -46,7 +46,6 @@ struct ScannedPiece {
     Extensions extensions;                ///< those under no condition
     bool is_once = false;                 ///< it says `#pragma once`
     std::string guard;                    ///< the macro that an #ifndef around the whole file asks for
-    Diagnostics unstated_layouts;         ///< warnings of uniform blocks that do not state std140
     Diagnostics warnings;                 ///< of comments
     std::map<std::string, int> bindings;  ///< stated by BLOCK(binding, name) and SAMPLER(binding, type) name
 };

@@ -11,6 +11,7 @@
 #include "compose/language_names.hpp"
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
+#include "validate/block_rules.hpp"
 
 namespace gobo {
 namespace {
@@ -51,6 +52,7 @@ class LanguageCheck {
             if (tokens_[i].is_noted) check_token(i);
         }
         check_declarations();
+        std::ranges::move(check_blocks(kind_, text_, version_, is_shipped_), std::back_inserter(found_));
         return std::move(found_);
     }
 
@@ -252,7 +254,6 @@ class LanguageCheck {
             if (is_before(130) && token == "invariant" && at(i + 1).starts_with("gl_Frag"))
                 refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
                        "take it out: what a vertex stage writes can be invariant");
-            if (depth == 1 && mark == '{') check_block(begin, i);
             if (depth > 0 && mark == '(' && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth != 0) continue;
             if (mark == '(' && is_name(i - 1)) check_header(begin, i);
@@ -264,7 +265,6 @@ class LanguageCheck {
 
     /// What ends with a `;` outside of functions and blocks.
     void check_statement(std::size_t begin, std::size_t end) {
-        has_layout_ = has_layout_ || states_layout(begin, end);
         check_local_size(begin, end);
         check_old_qualifier(begin, end);
         check_counter(begin, end);
@@ -358,13 +358,6 @@ class LanguageCheck {
                                                                                 : "in"));
     }
 
-    /// Whether these tokens hold std140 or std430, as a block's own or as `layout(std140) uniform;`.
-    [[nodiscard]] bool states_layout(std::size_t begin, std::size_t end) const {
-        for (std::size_t i = begin; i < end; ++i)
-            if (is_any(at(i), {"std140", "std430"}) || is_macro(i)) return true;
-        return false;
-    }
-
     /// `float f(float x);` within a function, by its `(`.
     void check_prototype(std::size_t bracket) {
         const std::size_t name = bracket - 1;
@@ -375,61 +368,6 @@ class LanguageCheck {
             return;
         refuse(tokens_[name], fmt::format("the function '{}' is declared within another", at(name)),
                "declare it before, outside of any function");
-    }
-
-    /// A block whose `{` is at `brace`; its declaration begins at `begin`.
-    void check_block(std::size_t begin, std::size_t brace) {
-        const auto is = [&](std::string_view word) {
-            return std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
-                               tokens_.begin() + static_cast<std::ptrdiff_t>(brace),
-                               [&](const Token& token) { return token.text == word; });
-        };
-        if (brace > 0 && at(brace - 1) != ")") check_located_array(begin, brace);
-        const bool is_buffer = is("buffer");
-        if (brace == 0 || at(brace - 1) == ")" || !(is_buffer || is("uniform"))) return;
-        const bool has_layout = has_layout_ || states_layout(begin, brace);
-        if (is_buffer && is("readonly") && is("writeonly"))
-            refuse(tokens_[brace],
-                   fmt::format("the buffer block '{}' is both readonly and writeonly", at(brace - 1)),
-                   "take one out; a member that only its length is asked of may have both");
-        std::size_t end = brace + 1;
-        for (; end < tokens_.size() && at(end) != "}"; ++end) {
-            if (!has_layout && is_any(at(end), {"offset", "align"}) && at(end + 1) == "=")
-                refuse(tokens_[end],
-                       fmt::format("'{}' in the block '{}', which states neither std140 nor std430", at(end),
-                                   at(brace - 1)),
-                       "write layout(std140) before the block");
-            const bool is_unsized = at(end) == "[" && at(end + 1) == "]";
-            if (!is_unsized || !is_buffer) continue;
-            std::size_t last = end;
-            while (last < tokens_.size() && !is_any(at(last), {";", "}"})) ++last;
-            if (at(last + 1) != "}" && at(last) == ";")
-                refuse(tokens_[end], "only the last member of a buffer block may be an array without a size",
-                       "give it a size, or move it to the end");
-        }
-        if (!version_.es && version_.number == 140 && is_name(end + 1) && !is_macro(end + 1))
-            refuse(tokens_[end + 1],
-                   fmt::format("the block's name for its instance, '{}', came with GLSL 1.50", at(end + 1)),
-                   "state #version 150, or take it out and name its members alone");
-    }
-
-    /// `layout(location = 1) out B { vec4 tint; } b[2];`, but where each vertex has its element: drivers know
-    /// no locations of its members.
-    void check_located_array(std::size_t begin, std::size_t brace) {
-        const auto find = [&](std::string_view word) {
-            std::size_t i = begin;
-            while (i < brace && at(i) != word) ++i;
-            return i;
-        };
-        const bool is_of_program = (find("out") < brace && kind_ != StageKind::tess_control) ||
-                                   (find("in") < brace && kind_ == StageKind::fragment);
-        const std::size_t location = find("location");
-        if (!is_of_program || location == brace) return;
-        std::size_t end = brace;
-        while (end < tokens_.size() && at(end) != "}") ++end;
-        if (is_name(end + 1) && at(end + 2) == "[")
-            refuse(tokens_[location], fmt::format("the array of blocks '{}' states a location", at(end + 1)),
-                   "take it out, or put the array into the block");
     }
 
     /// `flat vec3 v;`, which is neither in nor out.
@@ -509,7 +447,6 @@ class LanguageCheck {
     GlslVersion version_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
-    bool has_layout_ = false;                     ///< `layout(std140) uniform;` stands above
     std::array<std::string_view, 3> local_size_;  ///< that stands above
     std::set<std::string> told_;
     Diagnostics found_;
