@@ -73,7 +73,7 @@ class Parser {
         } else {
             expression.value = is_sum ? number() : value(first);
             if (fault_ == Fault::usage && (is_sum || first.kind == FeatureKind::count))
-                check_range(expression.features, expression.value);
+                check_range(expression.features, expression.comparison, expression.value);
         }
         for (const int feature : expression.features) expression.value -= features_[feature].lowest;
         for (const int feature : expression.subtracted) expression.value += features_[feature].lowest;
@@ -81,8 +81,8 @@ class Parser {
     }
 
     /// A rule that a family shares with others may say more than its counts allow; who types a condition
-    /// errs.
-    void check_range(const std::vector<int>& counts, int value) const {
+    /// errs, but in what always holds, such as 'point < 5' of up to 4.
+    void check_range(const std::vector<int>& counts, Comparison comparison, int value) const {
         int least = 0;
         int most = 0;
         std::vector<std::string> names;
@@ -92,7 +92,9 @@ class Parser {
             most += feature.lowest + static_cast<int>(feature.values.size()) - 1;
             names.push_back(feature.name);
         }
-        if (value < least || value > most)
+        const bool is_below = comparison == Comparison::less || comparison == Comparison::less_equal;
+        const bool is_above = comparison == Comparison::greater || comparison == Comparison::greater_equal;
+        if ((value < least && !is_above) || (value > most && !is_below))
             stop(fmt::format("'{}' is never {}", join(names, " + "), value),
                  fmt::format("a whole number from {} to {}", least, most), std::to_string(value).size());
     }
