@@ -119,6 +119,7 @@ Result<Outcome> run(const LinkOptions& options, const World& world) {
                  .subject = key});
         } else if (is_taken == verdict.refused_by_driver.empty()) {
             ++(is_taken ? both : neither);
+            if (!is_taken) text += fmt::format("{}: refused by both: {}\n", key, verdict.refused_by_gobo);
         } else if (is_taken) {
             ++laxer;
             diagnostics.push_back({.message = fmt::format("gobo takes what the driver does not link: {}",
@@ -158,7 +159,7 @@ Command link_command() {
             "Compiles and links each key by OpenGL's own driver, and compares its verdict with gobo's. A key "
             "that gobo takes and the driver does not link is an error; one that gobo refuses and the driver "
             "links is listed with gobo's reason: GLSL's specification or a limit that OpenGL guarantees is "
-            "stricter than this driver."};
+            "stricter than this driver. So is what both refuse."};
 }
 
 }  // namespace gobo
