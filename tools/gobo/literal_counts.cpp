@@ -34,14 +34,8 @@ std::vector<Key> valid_with(const LoadedFamily& family, const std::vector<Key>& 
 
 /// What is wrong with a constant, in a few words.
 std::string reason_of(const Diagnostic& error) {
-    constexpr std::string_view kSizes = "Array sizes must be compatible";
     const std::string line = error.message.substr(0, error.message.find('\n'));
-    if (line.starts_with(kSizes)) {
-        // ... vertex stage: " vec3 rays[3]" fragment stage: " vec3 rays[3]"
-        const std::string_view before_size = std::string_view(line).substr(0, line.find('['));
-        return fmt::format("a constant cannot be the size of '{}', which one stage hands to the next",
-                           before_size.substr(before_size.rfind(' ') + 1));
-    }
+    if (line.starts_with("a constant ")) return line;
     if (is_of_stopped_glslang(error)) return "with a constant " + line;
     return "with a constant: " + line;
 }

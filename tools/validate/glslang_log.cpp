@@ -108,8 +108,16 @@ void name_other_uniforms(Diagnostic& diagnostic, const std::vector<const Piece*>
     if (!others.empty()) diagnostic.help += fmt::format("; so must those of {}", join(others, ", "));
 }
 
+/// "textureLod" of "texture2DLod"; empty where no later version has another name for it.
+std::string name_of_lookup(std::string_view old) {
+    for (const std::string_view first :
+         {"texture2DRect", "texture1D", "texture2D", "texture3D", "textureCube"})
+        if (old.starts_with(first)) return fmt::format("texture{}", old.substr(first.size()));
+    return {};
+}
+
 /// Of what OpenGL once had built in and no declaration can bring back.
-std::string_view help_of_lost(std::string_view message) {
+std::string help_of_lost(std::string_view message) {
     if (message.starts_with("'gl_ClipVertex' : "))
         return "it went with the fixed clip planes: write gl_ClipDistance[i] = dot(gl_ClipPlane[i], "
                "position), which GLSL has from 1.30 on";
@@ -119,6 +127,14 @@ std::string_view help_of_lost(std::string_view message) {
         std::ranges::any_of(kNoise, [&](std::string_view name) { return message.starts_with(name); }))
         return "SPIR-V, by which shaders are checked, has no noise, and drivers give 0 for it (GLSL 4.60, "
                "8.14): write 0.0, or a noise function of your own";
+    if (message.ends_with("no matching overloaded function found")) {
+        const std::string_view name = message.substr(1, message.find('\'', 1) - 1);
+        const std::string later = name_of_lookup(name);
+        if (!later.empty())
+            return fmt::format(
+                "from GLSL 1.30 and ES 3.00 on it is called {0}: write that, or #define {1} {0}", later,
+                name);
+    }
     return {};
 }
 
@@ -162,7 +178,7 @@ void explain(Diagnostic& diagnostic) {
     if (diagnostic.message.starts_with("'GL_ARB_bindless_texture' : not allowed"))
         diagnostic.help =
             "SPIR-V, by which shaders are checked, has no bindless textures: bind them to units";
-    if (const std::string_view lost = help_of_lost(diagnostic.message); !lost.empty()) diagnostic.help = lost;
+    if (const std::string lost = help_of_lost(diagnostic.message); !lost.empty()) diagnostic.help = lost;
     if (!diagnostic.message.starts_with("'offset' : must be a multiple of")) return;
     const std::vector<std::string_view> tokens = tokens_of(diagnostic.quoted_line);
     const auto at = std::ranges::find(tokens, "offset");

@@ -78,11 +78,20 @@ Diagnostic mismatch_message(std::string_view message, const PieceList& pieces, c
         return diagnostic_at(at, Severity::error,
                              fmt::format("'{}' begins with another value here than in {}", name, other),
                              help);
+    const bool is_of_sizes = message.find("Array sizes must be compatible:") != std::string_view::npos;
+    if (there == here && is_of_sizes)
+        return diagnostic_at(
+            at, Severity::error,
+            fmt::format("a constant cannot be the size of '{}', which one stage hands to the next", name),
+            "write the number");
     if (there == here)  // glslang leaves out the name of a struct
         return diagnostic_at(at, Severity::error,
                              fmt::format("'{}' is of a struct with another name in {}", name, other), help);
-    return diagnostic_at(at, Severity::error, fmt::format("'{}' here, but '{}' in {}", here, there, other),
-                         help);
+    const auto text = [&](std::string_view declaration) {  // of a struct glslang says the members
+        return trim(declaration.substr(is_of_sizes ? declaration.rfind('}') + 1 : 0));
+    };
+    return diagnostic_at(at, Severity::error,
+                         fmt::format("'{}' here, but '{}' in {}", text(here), text(there), other), help);
 }
 
 /// Where the stage defines macros, the first time.
@@ -127,7 +136,8 @@ Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceL
         const auto says = [&](std::string_view text) { return message.find(text) != std::string::npos; };
         if (says("Recursion detected:") || says("No function definition (body) found:"))
             diagnostic = function_message(message, pieces);
-        else if (!earlier.empty() && (says("must match") && (says("\"") || says("Initializers"))))
+        else if (!earlier.empty() && ((says("must match") || says("sizes must be compatible")) &&
+                                      (says("\"") || says("Initializers"))))
             diagnostic = mismatch_message(message, pieces, earlier);
         else if (says("Only one push_constant block is allowed per stage"))
             diagnostic = push_constants_message(pieces);
