@@ -184,6 +184,10 @@ const Row refused[] = {
         with_main("#ifdef GL_GOOGLE_include_directive\nconst float g = 1.0;\n#endif\n", "g"),
         "'g' : undeclared identifier"),
     row("quotation_in_code", "330 core", with_main("float g\" = 1.0;\n", "g"), "tiny.frag:2: error"),
+    row("centroid_before_layout_410", "410", with_main("centroid layout(location = 1) in vec4 t;\n"),
+        "tiny.frag:2: error: 'centroid' stands before 'layout', which came with GLSL 4.20 [default]\n"
+        "    centroid layout(location = 1) in vec4 t;\n"
+        "  help: write centroid right before in or out\n"),
     row("layout_behind_uniform", "450", with_main("uniform layout(std140, binding = 1) B { vec4 b; };\n"),
         "tiny.frag:2: error: 'layout' stands behind 'uniform' in the block 'B', where not every driver reads "
         "it [default]\n"
@@ -276,6 +280,8 @@ const Row taken[] = {
         with_main("uniform layout(location = 3) float s = float(2);\nlayout(std140) layout(row_major) "
                   "uniform;\n"),
         ""),
+    row("centroid_behind_layout_410", "410", with_main("layout(location = 1) centroid in vec4 t;\n"), ""),
+    row("centroid_before_layout_420", "420", with_main("centroid layout(location = 1) in vec4 t;\n"), ""),
     row("counter_with_binding", "430",
         with_main("layout(binding = 0, offset = 4) uniform atomic_uint hits;\n"), ""),
     row("case_of_uint_400", "400",

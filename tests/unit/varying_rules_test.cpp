@@ -180,6 +180,31 @@ const LinkRow varyings[] = {
      Mesa::refuses,
      {"'s' (location 1, 't' in the vertex stage) is vec4 here, but vec2 in tiny.vert:3",
       "'t' (location 0, 's' in the vertex stage) is vec2 here, but vec4 in tiny.vert:2"}},
+    {"names_swapped_between_locations_of_macros",
+     "450",
+     "#define FIRST 0\nlayout(location = FIRST) out vec4 s;\nlayout(location = 1) out vec2 t;\n"
+     "void main() { s = gl_Position = vec4(0.0); t = vec2(1.0); }\n",
+     "#define FIRST 1\nlayout(location = FIRST) in vec2 s;\nlayout(location = 0) in vec4 t;\nout vec4 c;\n"
+     "void main() { c = t * s.xyxy; }\n",
+     Mesa::links,
+     {}},
+    {"names_swapped_between_components",
+     "450",
+     "layout(location = 0, component = 0) out vec2 s;\nlayout(location = 0, component = 2) out float t;\n"
+     "void main() { s = vec2(1.0); t = 1.0; gl_Position = vec4(0.0); }\n",
+     "layout(location = 0, component = 2) in float s;\nlayout(location = 0, component = 0) in vec2 t;\n"
+     "out vec4 c;\nvoid main() { c = t.xyxy * s; }\n",
+     Mesa::links,
+     {}},
+    {"structs_of_other_members_at_a_location",
+     "450",
+     "struct Ray { vec4 from; vec2 to; };\nlayout(location = 1) out Ray r;\n"
+     "void main() { r.from = gl_Position = vec4(0.0); r.to = vec2(1.0); }\n",
+     "struct Ray { vec4 from; vec2 end; };\nlayout(location = 1) in Ray s;\nout vec4 c;\n"
+     "void main() { c = s.from * s.end.xyxy; }\n",
+     Mesa::refuses,
+     {"tiny.frag:3: error: 's.end' (location 2, 'r.to' in the vertex stage) is of a struct with '.end' here, "
+      "but of one with '.to' in tiny.vert:3"}},
     {"one_name_at_two_locations_that_nothing_reads",
      "450",
      "layout(location = 0) out vec4 s;\nvoid main() { s = gl_Position = vec4(0.0); }\n",

@@ -17,6 +17,7 @@ namespace gobo {
 namespace {
 
 constexpr std::array<std::string_view, 3> kPrecisions = {"highp", "mediump", "lowp"};
+constexpr std::array<std::string_view, 3> kAuxiliary = {"centroid", "sample", "patch"};
 constexpr std::array<std::string_view, 3> kMultisampled = {"image2DMS", "iimage2DMS", "uimage2DMS"};
 constexpr std::array<std::string_view, 4> kRemoved = {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
                                                       "gl_MaxClipPlanes", "gl_MaxLights"};
@@ -148,6 +149,7 @@ class LanguageCheck {
         if (const NameSince* since = name_since(token.text); since != nullptr && at(index - 1) != ".")
             check_since(token, *since, fmt::format("'{}'", token.text));
         if (is_any(token.text, kPrecisions)) check_precision(index);
+        if (is_any(token.text, kAuxiliary)) check_auxiliary(index);
         // No words of the language's own (GLSL 4.60, 3.6), but Mesa's parser keeps them.
         const bool is_kept = token.text == "packed"      ? version_.number >= (version_.es ? 300 : 140)
                              : token.text == "row_major" ? !version_.es && version_.number >= 130
@@ -238,6 +240,17 @@ class LanguageCheck {
             refuse(tokens_[index],
                    fmt::format("'{}' stands before '{}', which came with GLSL 4.20", at(index), next),
                    fmt::format("write {} {}", next, at(index)));
+    }
+
+    /// `centroid layout(location = 0) out`: their order was fixed before GLSL 4.20.
+    void check_auxiliary(std::size_t index) {
+        const std::string_view next = at(index + 1);
+        if (is_before(420) && !has_extension("GL_ARB_shading_language_420pack") &&
+            is_any(next,
+                   {"layout", "flat", "smooth", "noperspective", "invariant", "highp", "mediump", "lowp"}))
+            refuse(tokens_[index],
+                   fmt::format("'{}' stands before '{}', which came with GLSL 4.20", at(index), next),
+                   fmt::format("write {} right before in or out", at(index)));
     }
 
     /// What is declared at the top and within functions.
@@ -456,8 +469,8 @@ class LanguageCheck {
 
 bool is_noted(std::string_view name) {
     return is_any(name, {"layout", "packed", "row_major", "struct", "__LINE__"}) ||
-           is_any(name, kPrecisions) || is_any(name, kMultisampled) || is_any(name, kRemoved) ||
-           name_since(name) != nullptr;
+           is_any(name, kPrecisions) || is_any(name, kAuxiliary) || is_any(name, kMultisampled) ||
+           is_any(name, kRemoved) || name_since(name) != nullptr;
 }
 
 Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,

@@ -104,7 +104,7 @@ class LinkCheck {
             add({{stages_.back().pieces.back()->path, 0, 0}, ""}, Severity::error,
                 "a program of OpenGL ES with a tess_evaluation stage needs a tess_control stage",
                 "add one that sets the levels");
-        append(check_varyings(stages_));
+        append(check_varyings(stages_, Api::opengl));
         check_block_names();
         for (later_ = stages_.begin(); later_ != stages_.end(); ++later_) {
             earlier_ = stages_.begin();

@@ -7,7 +7,7 @@
 #include "compose/composition.hpp"
 #include "core/diagnostic.hpp"
 #include "family/family.hpp"
-#include "reflect/interface.hpp"
+#include "reflect/reflect.hpp"
 
 namespace gobo {
 
@@ -23,8 +23,9 @@ struct StageView {
 /// The stages stand in the order of the pipeline.
 [[nodiscard]] Diagnostics check_link(const std::vector<StageView>& stages);
 
-/// The part of check_link() that looks at what each stage hands to the next.
-[[nodiscard]] Diagnostics check_varyings(const std::vector<StageView>& stages);
+/// The part of check_link() that looks at what each stage hands to the next. To Vulkan members of structs
+/// have no names.
+[[nodiscard]] Diagnostics check_varyings(const std::vector<StageView>& stages, Api api);
 
 /// The part of check_link() that looks at bindings, texture units, locations of uniforms and atomic counters.
 [[nodiscard]] Diagnostics check_shared_places(const std::vector<StageView>& stages);

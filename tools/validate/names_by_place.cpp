@@ -41,12 +41,18 @@ void add_names(const std::vector<std::string_view>& tokens, std::size_t at, std:
 }
 
 /// Those of "layout(location = 0) out vec3 normal, tangent[2];".
-void add_locations(std::span<const std::string_view> tokens, std::map<std::string, std::string>& locations) {
-    const auto find = [&](std::string_view word) { return std::ranges::find(tokens, word); };
-    auto stated = find("location");
-    if (stated == tokens.end() || (find("in") == tokens.end() && find("out") == tokens.end())) return;
-    std::string location;
-    while (stated != tokens.end() && *stated != "," && *stated != ")") location += *stated++;
+void add_places(std::span<const std::string_view> tokens, std::map<std::string, std::string>& places) {
+    const auto has = [&](std::string_view word) { return std::ranges::count(tokens, word) > 0; };
+    if (!has("location") || (!has("in") && !has("out"))) return;
+    const auto stated = [&](std::string_view word) {
+        std::string text;
+        for (auto at = std::ranges::find(tokens, word); at != tokens.end(); ++at) {
+            if (*at == "," || *at == ")") break;
+            text += *at;
+        }
+        return text;
+    };
+    const std::string place = stated("location") + " " + stated("component");
     int depth = 0;  // of brackets
     for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
         const std::string_view token = tokens[at];
@@ -54,23 +60,28 @@ void add_locations(std::span<const std::string_view> tokens, std::map<std::strin
         depth += (token == "(" || token == "[") - (token == ")" || token == "]");
         const bool is_last = next == "," || next == ";" || next == "[";
         const bool is_type = next == "[" && glsl_type(std::string(token));
-        if (depth == 0 && is_last && is_identifier(token) && !is_type) locations.emplace(token, location);
+        if (depth == 0 && is_last && is_identifier(token) && !is_type) places.emplace(token, place);
     }
 }
 
-/// The location that a stage's text states for each input and output, but for blocks, by its name.
-std::map<std::string, std::string> stated_locations(const std::vector<const Piece*>& pieces) {
-    std::map<std::string, std::string> locations;
+/// What a stage's text states of the place of each input and output, but for blocks, by its name:
+/// "location=0 component=2".
+std::map<std::string, std::string> stated_places(const std::vector<const Piece*>& pieces) {
+    std::map<std::string, std::string> places;
     for (const Piece* const piece : pieces) {
         if (piece == pieces.front()) continue;  // its macros declare nothing
         const std::vector<std::string_view> tokens = tokens_of(piece->text);
         std::size_t begin = 0;
         for (std::size_t at = 0; at < tokens.size(); ++at) {
-            if (tokens[at] == ";") add_locations(std::span(tokens).subspan(begin, at + 1 - begin), locations);
+            if (tokens[at] == ";") add_places(std::span(tokens).subspan(begin, at + 1 - begin), places);
             if (tokens[at] == ";" || tokens[at] == "{" || tokens[at] == "}") begin = at + 1;
         }
     }
-    return locations;
+    return places;
+}
+
+bool is_plain(std::string_view token) {
+    return !is_identifier(token) || token == "location" || token == "component";
 }
 
 }  // namespace
@@ -79,8 +90,12 @@ std::set<std::string> names_at_two_locations(const std::vector<std::vector<const
     std::map<std::string, std::string> known;
     std::set<std::string> names;
     for (const std::vector<const Piece*>& pieces : stages)
-        for (const auto& [name, location] : stated_locations(pieces))
-            if (known.emplace(name, location).first->second != location) names.insert(name);
+        for (const auto& [name, place] : stated_places(pieces)) {
+            const auto [other, is_new] = known.emplace(name, place);
+            // What a macro stands for may be another location in each stage.
+            const bool is_certain = std::ranges::all_of(tokens_of(place), is_plain);
+            if (!is_new && (other->second != place || !is_certain)) names.insert(name);
+        }
     return names;
 }
 

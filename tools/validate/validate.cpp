@@ -284,7 +284,7 @@ class Validator {
         if (views.empty()) return;
         Diagnostics& all = of_programs_[index];
         const bool is_vulkan = composition_.dialect == Dialect::vulkan;
-        Diagnostics found = is_vulkan ? check_varyings(views) : check_link(views);
+        Diagnostics found = is_vulkan ? check_varyings(views, Api::vulkan) : check_link(views);
         if (is_vulkan) append(found, check_descriptors(views, family));
         if (exit_status(found) != 0) all.clear();
         append(all, found);

@@ -43,7 +43,8 @@ std::string interpolation_text(const Interpolation& interpolation) {
 /// The extents as linkers have them: an array without a size that nothing indexes has none.
 std::vector<int> extents_of(const Variable& variable) {
     std::vector<int> extents = variable.array;
-    if (states(variable, "[]") && variable.usage.unused && !extents.empty()) extents.front() = 0;
+    const bool is_open = states(variable, "[]") && !variable.per_vertex;  // of which [] counts the vertices
+    if (is_open && variable.usage.unused && !extents.empty()) extents.front() = 0;
     return extents;
 }
 
@@ -69,6 +70,14 @@ std::string_view struct_of(const Variable& variable) {
     const bool is_array = variable.name[root_of(variable.name).size()] == '[';
     if (at == std::string_view::npos || !is_array) return {};
     return words.substr(at + begin.size(), words.find(' ', at) - at - begin.size());
+}
+
+/// ".normal" of "surfaces[0].normal", or with the indices "[0].normal".
+std::string member_path(const Variable& variable, bool with_indices) {
+    std::string path = variable.name.substr(root_of(variable.name).size());
+    while (!with_indices && path.find('[') != std::string::npos)
+        path.erase(path.find('['), path.find(']') + 1 - path.find('['));
+    return path;
 }
 
 /// Whether the members of a block that states one location leave others free between them.
@@ -97,8 +106,8 @@ std::vector<std::string_view> members_of(const std::vector<Variable>& list, std:
 
 class VaryingCheck {
   public:
-    explicit VaryingCheck(const std::vector<StageView>& stages)
-        : stages_(stages), version_(version_of(stages.front().pieces.front()->text)) {}
+    VaryingCheck(const std::vector<StageView>& stages, Api api)
+        : stages_(stages), api_(api), version_(version_of(stages.front().pieces.front()->text)) {}
 
     Diagnostics run() {
         for (const StageView& stage : stages_) {
@@ -146,6 +155,8 @@ class VaryingCheck {
                     differ("have not one numerical type");
                 else if (one.whole == Whole::structure || other.whole == Whole::structure)
                     differ("one is a member of a struct, which drivers let share with nothing");
+                else if (one.patch != other.patch)
+                    differ("one is of the whole patch");
                 else if (how != other_how)
                     differ(fmt::format("are {} and {}", how, other_how));
                 else if (states(one, "smooth") != states(other, "smooth"))
@@ -282,6 +293,14 @@ class VaryingCheck {
             return differ(Severity::error, fmt::format("of the struct '{}'", type),
                           fmt::format("of '{}'", other_type), ": an array's must have one name",
                           "declare the struct once, in a piece that both stages include");
+        // Two that match by their locations may be of two structs. Of one name glslang tells other extents.
+        const bool has_two_names = root_of(input.name) != root_of(output.name);
+        const std::string member = member_path(input, has_two_names);
+        const std::string other_member = member_path(output, has_two_names);
+        if (api_ == Api::opengl && input.whole == Whole::structure && member != other_member)
+            return differ(Severity::error, fmt::format("of a struct with '{}'", member),
+                          fmt::format("of one with '{}'", other_member), "",
+                          "declare the struct once, in a piece that both stages include");
         const std::string_view precision = precision_of(input);
         const std::string_view other_precision = precision_of(output);
         const bool is_known = !version_.es || (!precision.empty() && !other_precision.empty());
@@ -392,6 +411,7 @@ class VaryingCheck {
     }
 
     const std::vector<StageView>& stages_;
+    Api api_;
     std::vector<StageView>::const_iterator earlier_ = {};  ///< of the two that are compared
     std::vector<StageView>::const_iterator later_ = {};
     GlslVersion version_;
@@ -400,8 +420,8 @@ class VaryingCheck {
 
 }  // namespace
 
-Diagnostics check_varyings(const std::vector<StageView>& stages) {
-    return VaryingCheck(stages).run();
+Diagnostics check_varyings(const std::vector<StageView>& stages, Api api) {
+    return VaryingCheck(stages, api).run();
 }
 
 }  // namespace gobo
