@@ -1,5 +1,6 @@
 // Textures as data: how they filter, and that a point with textures can be written down and read back.
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,6 +118,25 @@ TEST(CubeTexels, AreSmoothAcrossEdges) {
     }
     EXPECT_LT(furthest, 0.04);
     EXPECT_GT(furthest, 0.001) << "texels were blended";
+}
+
+/// Where a place is no number the color is none, and no texel beyond the last is read. The sizes are odd.
+TEST(Texels, OfNoNumberAreNoNumber) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const ColorTexels flat{3, 1, {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}}};
+    const CubeTexels cube = directions(3);
+    const DepthTexels depths{3, 1, 1, {0.25F, 0.5F, 0.75F}};
+    ImageRequest fetch = at(kNan, kNan);
+    fetch.what = ImageRequest::What::fetch;
+    EXPECT_EQ(answer(flat, fetch)[0], 1) << "the first";
+    for (const double place : {kNan, kInfinity, -kInfinity}) {
+        EXPECT_TRUE(std::isnan(answer(flat, at(place, 0.5))[0])) << place;
+        EXPECT_TRUE(std::isnan(answer(cube, at(place, 0.5, 0.5))[1])) << place;
+        ImageRequest compared = at(place, 0.5);
+        compared.compares = true;
+        EXPECT_TRUE(std::isnan(answer(depths, compared)[0])) << place;
+    }
 }
 
 }  // namespace

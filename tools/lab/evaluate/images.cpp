@@ -15,14 +15,21 @@ Color all_of(double value) {
     return {value, value, value, value};
 }
 
+/// The texel that holds a place, or the one at the edge; the first where it is no number, as its weight is
+/// none either.
+std::size_t clamped(double place, int count) {
+    return place > 0 ? static_cast<std::size_t>(std::min(place, count - 1.0)) : 0;
+}
+
+std::size_t repeated(double place, int count) {
+    return clamped(place - std::floor(place / count) * count, count);
+}
+
 double depth_at(const DepthTexels& texels, double x, double y, double layer) {
-    const auto index = [](double at, int count) {
-        return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(count - 1)));
-    };
     const std::size_t row =
-        index(std::round(layer), texels.layers) * static_cast<std::size_t>(texels.height) +
-        index(y, texels.height);
-    return texels.depths[row * static_cast<std::size_t>(texels.width) + index(x, texels.width)];
+        clamped(std::round(layer), texels.layers) * static_cast<std::size_t>(texels.height) +
+        clamped(y, texels.height);
+    return texels.depths[row * static_cast<std::size_t>(texels.width) + clamped(x, texels.width)];
 }
 
 /// A sum of texels, each by its weight.
@@ -71,10 +78,6 @@ void for_each_around(double x, double y, const Add& add) {
     add(across.low + 1, up.low + 1, across.weight * up.weight);
 }
 
-std::size_t repeated(double index, int count) {
-    return static_cast<std::size_t>(index - std::floor(index / count) * count);
-}
-
 /// A face: the axis on which it lies, and the axes along which s and t grow (OpenGL 4.5, table 8.19).
 struct Face {
     std::array<double, 3> axis, s, t;
@@ -109,11 +112,8 @@ OnCube on_cube(const std::array<double, 3>& direction, int side) {
 }
 
 std::size_t cube_index(const OnCube& place, int side) {
-    const auto at = [&](double coordinate) {
-        return static_cast<std::size_t>(std::clamp(std::floor(coordinate), 0.0, side - 1.0));
-    };
     const auto width = static_cast<std::size_t>(side);
-    return (place.face * width + at(place.y)) * width + at(place.x);
+    return (place.face * width + clamped(place.y, side)) * width + clamped(place.x, side);
 }
 
 /// The texel beyond the edge of a face: its centre, in the face's plane, seen from the middle of the cube
