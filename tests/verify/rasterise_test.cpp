@@ -1,6 +1,9 @@
 // The software rasteriser against what can be said of triangles without one.
 #include "lab/raster/rasterise.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace gobo::raster {
@@ -72,6 +75,36 @@ TEST(Rasterise, LeavesOutWhatHasNoArea) {
     const std::vector<glm::dvec4> corners = {at(0, 0), at(4, 4), at(8, 8)};
     const std::vector<std::uint32_t> indices = {0, 1, 2};
     EXPECT_TRUE(rasterise(corners, indices, kSide, kSide).empty());
+}
+
+TEST(Rasterise, CutsOffWhatRunsToInfinity) {
+    // At one depth nothing is clipped before w = 0, towards which the sides run out of all numbers.
+    const auto corner = [](double x, double y, double w) { return glm::dvec4(x, y, 0.25 * w, w); };
+    const std::array<glm::dvec4, 3> corners = {corner(-0.55, -0.95, 1), corner(0.35, -0.95, 1),
+                                               corner(0.05, 3, -1)};
+    const std::vector<std::uint32_t> indices = {0, 1, 2};
+    std::vector<bool> covered(kSide * kSide);
+    for (const Fragment& fragment : rasterise(corners, indices, kSide, kSide))
+        covered[static_cast<std::size_t>(fragment.y * kSide + fragment.x)] = fragment.is_covered;
+    const Interpolator interpolator(corners, kSide, kSide);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const Weights weights = interpolator.at(x + 0.5, y + 0.5);
+            const bool is_inside = weights.inverse_w > 0 &&
+                                   std::ranges::all_of(weights.perspective, [](double w) { return w >= 0; });
+            EXPECT_EQ(covered[static_cast<std::size_t>(y * kSide + x)], is_inside) << x << " " << y;
+        }
+    EXPECT_GT(std::ranges::count(covered, true), kSide);
+}
+
+TEST(Rasterise, LeavesOutWhatIsNowhere) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double place : {nan, infinity}) {
+        const std::vector<glm::dvec4> corners = {at(0, 0), at(8, 0), {place, 0, 0, 1}};
+        const std::vector<std::uint32_t> indices = {0, 1, 2};
+        EXPECT_TRUE(rasterise(corners, indices, kSide, kSide).empty()) << place;
+    }
 }
 
 }  // namespace

@@ -29,10 +29,25 @@ Polygon clip(const Polygon& polygon, const Distance& distance) {
     return kept;
 }
 
-Polygon clip_to_depth_range(const std::array<glm::dvec4, 3>& corners) {
-    const Polygon whole(corners.begin(), corners.end());
-    const Polygon before_eye = clip(whole, [](const glm::dvec4& point) { return point.z + point.w; });
-    return clip(before_eye, [](const glm::dvec4& point) { return point.w - point.z; });
+/// Half as wide and high as how many windows: what lies further out, as towards w = 0 all does, is cut off,
+/// so that products of two lengths in subpixels fit into 64 bits.
+constexpr double kGuardBand = 128;
+
+/// To the depth range and the guard band.
+Polygon clipped(const std::array<glm::dvec4, 3>& corners) {
+    Polygon polygon(corners.begin(), corners.end());
+    polygon = clip(polygon, [](const glm::dvec4& point) { return point.z + point.w; });
+    polygon = clip(polygon, [](const glm::dvec4& point) { return point.w - point.z; });
+    for (const glm::length_t axis : {0, 1})
+        for (const double sign : {-1.0, 1.0})
+            polygon = clip(
+                polygon, [&](const glm::dvec4& point) { return kGuardBand * point.w + sign * point[axis]; });
+    return polygon;
+}
+
+bool is_finite(const glm::dvec4& position) {
+    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z) &&
+           std::isfinite(position.w);
 }
 
 Point snapped(const glm::dvec4& clip_position, int width, int height) {
@@ -134,9 +149,10 @@ std::optional<Coverage> coverage_of(const std::vector<Part>& parts, int x, int y
 
 void add_fragments(std::vector<Fragment>& fragments, std::uint32_t triangle,
                    const std::array<glm::dvec4, 3>& corners, int width, int height) {
+    if (!std::ranges::all_of(corners, is_finite)) return;  // drivers drop such a triangle
     const Interpolator interpolator(corners, width, height);
     bool is_front_facing = false;
-    const std::vector<Part> parts = parts_of(clip_to_depth_range(corners), width, height, is_front_facing);
+    const std::vector<Part> parts = parts_of(clipped(corners), width, height, is_front_facing);
     if (interpolator.is_degenerate() || parts.empty()) return;
     Point low = parts.front().low;
     Point high = parts.front().high;
