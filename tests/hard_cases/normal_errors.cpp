@@ -17,7 +17,11 @@ constexpr int kModels = 5000;
 const glm::dvec3 kScale(1, 1, 1e4);
 
 glm::dmat3 rotation(sanitize::Random& random) {
-    const glm::dvec3 axis(random.between(-1, 1), random.between(-1, 1), random.between(0.1, 1));
+    // One after the other: compilers evaluate arguments in orders of their own.
+    glm::dvec3 axis;
+    axis.z = random.between(0.1, 1);
+    axis.y = random.between(-1, 1);
+    axis.x = random.between(-1, 1);
     return glm::dmat3(glm::rotate(glm::dmat4(1), random.between(0, 2 * std::numbers::pi), axis));
 }
 
