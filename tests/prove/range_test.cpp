@@ -26,8 +26,8 @@ float flushed(float number) {
 }
 
 float drawn(sanitize::Random& random) {
-    const float size =
-        std::ldexp(static_cast<float>(random.between(0.5, 1)), static_cast<int>(random.between(-140, 60)));
+    const int exponent = static_cast<int>(random.between(-140, 60));
+    const float size = std::ldexp(static_cast<float>(random.between(0.5, 1)), exponent);
     if (random.one_in(8)) return random.one_in(2) ? 0.0F : 1.0F;
     return random.one_in(2) ? size : -size;
 }

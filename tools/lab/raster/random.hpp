@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include "lab/raster/random_numbers.hpp"
@@ -27,6 +29,16 @@ class Random : public RandomNumbers<SplitMix64> {
             const double square = glm::dot(point, point);
             if (square <= 1 && square > 1e-4) return point / std::sqrt(square);
         }
+    }
+    /// In any direction; its length is one of `across`.
+    [[nodiscard]] glm::dvec3 vector(double shortest, double longest) {
+        const double length = across(shortest, longest);
+        return direction() * length;
+    }
+    /// About any axis, by an angle in [low, high) radians.
+    [[nodiscard]] glm::dmat4 rotation(double low, double high) {
+        const glm::dvec3 axis = direction();
+        return glm::rotate(glm::dmat4(1), between(low, high), axis);
     }
 };
 

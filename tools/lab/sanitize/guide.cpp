@@ -99,7 +99,8 @@ std::size_t Guide::pick_goal() {
     };
     const std::size_t one = random_.pick(known_);
     const std::size_t other = random_.pick(known_);
-    return promise(one) * random_.unit() > promise(other) * random_.unit() ? one : other;
+    const double draw = promise(one) * random_.unit();
+    return draw > promise(other) * random_.unit() ? one : other;
 }
 
 }  // namespace gobo::sanitize

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "core/text.hpp"
@@ -116,8 +115,7 @@ bool names(const std::vector<std::string>& list, const std::string& port) {
 std::optional<Sides> turned(const Relation& relation, const std::vector<evaluate::Port>& ports,
                             const evaluate::Invocations& points, std::uint64_t seed) {
     Random random(seed);
-    const glm::dmat3 rotation(
-        glm::rotate(glm::dmat4(1), random.between(0.3, 2.8), glm::normalize(random.direction())));
+    const glm::dmat3 rotation(random.rotation(0.3, 2.8));
     Sides sides{points, points};
     bool is_there = false;
     for (const evaluate::Port& port : ports) {

@@ -77,7 +77,7 @@ class SampleMaker {
     void place_vertex(Sample& sample) {
         const double size = random_.across(0.1, 1e3);
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), random_.direction() * size);
-        matrix = glm::rotate(matrix, random_.between(0, 6.28), random_.direction());
+        matrix = matrix * random_.rotation(0, 6.28);
         matrix = glm::scale(matrix, random_.components(0.5, 2));
         sample.model_view = matrix;
         sample.object_position = random_.components(-size, size);
@@ -104,7 +104,7 @@ class SampleMaker {
     void place_mesh(Sample& sample, const Mesh& mesh) {
         const double size = random_.across(0.1, 100);
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4 * size));
-        matrix = glm::rotate(matrix, random_.between(0, 6.28), random_.direction());
+        matrix = matrix * random_.rotation(0, 6.28);
         sample.model_view = glm::scale(matrix, random_.components(0.5, 2) * size);
         sample.normal_matrix = glm::transpose(glm::inverse(glm::dmat3(sample.model_view)));
         sample.projection = glm::perspective(0.9, 1.0, size, 8 * size);
@@ -207,7 +207,8 @@ class SampleMaker {
             const glm::dvec3 color = random_.components(0, 2);
             return {glm::dvec4(direction * random_.across(0.1, 10), 0), color, local.attenuation};
         }
-        const double w = std::ldexp(random_.one_in(4) ? -1 : 1, random_.one_in(2) ? 0 : random_.whole(-3, 3));
+        const int exponent = random_.one_in(2) ? 0 : random_.whole(-3, 3);
+        const double w = std::ldexp(random_.one_in(4) ? -1 : 1, exponent);
         return {glm::dvec4(local.position * w, w), local.color, local.attenuation};
     }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "lab/oracle/oracle.hpp"
 #include "lab/oracle/reflectance_extensions.hpp"
 
@@ -13,7 +11,7 @@ namespace {
 
 /// A bright mean, so that the polynomial is seldom negative, and sides that make it so now and then.
 void fill_harmonics(Random& random, oracle::HarmonicsLight& light) {
-    light.to_probe = glm::dmat3(glm::rotate(glm::dmat4(1), random.between(0, 6.28), random.direction()));
+    light.to_probe = glm::dmat3(random.rotation(0, 6.28));
     light.coefficients[0] = random.components(0, 2);
     for (std::size_t i = 1; i < light.coefficients.size(); ++i)
         light.coefficients[i] = random.components(-0.7, 0.7);
@@ -23,7 +21,7 @@ void fill_harmonics(Random& random, oracle::HarmonicsLight& light) {
 void fill(Random& random, oracle::ImageLight& light) {
     light.color = random.components(0, 1);
     light.weight = random.one_in(8) ? static_cast<double>(random.whole(0, 1)) : random.unit();
-    light.to_map = glm::dmat3(glm::rotate(glm::dmat4(1), random.between(0, 6.28), random.direction()));
+    light.to_map = glm::dmat3(random.rotation(0, 6.28));
     light.map.mean = random.components(0.5, 2);
     for (int column = 0; column < 3; ++column) light.map.slope[column] = random.components(-0.25, 0.25);
 }
@@ -34,7 +32,7 @@ glm::dvec3 shortened(const glm::dvec3& direction, Random& random) {
 
 /// Sets a row of the matrix so that the position gives `value`; its terms are a few times 1.
 void set_row(glm::dmat4& matrix, int row, const glm::dvec3& position, double value, Random& random) {
-    const glm::dvec3 slope = random.direction() * random.across(0.2, 2) / glm::length(position);
+    const glm::dvec3 slope = random.vector(0.2, 2) / glm::length(position);
     for (int column = 0; column < 3; ++column) matrix[column][row] = slope[column];
     matrix[3][row] = value - glm::dot(slope, position);
 }
@@ -42,7 +40,8 @@ void set_row(glm::dmat4& matrix, int row, const glm::dvec3& position, double val
 /// Pictures of every colour, evenly changing; now and then one of the undisturbed normal, or of none at all.
 void fill_pictures(Random& random, Sample& sample) {
     const auto even = [&](double low, double high) {
-        return glm::dvec4(random.components(low, high), random.between(low, high));
+        const double w = random.between(low, high);
+        return glm::dvec4(random.components(low, high), w);
     };
     for (oracle::EvenPicture& picture : sample.scene.pictures)
         picture = {even(0.2, 0.8), even(-0.02, 0.02), even(-0.02, 0.02)};
@@ -56,7 +55,8 @@ void fill_pictures(Random& random, Sample& sample) {
     point.texture_coordinate = {random.between(-2, 2), random.between(-2, 2)};
     point.texture_coordinate1 = {random.between(-2, 2), random.between(-2, 2)};
     const double sign = random.one_in(2) ? -1 : 1;
-    point.tangent = {random.direction() * random.between(0.3, 1), sign};
+    const double tangent_length = random.between(0.3, 1);
+    point.tangent = {random.direction() * tangent_length, sign};
     sample.object_tangent = {random.direction(), sign};
 }
 
@@ -80,7 +80,7 @@ void place_cube(oracle::Shadow& shadow, double reference, const glm::dvec3& posi
     const glm::dvec3 x = random.direction();
     const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
     const glm::dmat3 turn = glm::transpose(glm::dmat3(x, y, glm::cross(x, y)));
-    const glm::dvec3 light = position + random.direction() * random.across(0.5, 3) * glm::length(position);
+    const glm::dvec3 light = position + random.vector(0.5, 3) * glm::length(position);
     shadow.to_map = glm::dmat4(turn);
     shadow.to_map[3] = glm::dvec4(turn * -light, 1);
     const glm::dvec3 ray = glm::abs(turn * (position - light));
@@ -227,8 +227,8 @@ void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, 
              oracle::incident_lights(model, white, point.position, decisions)) {
             if (number++ >= scene.directional.size()) {
                 const double attenuation = incident.radiance.x * random.between(0.9, 1.1);
-                point.rays.emplace_back(shortened(incident.to_light, random),
-                                        random.one_in(16) ? -0.01 * attenuation : attenuation);
+                const double sign = random.one_in(16) ? -0.01 : 1;
+                point.rays.emplace_back(shortened(incident.to_light, random), sign * attenuation);
             }
             point.halfways.push_back(shortened(oracle::direction_of(incident.to_light + to_viewer), random));
         }
