@@ -192,18 +192,23 @@ LEGACY_OUT float legacy_FogFragCoord;
 #include "compatibility/in.glsl"
 LEGACY_IN float legacy_FogFragCoord;
 
-#piece FragColor
-#if __VERSION__ >= 130
-out highp vec4 legacy_FragColor;
-#else
-#define legacy_FragColor gl_FragColor
-#endif
-
 #piece FragData
-#if __VERSION__ >= 130
-out highp vec4 legacy_FragData[8];
-#else
+#if __VERSION__ < 130
 #define legacy_FragData gl_FragData
+#elif defined(GL_ES)
+out highp vec4 legacy_FragData[4];
+#else
+out highp vec4 legacy_FragData[8];
+#endif
+#define LEGACY_HAS_DATA
+
+#piece FragColor
+#if __VERSION__ < 130
+#define legacy_FragColor gl_FragColor
+#elif defined(LEGACY_HAS_DATA)
+#define legacy_FragColor legacy_FragData[0]
+#else
+out highp vec4 legacy_FragColor;
 #endif
 
 #piece LightSource

@@ -123,8 +123,8 @@ const std::vector<std::string>& legacy_names() {
                                  "FogFragCoord",
                                  "Point",
                                  "ClipPlane",
+                                 "FragData",  // before FragColor, which is then its first element
                                  "FragColor",
-                                 "FragData",
                                  "LightSource",
                                  "LightModel",
                                  "FrontMaterial",
@@ -146,6 +146,10 @@ std::span<const std::string_view> lookups_of_level() {
         "texture3DLod",    "texture3DProjLod", "textureCubeLod", "shadow1DLod",
         "shadow1DProjLod", "shadow2DLod",      "shadow2DProjLod"};
     return names;
+}
+
+std::string name_in_files(std::string_view name) {
+    return name.starts_with(kLegacy) ? fmt::format("gl_{}", name.substr(kLegacy.size())) : std::string(name);
 }
 
 std::string legacy_piece(const std::string& name) {

@@ -25,6 +25,8 @@ using Substitutions = std::vector<std::pair<std::string, std::string>>;
 /// NAME of `templates/compatibility.glsl`: `legacy_Vertex`, which is what the files call `gl_Vertex`, and
 /// `texture2D`.
 [[nodiscard]] const std::vector<std::string>& legacy_names();
+/// What the files call one of them: "gl_Vertex" for "legacy_Vertex"; any other name as it is.
+[[nodiscard]] std::string name_in_files(std::string_view name);
 /// The lookups that a vertex stage alone has in GLSL 1.10 and 1.20: `texture2DLod`.
 [[nodiscard]] std::span<const std::string_view> lookups_of_level();
 /// The folder of the include paths of those pieces.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compose/rewrite.hpp"
 #include "core/text.hpp"
 #include "reflect/interface.hpp"
 
@@ -68,7 +69,10 @@ Declaration declaration_of(std::string_view name, std::string_view hint,
     Declaration best{{pieces.back()->path, 0, 0}, "", false};
     int best_rank = 0;
     const std::string_view root = root_of(name);
+    const bool is_legacy =
+        name_in_files(root) != root;  // what gobo declares, users find where theirs name it
     for_each_mention(root, pieces, [&](const Piece& piece, int number, std::string_view line) {
+        if (is_legacy && piece.is_shipped) return;
         const bool has_hint = mentions(line, hint);
         const int rank = 1 + (declares(line, root) ? 2 : 0) + (has_hint ? 1 : 0);
         if (rank <= best_rank) return;

@@ -12,6 +12,7 @@
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "validate/block_rules.hpp"
+#include "validate/plain_messages.hpp"
 
 namespace gobo {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::array<std::string_view, 3> kAuxiliary = {"centroid", "sample", "p
 constexpr std::array<std::string_view, 3> kMultisampled = {"image2DMS", "iimage2DMS", "uimage2DMS"};
 constexpr std::array<std::string_view, 4> kRemoved = {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
                                                       "gl_MaxClipPlanes", "gl_MaxLights"};
+/// What `compatibility = true` makes of gl_FragColor and gl_FragData.
+constexpr std::array<std::string_view, 2> kOldOutputs = {"legacy_FragColor", "legacy_FragData"};
 
 bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
@@ -52,6 +55,8 @@ class LanguageCheck {
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             if (tokens_[i].is_noted) check_token(i);
         }
+        if (version_.number >= 130 && old_outputs_.size() > 1)  // before, glslang minds it
+            found_.push_back(color_and_data_message(pieces_));
         check_declarations();
         std::ranges::move(check_blocks(kind_, text_, version_, is_shipped_), std::back_inserter(found_));
         return std::move(found_);
@@ -142,6 +147,7 @@ class LanguageCheck {
 
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
+        if (is_any(token.text, kOldOutputs) && !token.piece->is_shipped) old_outputs_.insert(token.text);
         if (token.text == "struct") structs_.insert(at(index + 1));
         check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
@@ -460,6 +466,7 @@ class LanguageCheck {
     GlslVersion version_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
+    std::set<std::string_view> old_outputs_;
     std::array<std::string_view, 3> local_size_;  ///< that stands above
     std::set<std::string> told_;
     Diagnostics found_;
@@ -470,7 +477,7 @@ class LanguageCheck {
 bool is_noted(std::string_view name) {
     return is_any(name, {"layout", "packed", "row_major", "struct", "__LINE__"}) ||
            is_any(name, kPrecisions) || is_any(name, kAuxiliary) || is_any(name, kMultisampled) ||
-           is_any(name, kRemoved) || name_since(name) != nullptr;
+           is_any(name, kRemoved) || is_any(name, kOldOutputs) || name_since(name) != nullptr;
 }
 
 Diagnostics check_language(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,

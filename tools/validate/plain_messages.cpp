@@ -130,6 +130,13 @@ Diagnostic push_constants_message(const PieceList& pieces) {
 
 }  // namespace
 
+Diagnostic color_and_data_message(const PieceList& pieces) {
+    Declaration at = declaration_of("legacy_FragData", "", pieces);  // as gobo has it, see name_in_files()
+    if (at.place.line == 0) at = use_of("gl_FragData", pieces);
+    return diagnostic_at(at, Severity::error, "a stage writes gl_FragColor or gl_FragData, not both",
+                         "write gl_FragData[0] in place of gl_FragColor");
+}
+
 Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceList& earlier) {
     for (Diagnostic& diagnostic : found) {
         const std::string message = diagnostic.message;
@@ -139,6 +146,8 @@ Diagnostics with_places(Diagnostics found, const PieceList& pieces, const PieceL
         else if (!earlier.empty() && ((says("must match") || says("sizes must be compatible")) &&
                                       (says("\"") || says("Initializers"))))
             diagnostic = mismatch_message(message, pieces, earlier);
+        else if (says("Cannot use both gl_FragColor and gl_FragData"))
+            diagnostic = color_and_data_message(pieces);
         else if (says("Only one push_constant block is allowed per stage"))
             diagnostic = push_constants_message(pieces);
         else if (message.starts_with("Linking ") && says(": "))  // "Linking unknown stage stage: "

@@ -12,6 +12,9 @@ namespace gobo {
 
 using PieceList = std::vector<const Piece*>;
 
+/// Of a fragment stage that writes both gl_FragColor and gl_FragData (GLSL 1.20, 7.2), at the latter.
+[[nodiscard]] Diagnostic color_and_data_message(const PieceList& pieces);
+
 /// For messages of linking. `pieces` are those of the stage, or of the later of two; `earlier` those of the
 /// other, if any.
 [[nodiscard]] Diagnostics with_places(Diagnostics found, const PieceList& pieces,

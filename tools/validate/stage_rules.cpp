@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "compose/rewrite.hpp"
 #include "core/numbers.hpp"
 #include "reflect/reflect.hpp"
 #include "spirv/glsl_type.hpp"
@@ -324,11 +325,12 @@ class StageCheck {
         if (is_built_in(module_, variable) && !is_written) return;  // OpenGL's own value stands
         const std::string help = "give it a value at the start of main(): it is undefined there";
         if (!is_written)
-            warn(declared(name), fmt::format("the fragment stage never writes its output '{}'", name),
+            warn(declared(name),
+                 fmt::format("the fragment stage never writes its output '{}'", name_in_files(name)),
                  "write it in main(), or take the declaration out");
         else if (!is_always_written(variable.id))
             warn(is_built_in(module_, variable) ? use_of(name, pieces_) : declared(name),
-                 fmt::format("some paths through main() do not write '{}'", name), help);
+                 fmt::format("some paths through main() do not write '{}'", name_in_files(name)), help);
     }
 
     [[nodiscard]] bool is_always_written(Id variable) const {
