@@ -25,6 +25,7 @@
 #include <map>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -81,6 +82,8 @@ class Reload {
         next_try_ = Clock::now() + std::chrono::milliseconds(500);
         const int made = ::socket(AF_UNIX, SOCK_STREAM, 0);
         if (made < 0) return;
+        ::fcntl(made, F_SETFD, FD_CLOEXEC);
+        ::fcntl(made, F_SETFL, O_NONBLOCK);  // a server that is stopped takes nobody
         address.sun_family = AF_UNIX;
         std::memcpy(address.sun_path, path_.data(), path_.size());
         if (::connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)

@@ -48,6 +48,7 @@ const std::string game = "tests/assets/game/game.toml";
 TEST(Game, ListsItsKeys) {
     EXPECT_EQ(output_of("gobo list " + game + " --all --count"), "40\n")
         << "2 x 2 x 2 toggles, 0 to 4 lights";
+    EXPECT_EQ(output_of("gobo list " + game + " --all --count --shard 3/3"), "13\n");
     EXPECT_EQ(output_of("gobo list " + game + " --all --where 'lights == 1 && fog == on'"),
               "fog=on lights=1\nfog=on lights=1 texture=on\nfog=on lights=1 rim=on\n"
               "fog=on lights=1 rim=on texture=on\n");

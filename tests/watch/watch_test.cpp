@@ -211,6 +211,38 @@ TEST_P(Watch, EndsWhenItIsAskedTo) {
     EXPECT_TRUE(application->is_connected());
 }
 
+TEST_P(Watch, EndsAmidABuildAndWritesNothing) {
+    const std::string header = text_of(folder + "/out/tiny.hpp");
+    save(folder + "/mine/fog/linear.glsl", "vec4 seen() { return vec4(ROWS, COLUMNS, 0.0, 0.0); }\n");
+    save(folder + "/tiny.toml",
+         "name = \"tiny\"\nvertex = \"tiny.vert\"\nfragment = \"tiny.frag\"\n"
+         "[features.fog]\nvalues = [\"none\", \"linear\"]\n"
+         "[features]\nrows = { count = [0, 99], constant = \"ROWS\" }\n"
+         "columns = { count = [0, 99], constant = \"COLUMNS\" }\n");  // 10,000 stages
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_EQ(stop(SIGTERM), 0) << text_of(folder + "/log");
+    EXPECT_FALSE(fs::exists(socket()));
+    EXPECT_EQ(text_of(folder + "/out/tiny.hpp"), header);
+}
+
+TEST(Reload, DoesNotWaitWhereNobodyTakesIt) {
+    std::string folder = "/tmp/gobo_reload_XXXXXX";
+    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+    const std::string path = folder + "/socket";
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    const int server = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    ASSERT_EQ(::bind(server, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ASSERT_EQ(::listen(server, 0), 0);
+    const Reload first(path);  // waits to be taken
+    const Reload second(path);
+    EXPECT_TRUE(first.is_connected());
+    EXPECT_FALSE(second.is_connected());
+    ::close(server);
+    fs::remove_all(folder);
+}
+
 TEST_P(Watch, MakesASocketAgainThatIsRemoved) {
     fs::remove(socket());
     EXPECT_TRUE(await([&] { return fs::exists(socket()); }));

@@ -113,8 +113,9 @@ Result<std::optional<Piece>> SearchPath::read(const Root& root, const std::strin
     const std::string path = here ? file : root.folder + "/" + file;
     if (!root.files->is_file(path)) return std::nullopt;
     const std::string real_root = root.files->real_path(here ? "." : root.folder);
-    if (root.on_disk && root.only.empty() &&
-        !root.files->real_path(path).starts_with(real_root == "/" ? real_root : real_root + "/")) {
+    const std::string real_path = root.files->real_path(path);  // as it is where it cannot be followed
+    if (root.on_disk && root.only.empty() && real_path.starts_with("/") &&
+        !real_path.starts_with(real_root == "/" ? real_root : real_root + "/")) {
         return fail({path, 0, 0}, "",
                     fmt::format("is a link that leads out of '{}'", here ? "." : root.folder),
                     "put the piece itself into the folder, name its folder with -I, or follow such links "

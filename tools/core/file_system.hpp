@@ -18,6 +18,7 @@ class FileSystem {
     FileSystem& operator=(const FileSystem&) = delete;
     virtual ~FileSystem() = default;
 
+    /// Also where a folder does not let itself be looked into: reading tells then.
     [[nodiscard]] virtual bool is_file(const std::string& path) const = 0;
     /// The whole content. Fault::file where it cannot be read.
     [[nodiscard]] virtual Result<std::string> read(const std::string& path) const = 0;

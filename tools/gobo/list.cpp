@@ -120,7 +120,8 @@ std::string compared_json(const Family& family, const Compared& compared) {
 Result<Outcome> run(const ListOptions& options, const World& world) {
     GOBO_TRY(LoadedFamily loaded, load_family(world, options.family, options.dialect));
     const Family& family = loaded.family;
-    if (options.count) {
+    // Also of more than can be listed.
+    if (options.count && options.shard.empty() && options.against.empty()) {
         GOBO_TRY(const Selection selection, load_selection(world, loaded, options));
         GOBO_TRY(const auto count, count_selected(family, selection, name_of(loaded.dialect)));
         return Outcome{count.text() + "\n"};
@@ -131,9 +132,11 @@ Result<Outcome> run(const ListOptions& options, const World& world) {
     if (!options.against.empty()) {
         GOBO_TRY(const auto built, keys_of_manifest(world, loaded, options.against));
         const Compared compared = compare(keys, built);
-        return Outcome{options.json ? compared_json(family, compared)
-                                    : compared_text(family, compared, options.warm_up)};
+        const std::string text = compared_text(family, compared, options.warm_up);
+        if (options.count) return Outcome{fmt::format("{}\n", std::ranges::count(text, '\n'))};
+        return Outcome{options.json ? compared_json(family, compared) : text};
     }
+    if (options.count) return Outcome{fmt::format("{}\n", keys.size())};
     if (options.json) return Outcome{keys_as_json(family, keys)};
     Outcome outcome;
     for (const Key& key : keys) outcome.output += key_text(family, key) + "\n";

@@ -24,8 +24,9 @@ constexpr std::size_t kMostClients = 16;
 
 /// Whether a server listens there.
 bool is_served(const sockaddr_un& address) {
-    const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const bool is = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    const bool is = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ||
+                    errno == EAGAIN;  // one that is stopped, with as many waiting as may
     ::close(probe);
     return is;
 }

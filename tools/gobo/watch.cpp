@@ -1,12 +1,17 @@
 // gobo watch: what gobo build does, again whenever a file that it read changes.
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -62,6 +67,40 @@ class Ending {
     int descriptor_ = -1;
 };
 
+/// Ends the process as soon as that is asked for, however long a build would take. Nothing is written while
+/// this lives.
+class EndingAtOnce {
+  public:
+    /// Removes the socket, if it has a name.
+    EndingAtOnce(const Ending& ending, const std::string& socket) : done_(::eventfd(0, EFD_CLOEXEC)) {
+        if (done_ < 0) return;
+        try {
+            thread_ = std::thread([this, &ending, &socket] {
+                std::array<pollfd, 2> waited = {{{ending.descriptor(), POLLIN, 0}, {done_, POLLIN, 0}}};
+                while (::poll(waited.data(), waited.size(), -1) < 0) {
+                }
+                if (waited[0].revents == 0) return;
+                if (!socket.empty()) ::unlink(socket.c_str());
+                std::_Exit(0);
+            });
+        } catch (const std::system_error&) {  // no more threads: it ends behind the build
+        }
+    }
+    EndingAtOnce(const EndingAtOnce&) = delete;
+    EndingAtOnce& operator=(const EndingAtOnce&) = delete;
+    ~EndingAtOnce() {
+        if (thread_.joinable()) {
+            ::eventfd_write(done_, 1);
+            thread_.join();
+        }
+        if (done_ >= 0) ::close(done_);
+    }
+
+  private:
+    int done_;
+    std::thread thread_;
+};
+
 class Watcher {
   public:
     Watcher(const WatchOptions& options, const World& world, std::unique_ptr<ReloadServer> server)
@@ -76,8 +115,11 @@ class Watcher {
         for (bool is_first = true;; is_first = false) {
             Clock::time_point start = Clock::now();
             TracedFiles files(world_.disk);
-            Result<Built> built = build(
-                options_, {files, world_.shipped, world_.options, world_.measure, &cache_, world_.tell});
+            Result<Built> built = [&] {
+                const EndingAtOnce at_once(ending_, options_.socket);
+                return build(options_,
+                             {files, world_.shipped, world_.options, world_.measure, &cache_, world_.tell});
+            }();
             if (!built && is_first && exit_status(built.error()) > 1)
                 return tl::unexpected(std::move(built).error());
             if (const std::string& once = files.read_once(); !once.empty() && (built || is_first)) {
