@@ -197,7 +197,7 @@ read_only() { as_nobody "$gobo" build torn.toml --all -o out --quiet; }
 may_read() { prepare 1; chmod -R a+rX .; as_nobody "$gobo" list torn.toml >/dev/null; }
 if may_read; then
   one "$what" refused read_only
-  closed_folder() { prepare 1; mkdir work/mine; chmod -R a+rX .; chmod 0 work/mine; as_nobody "$gobo" list torn.toml -I mine; [ $? -eq 3 ]; }
+  closed_folder() { prepare 1; mkdir work/mine; chmod -R a+rX .; chmod 0 work/mine; as_nobody "$gobo" check torn.toml --all -I mine; [ $? -eq 3 ]; }
   one 'as nobody, a folder of -I that may not be entered: status 3' closed_folder
   one 'as nobody, without HOME and TMPDIR' eval 'as_nobody env -i "$gobo" list lit >/dev/null'
 else

@@ -77,7 +77,7 @@ class SampleMaker {
     void place_vertex(Sample& sample) {
         const double size = random_.across(0.1, 1e3);
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), random_.direction() * size);
-        matrix = matrix * random_.rotation(0, 6.28);
+        matrix *= random_.rotation(0, 6.28);
         matrix = glm::scale(matrix, random_.components(0.5, 2));
         sample.model_view = matrix;
         sample.object_position = random_.components(-size, size);
@@ -104,7 +104,7 @@ class SampleMaker {
     void place_mesh(Sample& sample, const Mesh& mesh) {
         const double size = random_.across(0.1, 100);
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4 * size));
-        matrix = matrix * random_.rotation(0, 6.28);
+        matrix *= random_.rotation(0, 6.28);
         sample.model_view = glm::scale(matrix, random_.components(0.5, 2) * size);
         sample.normal_matrix = glm::transpose(glm::inverse(glm::dmat3(sample.model_view)));
         sample.projection = glm::perspective(0.9, 1.0, size, 8 * size);

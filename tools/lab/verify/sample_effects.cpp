@@ -227,8 +227,8 @@ void interpolate_lights(const oracle::Model& model, const oracle::Scene& scene, 
              oracle::incident_lights(model, white, point.position, decisions)) {
             if (number++ >= scene.directional.size()) {
                 const double attenuation = incident.radiance.x * random.between(0.9, 1.1);
-                const double sign = random.one_in(16) ? -0.01 : 1;
-                point.rays.emplace_back(shortened(incident.to_light, random), sign * attenuation);
+                const double factor = random.one_in(16) ? -0.01 : 1;
+                point.rays.emplace_back(shortened(incident.to_light, random), factor * attenuation);
             }
             point.halfways.push_back(shortened(oracle::direction_of(incident.to_light + to_viewer), random));
         }
