@@ -152,6 +152,10 @@ std::string name_in_files(std::string_view name) {
     return name.starts_with(kLegacy) ? fmt::format("gl_{}", name.substr(kLegacy.size())) : std::string(name);
 }
 
+std::string legacy_name(std::string_view name_in_files) {
+    return name_in_files.starts_with("gl_") ? fmt::format("{}{}", kLegacy, name_in_files.substr(3)) : "";
+}
+
 std::string legacy_piece(const std::string& name) {
     return fmt::format("{}/{}.glsl", kLegacyFolder,
                        name.starts_with(kLegacy) ? name.substr(kLegacy.size()) : name);

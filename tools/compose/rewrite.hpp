@@ -27,6 +27,8 @@ using Substitutions = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] const std::vector<std::string>& legacy_names();
 /// What the files call one of them: "gl_Vertex" for "legacy_Vertex"; any other name as it is.
 [[nodiscard]] std::string name_in_files(std::string_view name);
+/// The other way round; empty for what is not built in.
+[[nodiscard]] std::string legacy_name(std::string_view name_in_files);
 /// The lookups that a vertex stage alone has in GLSL 1.10 and 1.20: `texture2DLod`.
 [[nodiscard]] std::span<const std::string_view> lookups_of_level();
 /// The folder of the include paths of those pieces.

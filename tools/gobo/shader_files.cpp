@@ -25,8 +25,7 @@ bool is_of_all_old_versions(std::string_view name) {
 
 bool is_legacy(std::string_view token) {
     if (token == "ftransform") return true;
-    if (!token.starts_with("gl_") || is_of_all_old_versions(token)) return false;
-    return std::ranges::count(legacy_names(), "legacy_" + std::string(token.substr(3))) > 0;
+    return !is_of_all_old_versions(token) && std::ranges::count(legacy_names(), legacy_name(token)) > 0;
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ Declaration declaration_of(std::string_view name, std::string_view hint,
     Declaration best{{pieces.back()->path, 0, 0}, "", false};
     int best_rank = 0;
     const std::string_view root = root_of(name);
-    const bool is_legacy =
-        name_in_files(root) != root;  // what gobo declares, users find where theirs name it
+    const bool is_legacy = name_in_files(root) != root;  // users find it where their files name it
     for_each_mention(root, pieces, [&](const Piece& piece, int number, std::string_view line) {
         if (is_legacy && piece.is_shipped) return;
         const bool has_hint = mentions(line, hint);
@@ -98,10 +97,12 @@ Declaration declaration_of_member(std::string_view block, std::string_view membe
 
 Declaration use_of(std::string_view name, const std::vector<const Piece*>& pieces) {
     Declaration first{{pieces.back()->path, 0, 0}, "", false};
+    const std::string legacy = legacy_name(name);
     for_each_mention(name, pieces, [&](const Piece& piece, int number, std::string_view line) {
-        if (first.place.line == 0 && !declares(line, name)) first = declaration_at(piece, number);
+        const bool is_ours = piece.is_shipped && mentions(line, legacy);
+        if (first.place.line == 0 && !declares(line, name) && !is_ours) first = declaration_at(piece, number);
     });
-    return first;
+    return first.place.line > 0 || legacy.empty() ? first : declaration_of(legacy, "", pieces);
 }
 
 Diagnostic diagnostic_at(const Declaration& declaration, Severity severity, std::string message,

@@ -208,8 +208,7 @@ Diagnostics with_version_missed(Diagnostics found, const Family& family, const C
         if (diagnostic.severity != Severity::error || !message.starts_with('\'')) continue;
         const std::string name(message.substr(1, message.find('\'', 1) - 1));
         const bool is_output = name == "gl_FragColor" || name == "gl_FragData";
-        const bool is_built_in =
-            name.starts_with("gl_") && is_any_of(legacy_names(), "legacy_" + name.substr(3));
+        const bool is_built_in = is_any_of(legacy_names(), legacy_name(name));
         if (!is_built_in && !is_any_of(legacy_names(), name)) continue;
         const bool is_gone = (is_built_in && !is_output) || name == "ftransform";
         diagnostic.help =

@@ -131,9 +131,8 @@ Diagnostic push_constants_message(const PieceList& pieces) {
 }  // namespace
 
 Diagnostic color_and_data_message(const PieceList& pieces) {
-    Declaration at = declaration_of("legacy_FragData", "", pieces);  // as gobo has it, see name_in_files()
-    if (at.place.line == 0) at = use_of("gl_FragData", pieces);
-    return diagnostic_at(at, Severity::error, "a stage writes gl_FragColor or gl_FragData, not both",
+    return diagnostic_at(use_of("gl_FragData", pieces), Severity::error,
+                         "a stage writes gl_FragColor or gl_FragData, not both",
                          "write gl_FragData[0] in place of gl_FragColor");
 }
 

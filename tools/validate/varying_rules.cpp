@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "compose/dialect.hpp"
+#include "compose/rewrite.hpp"
 #include "spirv/glsl_type.hpp"
 #include "validate/declaration.hpp"
 #include "validate/link_rules.hpp"
@@ -246,10 +247,10 @@ class VaryingCheck {
                         with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
         std::string help =
             fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
-        constexpr std::string_view legacy = "legacy_";  // of a family with `compatibility = true`
-        if (input.name.starts_with(legacy))
-            help = fmt::format("write gl_{} in the {} stage", root_of(input.name).substr(legacy.size()),
-                               name_of(earlier_->kind));
+        const std::string_view root = root_of(input.name);
+        if (const std::string old = name_in_files(root);
+            old != root)  // of a family with `compatibility = true`
+            help = fmt::format("write {} in the {} stage", old, name_of(earlier_->kind));
         for (const Variable& output : earlier_->interface.outputs) {
             if (output.name != input.name) continue;
             const auto located = [](int location) {
