@@ -61,7 +61,7 @@ const std::map<std::string, std::vector<Property>> kSchema = {
      {{"startLine", Type::number_unsigned},
       {"startColumn", Type::number_unsigned},
       {"snippet", Type::object, false, "message"}}},
-    {"bag", {{"key", Type::string}, {"help", Type::string}}},
+    {"bag", {{"key", Type::string}, {"more_keys", Type::number_unsigned}, {"help", Type::string}}},
 };
 
 /// What the schema forbids, by where it stands.
@@ -183,6 +183,27 @@ INSTANTIATE_TEST_SUITE_P(Cases, MachineMessages,
 
 TEST(MachineMessages, AreOfManyCases) {
     EXPECT_GE(case_names().size(), 100U);
+}
+
+TEST(MachineMessages, NameOneKeyAndHowManyMore) {
+    const CaseFile file{"",
+                        "gobo check f.toml --all",
+                        {{"f.toml",
+                          "name=\"f\"\nvertex=\"f.vert\"\nfragment=\"f.frag\"\n[features.lamp]\nconstant="
+                          "\"LAMPS\"\ncount=[0,3]\n"},
+                         {"f.vert", "#version 450\nvoid main() { gl_Position = vec4(0.0); }\n"},
+                         {"f.frag", "#version 450\nout vec4 c;\nvoid main() { c = vec4(lamps); }\n"}},
+                        ""};
+    const Json found = Json::parse(answer_of(file, "json").messages)["diagnostics"];
+    ASSERT_EQ(found.size(), 1U) << found;
+    EXPECT_EQ(found[0]["key"], "default");
+    EXPECT_EQ(found[0]["more_keys"], 3);
+    const Json log = Json::parse(answer_of(file, "sarif").messages);
+    EXPECT_THAT(faults_of(log), testing::IsEmpty());
+    const Json& result = log["runs"][0]["results"][0];
+    EXPECT_EQ(result["properties"]["key"], "default");
+    EXPECT_EQ(result["properties"]["more_keys"], 3);
+    EXPECT_THAT(result["message"]["text"], testing::HasSubstr("[default, and 3 more keys]"));
 }
 
 TEST(MachineMessages, TellPlacesInCharacters) {

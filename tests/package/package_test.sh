@@ -15,6 +15,7 @@ case $way in
   find_package)
     cmake --install "$build" --prefix "$prefix" --component gobo >"$scratch/install.log"
     [ -x "$prefix/bin/gobo" ] || { echo "FAILED: no gobo is installed"; exit 1; }
+    [ -e "$prefix/share/doc/gobo/docs/command_line.md" ] || { echo "FAILED: no pages are installed"; exit 1; }
     [ ! -e "$prefix/bin/gobo-lab" ] || { echo "FAILED: component gobo brings the lab"; exit 1; }
     options+=(-D "CMAKE_PREFIX_PATH=$prefix") ;;
   subdirectory)

@@ -111,6 +111,28 @@ TEST_F(ResultsOnDisk, ThatWereUsedLongestAgoGoFirst) {
     EXPECT_THAT(left, testing::ElementsAre(true, false, false, true, true, true));
 }
 
+TEST_F(ResultsOnDisk, DatedInTheFutureGoBeforeWhatIsNew) {
+    DiskCache cache(folder, 16 * 4096);
+    const std::string result(900, 'x');
+    const auto future = fs::file_time_type::clock::now() + std::chrono::hours(24 * 365);
+    std::vector<Digest> of_a_part;
+    for (int i = 0; of_a_part.size() < 6; ++i)
+        if (hex(key(i)).front() == '0') of_a_part.push_back(key(i));
+    for (std::size_t i = 0; i < 4; ++i) {
+        cache.keep(of_a_part[i], result);
+        fs::last_write_time(path_of(of_a_part[i]), future);
+    }
+    EXPECT_TRUE(cache.find(of_a_part[0])) << "is marked as used";
+    EXPECT_LT(fs::last_write_time(path_of(of_a_part[0])), future);
+    cache.keep(of_a_part[4], result);
+    cache.keep(of_a_part[5], result);
+    EXPECT_THAT(cache.tidy(), testing::IsEmpty());
+    std::vector<bool> left;
+    for (const Digest& one : of_a_part) left.push_back(cache.find(one).has_value());
+    EXPECT_TRUE(left[0] && left[4] && left[5]);
+    EXPECT_EQ(std::ranges::count(left, true), 4);
+}
+
 TEST_F(ResultsOnDisk, ThatDeadWritersLeftAreRemovedWhenTheyAreOld) {
     DiskCache cache(folder, kMegabyte);
     cache.keep(key(1), "one");

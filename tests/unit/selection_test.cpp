@@ -232,6 +232,11 @@ TEST(Selection, ReadsKeysByLines) {
     EXPECT_EQ(keys[0].place, (Place{"keys.txt", 3, 0}));
     EXPECT_EQ(keys[1].text, "default");
     EXPECT_EQ(keys[2].place.line, 6);
+    const std::vector<NamedKey> old = keys_of_text("a=1\r\rdefault # plain\r", "keys.txt");
+    ASSERT_EQ(old.size(), 2u);
+    EXPECT_EQ(old[0].text, "a=1");
+    EXPECT_EQ(old[1].text, "default");
+    EXPECT_EQ(old[1].place.line, 3);
 }
 
 }  // namespace

@@ -102,12 +102,7 @@ Result<std::map<int, int>> CountSpecializer::in_stages(const Key& key,
 
 Diagnostics CountSpecializer::notes() const {
     Diagnostics all;
-    for (const auto& [text, note] : notes_) {
-        all.push_back(note.diagnostic);
-        if (note.keys > 1)
-            all.back().subject +=
-                fmt::format(", and {} more key{}", note.keys - 1, note.keys == 2 ? "" : "s");
-    }
+    for (const auto& [text, note] : notes_) all.push_back(note);
     return all;
 }
 
@@ -138,11 +133,16 @@ Result<bool> CountSpecializer::holds_for_all_counts(const Directive& directive, 
 }
 
 void CountSpecializer::note(const Place& place, std::string message, std::string_view line, const Key& key) {
-    Note& note = notes_[fmt::format("{}:{}: {}", place.file, place.line, message)];
-    if (++note.keys > 1) return;
-    note.diagnostic = fail(place, line, std::move(message), "").value().front();
-    note.diagnostic.severity = Severity::note;
-    note.diagnostic.subject = key_text(family_, key);
+    const auto [known, is_new] =
+        notes_.try_emplace(fmt::format("{}:{}: {}", place.file, place.line, message));
+    Diagnostic& note = known->second;
+    if (!is_new) {
+        ++note.more_keys;
+        return;
+    }
+    note = fail(place, line, std::move(message), "").value().front();
+    note.severity = Severity::note;
+    note.subject = key_text(family_, key);
 }
 
 }  // namespace gobo

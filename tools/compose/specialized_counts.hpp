@@ -48,18 +48,13 @@ class CountSpecializer {
     [[nodiscard]] Diagnostics notes() const;
 
   private:
-    struct Note {
-        Diagnostic diagnostic;
-        std::size_t keys = 0;
-    };
-
     /// Whether a directive means the same however many there are of the count.
     Result<bool> holds_for_all_counts(const Directive& directive, int feature, const Key& key);
     void note(const Place& place, std::string message, std::string_view line, const Key& key);
 
     const Family& family_;
     std::map<int, int> counts_;
-    std::map<std::string, Note> notes_;
+    std::map<std::string, Diagnostic> notes_;
     std::map<std::tuple<const Directive*, int, std::string>, bool> same_for_counts_;
 };
 

@@ -29,7 +29,7 @@ concept OneOf = (std::same_as<std::remove_const_t<T>, Others> || ...);
     }
 
 GOBO_FIELDS(Place, file, line, column)
-GOBO_FIELDS(Diagnostic, severity, fault, place, message, quoted_line, help, subject)
+GOBO_FIELDS(Diagnostic, severity, fault, place, message, quoted_line, help, subject, more_keys)
 
 namespace detail {
 

@@ -87,13 +87,19 @@ tl::unexpected<Diagnostics> fail(const Place& place, std::string_view quoted_lin
                  .help = std::move(help)});
 }
 
+std::string subject_text(const Diagnostic& diagnostic) {
+    const std::string subject = one_line(shortened(diagnostic.subject, kLongestName));
+    if (diagnostic.more_keys == 0) return subject;
+    return fmt::format("{}, and {} more key{}", subject, diagnostic.more_keys,
+                       diagnostic.more_keys == 1 ? "" : "s");
+}
+
 std::string to_text(const Diagnostic& diagnostic, bool color) {
     const auto severity = static_cast<std::size_t>(diagnostic.severity);
     std::string text = fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place),
                                    color ? kColors[severity] : "", kNames[severity], color ? "\033[0m" : "",
                                    printable(shortened(diagnostic.message, kLongestMessage)));
-    if (!diagnostic.subject.empty())
-        text += fmt::format(" [{}]", one_line(shortened(diagnostic.subject, kLongestName)));
+    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", subject_text(diagnostic));
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
     if (!diagnostic.help.empty())

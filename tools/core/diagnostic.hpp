@@ -38,6 +38,7 @@ struct Diagnostic {
     std::string quoted_line = {};  ///< the line of text at `place`, or empty
     std::string help = {};         ///< how to fix it, or empty
     std::string subject = {};      ///< the permutation it concerns, as key text, or empty
+    std::size_t more_keys = 0;     ///< how many other permutations it concerns
 
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
@@ -66,6 +67,9 @@ using Result = tl::expected<T, Diagnostics>;
     declaration = *std::move(GOBO_JOIN(gobo_result_, __LINE__))
 #define GOBO_TRY_DO(...) \
     if (auto&& gobo_result = __VA_ARGS__; !gobo_result) return tl::unexpected(std::move(gobo_result).error())
+
+/// "fog=linear, and 2 more keys": whom it concerns, on one line and not beyond measure.
+[[nodiscard]] std::string subject_text(const Diagnostic& diagnostic);
 
 /// The diagnostic as a compiler prints it, ending in a newline:
 /// `file:line:column: error: message [subject]`, the quoted line with a caret, the help.

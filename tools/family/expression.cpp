@@ -180,16 +180,21 @@ class Parser {
     }
 
     void skip_blanks() {
-        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n')) ++at_;
+        while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+            ++at_;
     }
 
     /// The error stands `back` characters before what follows.
     [[noreturn]] void stop(std::string_view message, std::string help, std::size_t back = 0) const {
+        const std::string_view before = text_.substr(0, at_ - back);
+        const std::size_t last_line = before.find_last_of('\n') + 1;  // 0 where there is one line
         Place place = place_;
-        if (place.column > 0) place.column += static_cast<int>(at_ - back);
+        if (place.line > 0) place.line += static_cast<int>(std::ranges::count(before, '\n'));
+        if (place.column > 0)
+            place.column = (last_line > 0 ? 1 : place.column) + static_cast<int>(before.size() - last_line);
         throw Diagnostic{.fault = fault_,
                          .place = place,
-                         .message = fmt::format("{} in the condition '{:.200}'", message, text_),
+                         .message = fmt::format("{} in the condition '{:.200}'", message, one_line(text_)),
                          .help = std::move(help)};
     }
 

@@ -159,10 +159,8 @@ Diagnostics DiagnosticGroups::result() const {
     Diagnostics diagnostics;
     for (const Group& group : groups_) {
         diagnostics.push_back(group.diagnostic);
-        std::string& subject = diagnostics.back().subject;
-        subject = key_text(family_, *group.first);
-        if (group.keys > 1)
-            subject += fmt::format(", and {} more key{}", group.keys - 1, group.keys == 2 ? "" : "s");
+        diagnostics.back().subject = key_text(family_, *group.first);
+        diagnostics.back().more_keys = group.keys - 1;
     }
     return diagnostics;
 }

@@ -47,7 +47,7 @@ class DiagnosticGroups {
         Diagnostic diagnostic;
         const Key* first = nullptr;
         const Key* last = nullptr;
-        int keys = 0;
+        std::size_t keys = 0;
     };
     const Family& family_;
     std::map<std::tuple<std::string, int, std::string>, std::size_t> positions_;

@@ -159,8 +159,8 @@ Relation read_relation(const TomlTable& table, const std::vector<Feature>& featu
 Expression read_condition(const TomlTable& table, std::string_view entry,
                           const std::vector<Feature>& features) {
     const std::string text = table.string(entry).value_or("");
-    Place place = table.place_of(entry);
-    if (place.column > 0) ++place.column;  // behind the quotation mark
+    const Place place =
+        table.has(entry) ? table.reader.place_of_text(*table.entries.get(entry)) : table.place_of();
     Result<Expression> condition = parse_expression(text, features, place, Fault::input);
     if (condition) return std::move(*condition);
     table.reader.take(condition.error());

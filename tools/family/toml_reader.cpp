@@ -97,13 +97,15 @@ Place TomlReader::in_bytes(Place place) const {
 }
 
 Place TomlReader::place_of_text(const toml::node& node) const {
-    const Place place = place_of(node);
+    Place place = place_of(node);
     const auto text = texts_.find(place.file);
     if (text == texts_.end() || place.column < 1) return place;
     std::string_view line = line_of(text->second, place.line);
     line.remove_prefix(std::min(line.size(), static_cast<std::size_t>(place.column - 1)));
     const bool is_block = line.starts_with(R"(""")") || line.starts_with("'''");
-    return is_block && trim(line.substr(3)).empty() ? Place{place.file, place.line + 1, 1} : place;
+    if (is_block && line.size() == 3) return {place.file, place.line + 1, 1};
+    place.column += is_block ? 3 : 1;
+    return place;
 }
 
 void TomlReader::error(const Place& place, std::string message, std::string help) {

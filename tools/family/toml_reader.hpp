@@ -36,7 +36,7 @@ class TomlReader {
     [[nodiscard]] Place place_of(const toml::node& node) const { return place_of(node.source()); }
     [[nodiscard]] Place place_of(const toml::source_region& region) const;
 
-    /// Where the text of a string begins: behind `"""` and the line end that TOML leaves out.
+    /// Where the text of a string begins: behind the quotation marks and the line end that TOML leaves out.
     [[nodiscard]] Place place_of_text(const toml::node& node) const;
 
     void error(const Place& place, std::string message, std::string help);

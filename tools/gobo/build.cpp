@@ -134,7 +134,7 @@ Result<Built> build(const BuildOptions& options, const World& world) {
     const std::string manifest = emit_manifest(input);
     const std::string depfile = emit_depfile({target}, {files.begin(), files.end()});
     std::vector<std::string> summary = family.scene_notes;
-    summary.push_back(fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", stem,
+    summary.push_back(fmt::format("{}.hpp: {} permutations, {} stages, {} pieces{}", one_line(stem),
                                   composition.permutations.size(), composition.stages.size(),
                                   composition.pieces.size(), modules_text(input.modules)));
     Outcome outcome{{},

@@ -138,10 +138,8 @@ class KeySimplifier {
         options_.jobs = 1;
     }
 
-    /// The subject is a key, perhaps with how many more there are.
     void simplify(Diagnostic& error) {
-        const std::size_t end = std::min(error.subject.find(", and "), error.subject.size());
-        const Result<Key> named = parse_key(family_.family, error.subject.substr(0, end));
+        const Result<Key> named = parse_key(family_.family, error.subject);
         // What takes glslang too much time or memory takes it again.
         if (!named || is_of_stopped_glslang(error)) return;
         Key key = *named;
@@ -159,7 +157,7 @@ class KeySimplifier {
                     first = last;
                 }
             }
-        error.subject.replace(0, end, key_text(family_.family, key));
+        error.subject = key_text(family_.family, key);
     }
 
   private:

@@ -40,12 +40,11 @@ std::string reason_of(const Diagnostic& error) {
     return "with a constant: " + line;
 }
 
-/// Why keys have numbers: what is wrong with them as constants. A subject is a key, perhaps with how many
-/// more there are.
+/// Why keys have numbers: what is wrong with them as constants.
 Diagnostics notes_of(const Diagnostics& errors, const Family& family, const LiteralCounts& literal) {
     Diagnostics notes;
     for (const Diagnostic& error : errors) {
-        const Result<Key> key = parse_key(family, error.subject.substr(0, error.subject.find(", and ")));
+        const Result<Key> key = parse_key(family, error.subject);
         const auto counts = key ? literal.find(*key) : literal.end();
         if (error.severity != Severity::error || counts == literal.end()) continue;
         std::vector<std::string> names;

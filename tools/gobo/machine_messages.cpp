@@ -71,7 +71,7 @@ Json location_of(const Diagnostic& diagnostic) {
 
 Json result_of(const Diagnostic& diagnostic) {
     std::string text = diagnostic.message;
-    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", diagnostic.subject);
+    if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", subject_text(diagnostic));
     if (!diagnostic.help.empty()) text += fmt::format("\nhelp: {}", diagnostic.help);
     Json result = {{"ruleId", kFaults[index_of(diagnostic.fault)].name},
                    {"ruleIndex", index_of(diagnostic.fault)},
@@ -79,6 +79,7 @@ Json result_of(const Diagnostic& diagnostic) {
                    {"message", {{"text", std::move(text)}}}};
     if (!diagnostic.place.file.empty()) result["locations"] = Json::array({location_of(diagnostic)});
     if (!diagnostic.subject.empty()) result["properties"]["key"] = diagnostic.subject;
+    if (diagnostic.more_keys > 0) result["properties"]["more_keys"] = diagnostic.more_keys;
     if (!diagnostic.help.empty()) result["properties"]["help"] = diagnostic.help;
     return result;
 }
@@ -101,6 +102,7 @@ std::string json_of(const Diagnostics& diagnostics, int status) {
         add("quoted_line", diagnostic.quoted_line, !diagnostic.quoted_line.empty());
         add("help", diagnostic.help, !diagnostic.help.empty());
         add("key", diagnostic.subject, !diagnostic.subject.empty());
+        add("more_keys", diagnostic.more_keys, diagnostic.more_keys > 0);
         list.push_back(std::move(entry));
     }
     return text_of({{"diagnostics", std::move(list)}, {"exit_status", status}});

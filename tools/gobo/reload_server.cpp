@@ -72,6 +72,11 @@ Result<std::unique_ptr<ReloadServer>> ReloadServer::open(const std::string& path
                          .message = "another gobo watch listens there",
                          .help = "name another socket, or end it"});
         ::unlink(path.c_str());
+    } else if (struct stat status {}; ::lstat(path.c_str(), &status) == 0) {
+        return fail({.fault = Fault::file,
+                     .place = {path},
+                     .message = "cannot be made a socket: something else is there",
+                     .help = "name another path, or remove it"});
     }
     GOBO_TRY(const int socket, listen_at(address));
     return std::unique_ptr<ReloadServer>(new ReloadServer(path, socket));
