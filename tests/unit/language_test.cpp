@@ -79,6 +79,34 @@ std::string branch(const std::string& condition, const std::string& color = "gl_
 }
 
 const Row refused[] = {
+    row("pragma_within_a_function", "450",
+        kOut + std::string("void main() {\n#pragma optimize(off)\nc = vec4(1.0);\n}\n"),
+        "tiny.frag:4: error: #pragma optimize stands within a function"),
+    row("layout_of_a_parameter", "150",
+        with_main("vec4 f(layout(pixel_center_integer) in float a) { return vec4(a); }\n"),
+        "tiny.frag:2: error: a parameter of the function 'f' states a layout"),
+    row("struct_of_samplers_given_out", "450",
+        with_main("struct Map { vec2 at; sampler2D map; };\nstruct Maps { Map maps[2]; };\nvoid f(inout Maps "
+                  "maps) {}\n"),
+        "tiny.frag:4: error: the function 'f' has 'Maps' as inout, which holds a sampler or an image"),
+    row("struct_of_samplers_returned", "450",
+        with_main("struct Map { vec2 at; sampler2D map; };\nuniform Map map;\nMap f() { return map; }\n"),
+        "tiny.frag:4: error: the function 'f' returns 'Map', which holds a sampler or an image"),
+    row("struct_of_a_reserved_name", "300 es", with_main("struct gl_Mine { vec4 a; };\n"),
+        "tiny.frag:3: error: the struct 'gl_Mine' begins with gl_, as GLSL's own names do"),
+    row("blocks_of_no_number", "450", with_main("layout(std140) uniform B { vec4 a; } b[];\n", "b[0].a.x"),
+        "tiny.frag:2: error: the array of blocks 'b' has no size"),
+    row("member_of_a_shared_layout", "300 es",
+        with_main("layout(std140) uniform B {\n  layout(shared) vec4 a;\n};\n"),
+        "tiny.frag:4: error: a member of a block cannot state 'shared'"),
+    row("varying_in_a_block", "150", with_main("in B { varying vec4 a; };\n"),
+        "tiny.frag:2: error: a member of a block cannot be 'varying'"),
+    row("location_twice", "330 core",
+        "layout(location = 0, location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+        "tiny.frag:2: error: layout states 'location' twice"),
+    row("layout_behind_a_layout", "300 es",
+        "layout(location = 0) layout(location = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n",
+        "tiny.frag:3: error: one layout stands behind another, which came with GLSL ES 3.10"),
     row("int_returned_as_float", "330 core", with_main("float f() { return 1; }\n", "f()"),
         "tiny.frag:2: error: 'return' of another type than the function's: GLSL converts it from 4.20 on"),
     row("layout_of_a_varying", "120",
@@ -215,6 +243,24 @@ const Row refused[] = {
 };
 
 const Row taken[] = {
+    row("guard_of_two_underscores_in_es_100", "100",
+        "#ifndef __TINY__\n#define __TINY__ 1.0\nvoid main() { gl_FragColor = vec4(__TINY__); }\n#endif\n",
+        ""),
+    row("number_of_the_file", "300 es", with_main("", "float(__FILE__ + __LINE__)"), ""),
+    row("invariant_all_in_es_100", "100",
+        "#pragma STDGL invariant(all)\nvoid main() { gl_FragColor = vec4(1.0); }\n", ""),
+    row("pragma_beside_functions", "450",
+        with_main("#pragma optimize(off)\nfloat f() { return 1.0; }\n#pragma debug(on)\n"), ""),
+    row("struct_of_samplers_taken", "450",
+        with_main("struct Map { vec2 at; sampler2D map; };\nuniform Map map;\nfloat f(in Map m) { return "
+                  "texture(m.map, m.at).x; }\n",
+                  "f(map)"),
+        ""),
+    row("orders_of_matrices_twice", "330 core",
+        with_main("layout(std140, row_major, column_major, row_major) uniform B { mat4 a; };\n", "a[0].x"),
+        ""),
+    row("layout_behind_a_layout_420", "420",
+        "layout(location = 0) layout(index = 0) out vec4 c;\nvoid main() { c = vec4(1.0); }\n", ""),
     row("void_among_the_arguments_of_a_macro", "450",
         with_main("#define FUNCTION(type, name) type name()\nFUNCTION(void, f) {}\n"), ""),
     row("void_alone", "450", with_main("float f(void) { return 1.0; }\n", "f()"), ""),
@@ -446,6 +492,17 @@ constexpr const char* kEvaluation =
 #define GROUP "layout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer B { float b; };\n"
 
 const StagesRow stages[] = {
+    {"inputs_of_two_primitives",
+     "150",
+     {{StageKind::geometry,
+       "layout(points, triangles) in;\nlayout(points, max_vertices = 1) out;\n"
+       "void main() { gl_Position = vec4(0.0); EmitVertex(); }\n"}},
+     "tiny.geom:2: error: layout states both points and triangles"},
+    {"attribute_of_whole_numbers",
+     "110",
+     {{StageKind::vertex, "attribute ivec2 a;\nvoid main() { gl_Position = vec4(a, a); }\n"},
+      {StageKind::fragment, "void main() { gl_FragColor = vec4(1.0); }\n"}},
+     "tiny.vert:2: error: a vertex input of type ivec2 came with GLSL 1.20"},
     {"shared_memory",
      "430",
      {{StageKind::compute,

@@ -139,19 +139,20 @@ TEST(ScanPiece, MindsNoCommentThatTakesInNothing) {
 }
 
 TEST(ScanPiece, TakesOutWhatTheComposerAnswers) {
-    const ScannedPiece piece = scan_piece(
-                                   "#pragma once\n# line 7 \"b\"\nint a;\n#line 3\n#extension GL_A : warn\n"
-                                   "#ifdef B\n#extension GL_B : require\n#endif\n#pragma optimize(off)\n"
-                                   "#extension GL_A:enable\n#extension odd\n#version 120\n#include <c>\n",
-                                   "a.glsl")
-                                   .value();
+    const ScannedPiece piece =
+        scan_piece(
+            "#pragma once\n# line 7 \"b\"\n#version 120\nint a;\n#line 3\n#extension GL_A : warn\n"
+            "#ifdef B\n#extension GL_B : require\n#endif\n#pragma optimize(off)\n"
+            "#extension GL_A:enable\n#extension odd\n#include <c>\n",
+            "a.glsl")
+            .value();
     EXPECT_EQ(piece.code,
-              "\n\nint a;\n\n\n#ifdef B\n\n#endif\n#pragma optimize(off)\n\n#extension odd\n\n\n");
+              "\n\n\nint a;\n\n\n#ifdef B\n\n#endif\n#pragma optimize(off)\n\n#extension odd\n\n");
     EXPECT_TRUE(piece.is_once);
     EXPECT_EQ(piece.version, "120");
     ASSERT_EQ(piece.extensions.size(), 1u);
     EXPECT_EQ(piece.extensions.at("GL_A").behavior, "enable");
-    EXPECT_EQ(piece.extensions.at("GL_A").place, (Place{"a.glsl", 10, 1}));
+    EXPECT_EQ(piece.extensions.at("GL_A").place, (Place{"a.glsl", 11, 1}));
     std::vector<std::string> words;
     for (const Directive& directive : piece.directives) words.push_back(directive.word);
     EXPECT_THAT(words, testing::ElementsAre("ifdef", "extension", "endif", "include"));

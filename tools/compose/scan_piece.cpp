@@ -119,10 +119,15 @@ class Scanner {
     }
 
     /// Drivers count the lines of a whole stage, each in its own way: the file's number takes the place of
-    /// `__LINE__`. In a macro it would be that of the definition, and `#line` counts anew.
+    /// `__LINE__`, and 0 that of `__FILE__`, as a stage is one text to them. In a macro it would be that of
+    /// the definition, and `#line` counts anew.
     void number_own_lines() {
         constexpr std::string_view kOwnLine = "__LINE__";
-        if (clean_.code.find(kOwnLine) == std::string::npos) return;
+        constexpr std::string_view kOwnFile = "__FILE__";
+        static_assert(kOwnLine.size() == kOwnFile.size());
+        if (clean_.code.find(kOwnLine) == std::string::npos &&
+            clean_.code.find(kOwnFile) == std::string::npos)
+            return;
         std::vector<std::pair<std::size_t, int>> places;
         int number = 0;
         for (std::string_view rest = clean_.code; !rest.empty();) {
@@ -134,8 +139,9 @@ class Scanner {
             if (word == "line") return;
             if (word == "define") continue;
             for (const std::string_view token : tokens)
-                if (token == kOwnLine)
-                    places.emplace_back(static_cast<std::size_t>(token.data() - clean_.code.data()), number);
+                if (token == kOwnLine || token == kOwnFile)
+                    places.emplace_back(static_cast<std::size_t>(token.data() - clean_.code.data()),
+                                        token == kOwnLine ? number : 0);
         }
         for (const auto& [place, line] : places)
             for (std::string* const text : {&clean_.text, &clean_.code})
@@ -163,6 +169,7 @@ class Scanner {
         close_quotation(start, end, '\'');
         if (is_outside && seen_code_) is_guarded_ = false;
         seen_code_ = true;
+        seen_statement_ = seen_statement_ || !trim(bare).starts_with('#');
         return check_nesting(bare, number);
     }
 
@@ -233,6 +240,8 @@ class Scanner {
         if (!result_.version.empty() && result_.version != version)
             return fail_at(directive, fmt::format("a second #version beside {}", result_.version),
                            "state the version once");
+        if (seen_statement_ && result_.version.empty())
+            return fail_at(directive, "#version stands behind code", "write it in the first line");
         result_.version = version;
         result_.version_line = directive;
         return true;
@@ -395,6 +404,7 @@ class Scanner {
     std::string_view line_;  ///< of the file, that is being read
     int includes_below_ = 0;
     bool seen_code_ = false;
+    bool seen_statement_ = false;  ///< code that is no directive
     bool is_guarded_ = true;
     Nesting nesting_;
 };

@@ -71,7 +71,10 @@ void add_tokens(ActiveText& found, const ReadPiece& read) {
     for (std::size_t i = 0; i < read.directives.size(); ++i) {
         add_up_to(read.tokens_before[i]);
         const auto& [word, rest, piece, line] = read.directives[i];
-        if (found.conditions.is_active()) found.directives.push_back(read.directives[i]);
+        if (found.conditions.is_active()) {
+            found.directives.push_back(read.directives[i]);
+            found.tokens_before.push_back(found.tokens.size());
+        }
         if (word == "define" || word == "undef" || word.starts_with("if") || word.starts_with("el") ||
             word == "endif")
             static_cast<void>(found.conditions.apply({std::string(word), std::string(rest), {}, {}}));

@@ -63,7 +63,8 @@ struct ActiveText {
 
     std::vector<Token> tokens;
     std::vector<ActiveDirective> directives;
-    Conditions conditions;  ///< at the end of the last piece
+    std::vector<std::size_t> tokens_before;  ///< each of the directives
+    Conditions conditions;                   ///< at the end of the last piece
 };
 
 /// That of a stage, without its first piece, the prologue. Where drivers get the text, the macros that they

@@ -1,23 +1,16 @@
 #include "validate/block_rules.hpp"
 
-#include <algorithm>
-#include <initializer_list>
-#include <set>
-#include <string>
-
 #include <fmt/format.h>
+
+#include "validate/token_check.hpp"
 
 namespace gobo {
 namespace {
 
-bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, word) != words.end();
-}
-
-class BlockCheck {
+class BlockCheck : TokenCheck {
   public:
     BlockCheck(StageKind kind, const ActiveText& text, const GlslVersion& version, bool is_shipped)
-        : kind_(kind), text_(text), tokens_(text.tokens), version_(version), is_shipped_(is_shipped) {}
+        : TokenCheck(text), kind_(kind), version_(version), is_shipped_(is_shipped) {}
 
     Diagnostics run() {
         int depth = 0;  // of braces
@@ -34,28 +27,6 @@ class BlockCheck {
     }
 
   private:
-    void say(std::size_t index, Severity severity, std::string message, std::string help) {
-        if (!told_.insert(message).second) return;  // one cause, one message
-        Diagnostic& diagnostic = found_.emplace_back();
-        diagnostic.severity = severity;
-        diagnostic.message = std::move(message);
-        diagnostic.help = std::move(help);
-        put_at(diagnostic, *tokens_[index].piece, tokens_[index].line);
-    }
-    void refuse(std::size_t index, std::string message, std::string help) {
-        say(index, Severity::error, std::move(message), std::move(help));
-    }
-
-    [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
-    [[nodiscard]] bool is_name(std::size_t index) const { return text_.is_name(index); }
-    [[nodiscard]] bool is_macro(std::size_t index) const { return text_.is_macro(index); }
-
-    /// The first of the words from one token to another; `end` where there is none.
-    [[nodiscard]] std::size_t find(std::size_t begin, std::size_t end,
-                                   std::initializer_list<std::string_view> words) const {
-        while (begin < end && !is_any(at(begin), words)) ++begin;
-        return begin;
-    }
     [[nodiscard]] bool has_macro(std::size_t begin, std::size_t end) const {
         while (begin < end && !is_macro(begin)) ++begin;
         return begin < end;
@@ -80,15 +51,6 @@ class BlockCheck {
                    fmt::format("write layout(...) {};", at(word)));
     }
 
-    /// The `)` that closes the bracket at a token; `end` where none does.
-    [[nodiscard]] std::size_t closing(std::size_t bracket, std::size_t end) const {
-        for (int depth = 0; bracket < end; ++bracket) {
-            if (at(bracket) == "(") ++depth;
-            if (at(bracket) == ")" && --depth == 0) break;
-        }
-        return bracket;
-    }
-
     /// A block whose `{` is at `brace`; its declaration begins at `begin`.
     void check_block(std::size_t begin, std::size_t brace) {
         const std::size_t word = storage(begin, brace);
@@ -96,12 +58,15 @@ class BlockCheck {
         const std::string_view name = at(brace - 1);
         check_located_array(begin, brace);
         if (is_shipped_ && !has_macro(begin, brace)) check_order(begin, word, brace);
+        const std::size_t old = find(brace, closing(brace, tokens_.size()), {"varying", "attribute"});
+        if (is_any(at(old), {"varying", "attribute"}) && !is_macro(old))
+            refuse(old, fmt::format("a member of a block cannot be '{}'", at(old)), "take it out");
         if (!is_any(at(word), {"uniform", "buffer"})) return;
         const auto is = [&](std::string_view qualifier) { return find(begin, brace, {qualifier}) < brace; };
         const bool is_buffer = at(word) == "buffer";
         const bool may_state_layout = has_macro(begin, brace);
         if (is_shipped_ && !is_buffer && !is("std140") && !is_std140_stated_ && !may_state_layout)
-            say(brace - 1, Severity::warning,
+            say(Severity::warning, *tokens_[brace - 1].piece, tokens_[brace - 1].line,
                 fmt::format("the uniform block '{}' does not state std140: drivers lay it out as they like",
                             name),
                 "write layout(std140) before uniform, or ask the driver for every offset");
@@ -116,6 +81,7 @@ class BlockCheck {
                        fmt::format("'{}' in the block '{}', which states neither std140 nor std430", at(end),
                                    name),
                        "write layout(std140) before the block");
+            check_member(end);
             const bool is_unsized = at(end) == "[" && at(end + 1) == "]";
             if (!is_unsized || !is_buffer) continue;
             const std::size_t last = find(end, tokens_.size(), {";", "}"});
@@ -123,6 +89,8 @@ class BlockCheck {
                 refuse(end, "only the last member of a buffer block may be an array without a size",
                        "give it a size, or move it to the end");
         }
+        if (is_name(end + 1) && at(end + 2) == "[" && at(end + 3) == "]")
+            refuse(end + 1, fmt::format("the array of blocks '{}' has no size", at(end + 1)), "give it one");
         if (!version_.es && version_.number == 140 && is_name(end + 1) && !is_macro(end + 1))
             refuse(end + 1,
                    fmt::format("the block's name for its instance, '{}', came with GLSL 1.50", at(end + 1)),
@@ -146,6 +114,16 @@ class BlockCheck {
                    "write it before its members");
     }
 
+    /// `layout(shared) vec4 tint;`: glslang takes it, of those that lay out a block.
+    void check_member(std::size_t word) {
+        if (at(word) != "layout") return;
+        const std::size_t end = closing(word + 1, tokens_.size());
+        const std::size_t packing = find(word, end, {"shared", "packed"});
+        if (packing < end)
+            refuse(packing, fmt::format("a member of a block cannot state '{}'", at(packing)),
+                   "state it before the block");
+    }
+
     /// `layout(location = 1) out B { vec4 tint; } b[2];`, but where each vertex has its element: drivers know
     /// no locations of its members.
     void check_located_array(std::size_t begin, std::size_t brace) {
@@ -161,14 +139,10 @@ class BlockCheck {
     }
 
     StageKind kind_;
-    const ActiveText& text_;
-    const std::vector<Token>& tokens_;
     GlslVersion version_;
     bool is_shipped_;                ///< drivers get the text
     bool has_layout_ = false;        ///< `layout(std430) buffer;` stands above, or what is like it
     bool is_std140_stated_ = false;  ///< `layout(std140) uniform;` stands above
-    std::set<std::string> told_;
-    Diagnostics found_;
 };
 
 }  // namespace

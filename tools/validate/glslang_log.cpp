@@ -43,7 +43,8 @@ void explain_rewriting(Diagnostic& diagnostic, const Piece& piece, int line) {
     // What the composer itself puts there: the line's number, and what is as wrong as a lone quotation mark.
     const auto is_composers = [&](std::string_view token) {
         return (token == "'" && own.find('"') != std::string::npos) ||
-               (own.find("__LINE__") != std::string::npos && token == std::to_string(line));
+               (own.find("__LINE__") != std::string::npos && token == std::to_string(line)) ||
+               (own.find("__FILE__") != std::string::npos && token == "0");
     };
     for (const std::string_view token : tokens_of(made))
         if (std::ranges::find(written, token) == written.end() && !is_composers(token)) {
@@ -121,6 +122,10 @@ std::string help_of_lost(std::string_view message) {
     if (message.starts_with("'gl_ClipVertex' : "))
         return "it went with the fixed clip planes: write gl_ClipDistance[i] = dot(gl_ClipPlane[i], "
                "position), which GLSL has from 1.30 on";
+    if (message.ends_with(" : Reserved word.") && message.find("2DRect") != std::string_view::npos)
+        return "write #extension GL_ARB_texture_rectangle : enable, or state #version 140";
+    if (message.starts_with("'filename-based __FILE__' : "))
+        return "write 0: a stage is one text to drivers, whose files they do not know";
     constexpr std::array<std::string_view, 4> kNoise = {
         "'noise1' : ", "'noise2' : ", "'noise3' : ", "'noise4' : "};
     if (message.ends_with("no matching overloaded function found") &&

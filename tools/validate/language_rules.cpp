@@ -12,7 +12,9 @@
 #include "compose/tokens.hpp"
 #include "core/text.hpp"
 #include "validate/block_rules.hpp"
+#include "validate/function_rules.hpp"
 #include "validate/plain_messages.hpp"
+#include "validate/token_check.hpp"
 
 namespace gobo {
 namespace {
@@ -22,30 +24,28 @@ constexpr std::array<std::string_view, 3> kAuxiliary = {"centroid", "sample", "p
 constexpr std::array<std::string_view, 3> kMultisampled = {"image2DMS", "iimage2DMS", "uimage2DMS"};
 constexpr std::array<std::string_view, 4> kRemoved = {"gl_MaxTextureUnits", "gl_MaxTextureCoords",
                                                       "gl_MaxClipPlanes", "gl_MaxLights"};
+constexpr std::array<std::string_view, 9> kPrimitives = {
+    "points",     "lines",          "lines_adjacency", "triangles", "triangles_adjacency",
+    "line_strip", "triangle_strip", "quads",           "isolines"};
+/// Layouts of which drivers let the last count.
+constexpr std::array<std::string_view, 7> kRepeatable = {"std140",    "std430",       "shared", "packed",
+                                                         "row_major", "column_major", "binding"};
 /// What `compatibility = true` makes of gl_FragColor and gl_FragData.
 constexpr std::array<std::string_view, 2> kOldOutputs = {"legacy_FragColor", "legacy_FragData"};
-
-bool is_any(std::string_view word, std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, word) != words.end();
-}
-bool is_any(std::string_view word, const auto& words) {
-    return std::ranges::find(words, word) != words.end();
-}
 
 /// "4.20", or "ES 3.10".
 std::string version_text(int number, bool es) {
     return fmt::format("{}{}.{:02}", es ? "ES " : "", number / 100, number % 100);
 }
 
-class LanguageCheck {
+class LanguageCheck : TokenCheck {
   public:
     LanguageCheck(StageKind kind, const std::vector<const Piece*>& pieces, const ActiveText& text,
                   Dialect dialect)
-        : kind_(kind),
+        : TokenCheck(text),
+          kind_(kind),
           is_shipped_(!is_spirv(dialect)),
           pieces_(pieces),
-          text_(text),
-          tokens_(text.tokens),
           prologue_(pieces.front()->text),
           version_(version_of(prologue_)) {}
 
@@ -58,26 +58,19 @@ class LanguageCheck {
         if (version_.number >= 130 && old_outputs_.size() > 1)  // before, glslang minds it
             found_.push_back(color_and_data_message(pieces_));
         check_declarations();
-        std::ranges::move(check_blocks(kind_, text_, version_, is_shipped_), std::back_inserter(found_));
+        append(found_, check_functions(text_, prologue_));
+        append(found_, check_blocks(kind_, text_, version_, is_shipped_));
         return std::move(found_);
     }
 
   private:
     void refuse(const Piece& piece, int line, std::string message, std::string help) {
-        if (!told_.insert(message).second) return;  // one cause, one message
-        Diagnostic& diagnostic = found_.emplace_back();
-        diagnostic.message = std::move(message);
-        diagnostic.help = std::move(help);
-        put_at(diagnostic, piece, line);
+        say(Severity::error, piece, line, std::move(message), std::move(help));
     }
     void warn(const Piece& piece, int line, std::string message, std::string help) {
-        const std::size_t known = found_.size();
-        refuse(piece, line, std::move(message), std::move(help));
-        if (found_.size() > known) found_.back().severity = Severity::warning;
+        say(Severity::warning, piece, line, std::move(message), std::move(help));
     }
-    void refuse(const Token& token, std::string message, std::string help) {
-        refuse(*token.piece, token.line, std::move(message), std::move(help));
-    }
+    using TokenCheck::refuse;
 
     [[nodiscard]] bool is_before(int desktop) const { return !version_.es && version_.number < desktop; }
     /// Whether the prologue states an extension; of `_geometry_shader`, any that ends so.
@@ -129,7 +122,8 @@ class LanguageCheck {
         if (is_any(word, {"define", "if", "elif"}))
             for (const std::string_view token : tokens) check_own_line(token, piece, number);
         constexpr std::array<std::string_view, 5> invariant_all = {"STDGL", "invariant", "(", "all", ")"};
-        if (word == "pragma" && kind_ == StageKind::fragment && std::ranges::equal(tokens, invariant_all))
+        if (word == "pragma" && kind_ == StageKind::fragment &&
+            version_.number >= (version_.es ? 300 : 120) && std::ranges::equal(tokens, invariant_all))
             refuse(piece, number, "a fragment stage cannot state #pragma STDGL invariant(all)",
                    "state it in the vertex stage alone");
     }
@@ -141,14 +135,16 @@ class LanguageCheck {
                  "write the number itself: files are joined, and drivers count the lines in their own ways");
     }
 
-    [[nodiscard]] std::string_view at(std::size_t index) const { return text_.at(index); }
-    [[nodiscard]] bool is_name(std::size_t index) const { return text_.is_name(index); }
-    [[nodiscard]] bool is_macro(std::size_t index) const { return text_.is_macro(index); }
-
     void check_token(std::size_t index) {
         const Token& token = tokens_[index];
         if (is_any(token.text, kOldOutputs) && !token.piece->is_shipped) old_outputs_.insert(token.text);
-        if (token.text == "struct") structs_.insert(at(index + 1));
+        if (token.text == "struct") {
+            structs_.insert(at(index + 1));
+            if (at(index + 1).starts_with("gl_"))
+                refuse(token,
+                       fmt::format("the struct '{}' begins with gl_, as GLSL's own names do", at(index + 1)),
+                       "choose another name");
+        }
         check_own_line(token.text, *token.piece, token.line);
         if (token.text == "layout" && at(index + 1) == "(") return check_layout(index + 2);
         // A member may be called so.
@@ -165,6 +161,12 @@ class LanguageCheck {
             refuse(token,
                    fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
                    "choose another name");
+        const std::size_t type = index + (is_any(at(index + 1), kPrecisions) ? 2 : 1);
+        const bool is_whole = at(type) == "int" || at(type).starts_with("ivec");
+        if (token.text == "attribute" && !is_macro(index) && is_before(120) &&
+            is_whole)  // drivers take it from then on
+            refuse(token, fmt::format("a vertex input of type {} came with GLSL 1.20", at(type)),
+                   "make it a float, or state #version 120");
         const bool is_removed = is_any(token.text, kRemoved);
         if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
             refuse(token,
@@ -226,12 +228,38 @@ class LanguageCheck {
             refuse(tokens_[begin],
                    "an output of index 1 stands at location 0 alone (MAX_DUAL_SOURCE_DRAW_BUFFERS)",
                    "blend by two sources in the first output");
+        check_repeated(begin, end);
         for (std::size_t i = begin; i < end; ++i) {
             const bool is_qualifier = i == begin || at(i - 1) == ",";
             const NameSince* since = is_qualifier ? layout_since(at(i)) : nullptr;
             if (since != nullptr && !(at(i) == "offset" && counts_atomically))
                 check_since(tokens_[i], *since, fmt::format("layout({})", at(i)));
         }
+    }
+
+    /// `layout(points, triangles) in;` and, before GLSL 4.40, `layout(location = 1, location = 2)`.
+    void check_repeated(std::size_t begin, std::size_t end) {
+        std::string_view primitive;
+        std::set<std::string_view> stated;
+        const bool may_repeat =
+            (!version_.es && version_.number >= 440) || has_extension("GL_ARB_enhanced_layouts");
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!is_name(i) || (i != begin && at(i - 1) != ",")) continue;
+            if (is_any(at(i), kPrimitives) && is_any(primitive, kPrimitives) && primitive != at(i))
+                refuse(tokens_[i], fmt::format("layout states both {} and {}", primitive, at(i)),
+                       "state one of them");
+            if (is_any(at(i), kPrimitives)) primitive = at(i);
+            if (!stated.insert(at(i)).second && !may_repeat && !is_any(at(i), kRepeatable))
+                refuse(tokens_[i], fmt::format("layout states '{}' twice", at(i)), "state it once");
+        }
+        const bool may_follow =
+            version_.es ? version_.number >= 310
+                        : version_.number >= 420 || has_extension("GL_ARB_shading_language_420pack");
+        if (at(end + 1) == "layout" && !may_follow)
+            refuse(tokens_[end + 1],
+                   fmt::format("one layout stands behind another, which came with GLSL {}",
+                               version_text(version_.es ? 310 : 420, version_.es)),
+                   "write them as one");
     }
 
     void check_precision(std::size_t index) {
@@ -273,9 +301,7 @@ class LanguageCheck {
             if (is_before(130) && token == "invariant" && at(i + 1).starts_with("gl_Frag"))
                 refuse(tokens_[i], fmt::format("'{}' cannot be invariant before GLSL 1.30", at(i + 1)),
                        "take it out: what a vertex stage writes can be invariant");
-            if (depth > 0 && mark == '(' && is_before(1000) && version_.number >= 120) check_prototype(i);
             if (depth != 0) continue;
-            if (mark == '(' && is_name(i - 1)) check_header(begin, i);
             if (mark == '[') check_distances(i);
             if (mark == ';') check_statement(begin, i);
             if (mark == ';' || mark == '}') begin = i + 1;
@@ -321,25 +347,6 @@ class LanguageCheck {
                type.starts_with("ivec") || type.starts_with("bvec");
     }
 
-    /// The `(` of a function's head; its declaration begins at `begin`, behind the `}` of a struct that it is
-    /// to return.
-    void check_header(std::size_t begin, std::size_t bracket) {
-        for (std::size_t i = bracket; i + 1 < tokens_.size() && !is_any(at(i), {")", ";"}); ++i)
-            if (at(i) == "void" && !is_macro(bracket - 1) &&
-                (is_any(at(i + 1), {","}) || (at(i + 1) == ")" && i > bracket + 1)))
-                refuse(tokens_[i],
-                       fmt::format("'void' stands beside other parameters of '{}'", at(bracket - 1)),
-                       "take it out");
-        bool has_struct = begin > 0 && at(begin - 1) == "}" && bracket == begin + 1 &&
-                          at(begin) != "layout" && !is_macro(begin);
-        for (std::size_t i = bracket; i < tokens_.size() && !is_any(at(i), {")", ";"}); ++i)
-            has_struct = has_struct || (at(i) == "struct" && at(i + 2) == "{");
-        if (has_struct)
-            refuse(tokens_[bracket],
-                   fmt::format("a struct is declared in the head of the function '{}'", at(bracket - 1)),
-                   "declare it before");
-    }
-
     /// `layout(local_size_x = 8) in;`, of which all that there are agree (GLSL 4.60, 4.4.1.4).
     void check_local_size(std::size_t begin, std::size_t end) {
         if (kind_ != StageKind::compute || at(begin) != "layout" || at(end - 1) != "in") return;
@@ -375,18 +382,6 @@ class LanguageCheck {
                     fmt::format("write {} for it", kind_ == StageKind::vertex && at(i) == "attribute" ? "in"
                                                    : kind_ == StageKind::vertex                       ? "out"
                                                                                 : "in"));
-    }
-
-    /// `float f(float x);` within a function, by its `(`.
-    void check_prototype(std::size_t bracket) {
-        const std::size_t name = bracket - 1;
-        if (!is_name(name - 1) || !is_name(name)) return;
-        if (is_any(at(name - 1), {"return", "else", "do", "case"}) ||
-            is_any(at(name), {"if", "for", "while", "switch", "layout", "return"}) || is_macro(name - 1) ||
-            is_macro(name))
-            return;
-        refuse(tokens_[name], fmt::format("the function '{}' is declared within another", at(name)),
-               "declare it before, outside of any function");
     }
 
     /// `flat vec3 v;`, which is neither in nor out.
@@ -460,22 +455,18 @@ class LanguageCheck {
     StageKind kind_;
     bool is_shipped_;  ///< drivers get the text
     const std::vector<const Piece*>& pieces_;
-    const ActiveText& text_;
-    const std::vector<Token>& tokens_;
     const std::string& prologue_;
     GlslVersion version_;
     std::map<std::string_view, int> distances_;  ///< sizes of gl_ClipDistance and gl_CullDistance
     std::set<std::string_view> structs_;
     std::set<std::string_view> old_outputs_;
     std::array<std::string_view, 3> local_size_;  ///< that stands above
-    std::set<std::string> told_;
-    Diagnostics found_;
 };
 
 }  // namespace
 
 bool is_noted(std::string_view name) {
-    return is_any(name, {"layout", "packed", "row_major", "struct", "__LINE__"}) ||
+    return is_any(name, {"layout", "packed", "row_major", "struct", "__LINE__", "attribute"}) ||
            is_any(name, kPrecisions) || is_any(name, kAuxiliary) || is_any(name, kMultisampled) ||
            is_any(name, kRemoved) || is_any(name, kOldOutputs) || name_since(name) != nullptr;
 }
