@@ -305,12 +305,10 @@ Diagnostics GlslangStage::parse() {
     const bool asks = asks_for_tree(pieces_, read_);
     further_messages_ = has_switches || asks ? EShMsgAST : EShMsgDefault;
     Diagnostics found = parse_by_glslang(prologue);
-    // That a macro gives `defined`, or has "__" in its name in GLSL ES 1.00, is an error to glslang alone; it
-    // can be told to go on.
+    // That a macro gives `defined` is an error to glslang alone; it can be told to go on.
     const bool is_relaxed = std::ranges::any_of(found, [](const Diagnostic& diagnostic) {
         return diagnostic.message.starts_with(
-                   "'defined' : cannot use in preprocessor expression when expanded") ||
-               diagnostic.message.find("underscores are reserved, and an error") != std::string::npos;
+            "'defined' : cannot use in preprocessor expression when expanded");
     });
     if (is_relaxed) {
         further_messages_ |= EShMsgRelaxedErrors;
