@@ -32,8 +32,8 @@ constexpr std::time_t kFreshMark = 600;
 /// Seconds, after which whoever was writing a file is taken for dead.
 constexpr std::time_t kLongestWrite = 3600;
 
-/// More than so many seconds ago, or as far in the future: some clock was wrong, and the time says nothing.
-bool is_older(const ::timespec& time, std::time_t seconds) {
+/// More than so many seconds ago; or as far in the future, by a clock that was wrong.
+bool is_far_from_now(const ::timespec& time, std::time_t seconds) {
     const std::time_t now = std::time(nullptr);
     return time.tv_sec < now - seconds || time.tv_sec > now + seconds;
 }
@@ -154,7 +154,7 @@ std::optional<std::string> DiskCache::find(const Digest& key) {
         return std::nullopt;
     }
     // What was used longest ago goes first.
-    if (is_older(status.st_mtim, kFreshMark)) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+    if (is_far_from_now(status.st_mtim, kFreshMark)) ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
     return result;
 }
 
@@ -194,7 +194,7 @@ Diagnostics DiskCache::tidy() {
         std::uint64_t bytes = 0;
         for (const File& file : files) {
             if (file.is_result) bytes += file.bytes;
-            if (!file.is_result && is_older(file.used, kLongestWrite)) ::unlink(file.path.c_str());
+            if (!file.is_result && is_far_from_now(file.used, kLongestWrite)) ::unlink(file.path.c_str());
         }
         if (bytes <= most_bytes_ / kParts.size()) continue;
         std::erase_if(files, [](const File& file) { return !file.is_result; });

@@ -161,17 +161,20 @@ class LanguageCheck : TokenCheck {
             refuse(token,
                    fmt::format("'{}' is no name to every driver: some keep it for the language", token.text),
                    "choose another name");
-        const std::size_t type = index + (is_any(at(index + 1), kPrecisions) ? 2 : 1);
-        const bool is_whole = at(type) == "int" || at(type).starts_with("ivec");
-        if (token.text == "attribute" && !is_macro(index) && is_before(120) &&
-            is_whole)  // drivers take it from then on
-            refuse(token, fmt::format("a vertex input of type {} came with GLSL 1.20", at(type)),
-                   "make it a float, or state #version 120");
+        if (token.text == "attribute" && is_before(120) && !is_macro(index)) check_attribute(index);
         const bool is_removed = is_any(token.text, kRemoved);
         if (is_removed && version_.number >= 140 && version_.profile != "compatibility")
             refuse(token,
                    fmt::format("'{}' went with GLSL 1.40, but for the compatibility profile", token.text),
                    "take it out");
+    }
+
+    /// `attribute ivec4 bones;`: GLSL has it from 1.30 on (4.3.4), drivers from 1.20 on.
+    void check_attribute(std::size_t index) {
+        const std::string_view type = at(index + (is_any(at(index + 1), kPrecisions) ? 2 : 1));
+        if (type == "int" || type.starts_with("ivec"))
+            refuse(index, fmt::format("a vertex input of type {} came with GLSL 1.20", type),
+                   "make it a float, or state #version 120");
     }
 
     void check_since(const Token& token, const NameSince& since, const std::string& what) {

@@ -20,11 +20,11 @@ namespace gobo {
     return std::ranges::find(words, word) != words.end();
 }
 
+/// What a class of rules over a stage's tokens is made from. The first of two same messages is kept.
 class TokenCheck {
   protected:
     explicit TokenCheck(const ActiveText& text) : text_(text), tokens_(text.tokens) {}
 
-    /// The same message is said once.
     void say(Severity severity, const Piece& piece, int line, std::string message, std::string help) {
         if (!told_.insert(message).second) return;
         Diagnostic& diagnostic = found_.emplace_back();
