@@ -235,9 +235,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadPieceRow{"include_half_closed", "#include \"a.glsl>\n",
                     "a.glsl:1:1: error: malformed #include\n    #include \"a.glsl>\n    ^\n"
                     "  help: write #include <feature> or #include \"folder/piece.glsl\"\n"},
-        BadPieceRow{"version_of_another_language",
-                    "#version 450\r#ifdef __cplusplus\r#version 1;system()//\r",
-                    "a.glsl:3:1: error: GLSL has no #version '1;system()'\n    #version 1;system()//\n    ^\n"
+        BadPieceRow{"version_of_another_language", "#version 450\r#version 1;system()//\r",
+                    "a.glsl:2:1: error: GLSL has no #version '1;system()'\n    #version 1;system()//\n    ^\n"
                     "  help: write a number that GLSL has and the profile alone: 330 core, 450, 300 es\n"},
         BadPieceRow{
             "version_with_more", "#version 330 core int a;\n",

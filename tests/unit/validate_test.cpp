@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spirv/unified1/spirv.hpp>
 
 #include "compose/compose.hpp"
 #include "compose/dialect.hpp"
@@ -302,6 +303,21 @@ TEST_F(Validate, LetsNoPieceCloseAnothersBracket) {
     files["a.glsl"] = "float a() {\n";
     files["b.glsl"] = "return 1.0; }\n";
     EXPECT_THAT(messages(), ElementsAre(HasSubstr("tiny.frag:4: error: 'oops'"))) << "which GLSL allows";
+}
+
+TEST_F(Validate, PutsDepthLayoutsOfAnExtensionIntoSpirv) {
+    files["tiny.vert"] = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+    files["tiny.frag"] =
+        "#version 330 core\n#extension GL_ARB_conservative_depth : require\n"
+        "layout(depth_less) out float gl_FragDepth;\nvoid main() { gl_FragDepth = 0.0; }\n";
+    const Validated validated = all();
+    EXPECT_THAT(validated.diagnostics, IsEmpty());
+    const SpirvModule& module = validated.stages.back().spirv;
+    const std::uint32_t head = 3U << spv::WordCountShift | spv::OpExecutionMode;
+    bool is_stated = false;
+    for (std::size_t i = 0; i + 2 < module.size(); ++i)
+        is_stated = is_stated || (module[i] == head && module[i + 2] == spv::ExecutionModeDepthLess);
+    EXPECT_TRUE(is_stated);
 }
 
 TEST_F(Validate, WantsAMain) {

@@ -232,8 +232,12 @@ class Scanner {
         return true;
     }
 
+    /// In a condition another one may be left out: where it is not, glslang minds it.
     Result<bool> take_version(const Directive& directive) {
         const std::string version(trim(directive.rest));
+        const bool is_other =
+            !is_glsl_version(version) || (!result_.version.empty() && result_.version != version);
+        if (is_other && !open_.empty()) return false;
         if (!is_glsl_version(version))
             return fail_at(directive, fmt::format("GLSL has no #version '{}'", version),
                            "write a number that GLSL has and the profile alone: 330 core, 450, 300 es");
@@ -306,10 +310,15 @@ class Scanner {
     /// have stood in a comment. `instead` takes its place: where something compiles it, that must be as
     /// wrong.
     void close_quotation(std::size_t start, std::size_t end, char instead) {
-        const std::string_view code = std::string_view(clean_.code).substr(start, end - start);
-        if (std::ranges::count(code, '"') % 2 == 0) return;
-        const std::size_t last = start + code.rfind('"');
-        clean_.text[last] = clean_.code[last] = instead;
+        for (std::size_t i = start; i < end; ++i) {
+            if (clean_.code[i] != '"') continue;
+            std::size_t last = i + 1;
+            while (last < end && clean_.code[last] != '"') last += clean_.code[last] == '\\' ? 2 : 1;
+            if (last < end)
+                i = last;
+            else
+                clean_.text[i] = clean_.code[i] = instead;
+        }
     }
 
     /// Blanks what stands behind #else and #endif: some drivers take it, to others it is an error.

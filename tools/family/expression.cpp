@@ -189,7 +189,7 @@ class Parser {
         const std::string_view before = text_.substr(0, at_ - back);
         const std::size_t last_line = before.find_last_of('\n') + 1;  // 0 where there is one line
         Place place = place_;
-        if (place.line > 0) place.line += static_cast<int>(std::ranges::count(before, '\n'));
+        if (place.column > 0) place.line += static_cast<int>(std::ranges::count(before, '\n'));
         if (place.column > 0)
             place.column = (last_line > 0 ? 1 : place.column) + static_cast<int>(before.size() - last_line);
         throw Diagnostic{.fault = fault_,

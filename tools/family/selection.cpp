@@ -180,7 +180,8 @@ std::vector<NamedKey> keys_of_text(std::string_view text, const std::string& pat
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // of an editor
     for (int line = 1; !text.empty(); ++line) {
         const auto end = std::min(text.find_first_of("\r\n"), text.size());
-        const std::string_view content = trim(text.substr(0, std::min(end, text.find('#'))));
+        const std::string_view whole = text.substr(0, end);
+        const std::string_view content = trim(whole.substr(0, whole.find('#')));
         if (!content.empty()) keys.push_back({std::string(content), {path, line, 0}});
         text.remove_prefix(end);
         text.remove_prefix(std::min<std::size_t>(text.starts_with("\r\n") ? 2 : 1, text.size()));

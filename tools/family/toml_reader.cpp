@@ -103,6 +103,13 @@ Place TomlReader::place_of_text(const toml::node& node) const {
     std::string_view line = line_of(text->second, place.line);
     line.remove_prefix(std::min(line.size(), static_cast<std::size_t>(place.column - 1)));
     const bool is_block = line.starts_with(R"(""")") || line.starts_with("'''");
+    const auto has_escapes = [&] {
+        const auto last = static_cast<int>(node.source().end.line);
+        for (int number = place.line; number <= last; ++number)
+            if (line_of(text->second, number).find('\\') != std::string_view::npos) return true;
+        return false;
+    };
+    if (line.starts_with('"') && has_escapes()) return {place.file, place.line, 0};
     if (is_block && line.size() == 3) return {place.file, place.line + 1, 1};
     place.column += is_block ? 3 : 1;
     return place;

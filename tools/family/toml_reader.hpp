@@ -37,6 +37,7 @@ class TomlReader {
     [[nodiscard]] Place place_of(const toml::source_region& region) const;
 
     /// Where the text of a string begins: behind the quotation marks and the line end that TOML leaves out.
+    /// Its line alone where the string has a backslash.
     [[nodiscard]] Place place_of_text(const toml::node& node) const;
 
     void error(const Place& place, std::string message, std::string help);

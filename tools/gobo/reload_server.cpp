@@ -22,11 +22,11 @@ constexpr std::size_t kMostUnsent = std::size_t{256} << 20;
 /// Each takes a descriptor, and builds need some.
 constexpr std::size_t kMostClients = 16;
 
-/// Whether a server listens there.
+/// Whether a program has the socket, of whatever kind.
 bool is_served(const sockaddr_un& address) {
     const int probe = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     const bool is = ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ||
-                    errno == EAGAIN;  // one that is stopped, with as many waiting as may
+                    errno != ECONNREFUSED;
     ::close(probe);
     return is;
 }
@@ -69,10 +69,10 @@ Result<std::unique_ptr<ReloadServer>> ReloadServer::open(const std::string& path
         if (is_served(address))
             return fail({.fault = Fault::file,
                          .place = {path},
-                         .message = "another gobo watch listens there",
+                         .message = "a program listens there, such as another gobo watch",
                          .help = "name another socket, or end it"});
         ::unlink(path.c_str());
-    } else if (struct stat status {}; ::lstat(path.c_str(), &status) == 0) {
+    } else if (struct stat status{}; ::lstat(path.c_str(), &status) == 0) {
         return fail({.fault = Fault::file,
                      .place = {path},
                      .message = "cannot be made a socket: something else is there",

@@ -149,6 +149,8 @@ void explain(Diagnostic& diagnostic) {
         diagnostic.message.starts_with("'#extension' : extension not supported"))
         diagnostic.help =
             "glslang, by which shaders are checked, does not know it: what it brings is refused";
+    if (diagnostic.message.starts_with("'floating-point suffix' : not supported"))
+        diagnostic.help = "take the suffix of the number out: 'f' came with GLSL 1.20 and ES 3.00";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported for this version"))
         diagnostic.help = "write '#extension GL_ARB_conservative_depth : require', or raise #version to 420";
     if (diagnostic.message.starts_with("'depth layout qualifier' : not supported with this profile"))
@@ -283,6 +285,11 @@ Diagnostics diagnostics_of_log(std::string_view log, const std::vector<const Pie
         return diagnostic.message == "'' : missing #endif";
     };
     if (!std::ranges::all_of(diagnostics, is_missing_end)) std::erase_if(diagnostics, is_missing_end);
+    // What these bring is taken all the same (depth_layouts.hpp).
+    std::erase_if(diagnostics, [](const Diagnostic& diagnostic) {
+        return diagnostic.message.ends_with("not supported: GL_ARB_conservative_depth") ||
+               diagnostic.message.ends_with("not supported: GL_AMD_conservative_depth");
+    });
     const auto add_rest = [&](Severity severity, const char* what, int count) {
         if (count > kMostTold)
             diagnostics.push_back({.severity = severity,

@@ -18,6 +18,7 @@
 #include "reflect/reflect.hpp"
 #include "spirv/transform.hpp"
 #include "validate/declaration.hpp"
+#include "validate/depth_layouts.hpp"
 #include "validate/glslang_log.hpp"
 #include "validate/language_rules.hpp"
 #include "validate/missing_built_ins.hpp"
@@ -213,7 +214,8 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
     if (!is_spirv(dialect_)) built_ins.declarations += driver_declarations(prologue, pieces_);
     const bool is_shipped = !is_spirv(dialect_);
     const auto seen_by_drivers = [&](const std::string& text) {
-        const std::string seen = is_shipped ? without_own_layouts(with_driver_macros(text)) : text;
+        std::string seen = is_shipped ? without_own_layouts(with_driver_macros(text)) : text;
+        if (takes_depth_layouts_) seen = without_depth_layouts(std::move(seen));
         return without_formats_ ? without_formats(seen) : seen;
     };
     shader_->prologue = seen_by_drivers(prologue) +
@@ -221,7 +223,7 @@ Diagnostics GlslangStage::parse_as(const std::string& prologue, bool for_spirv, 
                         built_ins.declarations;
     for (const Piece* piece : pieces_) {
         const bool is_prologue = piece == pieces_.front();
-        const bool is_changed = !built_ins.renamed.empty() || without_formats_ ||
+        const bool is_changed = !built_ins.renamed.empty() || without_formats_ || takes_depth_layouts_ ||
                                 (is_shipped && !is_prologue && read_.of(*piece).differs_from_drivers);
         const std::string& text =
             is_prologue ? shader_->prologue
@@ -301,6 +303,7 @@ Diagnostics GlslangStage::parse_as_version(const std::string& prologue) {
 Diagnostics GlslangStage::parse() {
     without_formats_ = false;
     const std::string prologue = without_requirements(pieces_.front()->text);
+    takes_depth_layouts_ = kind_ == StageKind::fragment && takes_depth_layouts(prologue);
     const bool has_switches = has_strict_switches(pieces_);
     const bool asks = asks_for_tree(pieces_, read_);
     further_messages_ = has_switches || asks ? EShMsgAST : EShMsgDefault;
@@ -327,6 +330,7 @@ Diagnostics GlslangStage::parse() {
         const ActiveText text = active_text(pieces_, dialect_, read_);
         stated_ = stated_in(text, default_precisions(kind_, pieces_.front()->text));
         makes_invariant_ = kind_ == StageKind::vertex && makes_outputs_invariant(text, version_of(prologue));
+        if (takes_depth_layouts_) depth_mode_ = depth_mode(text);
         more = check_language(kind_, pieces_, text, dialect_);
         std::ranges::move(more, std::back_inserter(found));
     }
@@ -430,7 +434,11 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     }
     const glslang::TIntermediate& intermediate = *program.getIntermediate(language_of(kind_));
     ValidatedStage stage;
-    stage.spirv = spirv_of(intermediate, pieces_, debug_information);
+    const auto make_spirv = [&] {
+        SpirvModule module = spirv_of(intermediate, pieces_, debug_information);
+        return depth_mode_ ? with_depth_mode(std::move(module), *depth_mode_) : module;
+    };
+    stage.spirv = make_spirv();
     GOBO_TRY_DO(refuse_capabilities(stage.spirv, pieces_, dialect_));
     if (is_spirv(dialect_)) {
         GOBO_TRY(stage.spirv, spirv::with_largest_arrays(stage.spirv, count_ids(pieces_.front()->text)));
@@ -474,7 +482,7 @@ Result<ValidatedStage> GlslangStage::generate(bool debug_information, bool place
     if (!is_spirv(dialect_) && (bindings_mapped_ || lacks_locations(stage.interface))) {
         is_changed_ = true;
         if (!program.mapIO()) return glslang_fault(program.getInfoLog());
-        stage.spirv = spirv_of(intermediate, pieces_, debug_information);
+        stage.spirv = make_spirv();
     }
     return stage;
 }

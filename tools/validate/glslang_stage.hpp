@@ -1,8 +1,10 @@
 // One stage in glslang's hands: parsed once, linked with its partners, then turned into SPIR-V.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,8 +66,10 @@ class GlslangStage {
     std::unique_ptr<Shader> shader_;
     bool bindings_mapped_ = false;
     bool is_changed_ = false;
-    bool without_formats_ = false;  ///< glslang sees no formats of images
-    Precisions precisions_;         ///< of the stage as OpenGL ES, where it is that
+    bool without_formats_ = false;      ///< glslang sees no formats of images
+    bool takes_depth_layouts_ = false;  ///< by an extension: glslang sees none of them
+    std::optional<std::uint32_t> depth_mode_;
+    Precisions precisions_;  ///< of the stage as OpenGL ES, where it is that
     Stated stated_;
     bool makes_invariant_ = false;          ///< each of its outputs, by a pragma that glslang does not read
     int further_messages_ = EShMsgDefault;  ///< beside those that the version asks for

@@ -208,6 +208,11 @@ class LanguageCheck : TokenCheck {
 
     /// The qualifiers of a layout(...), which begin at the token.
     void check_layout(std::size_t begin) {
+        const bool has_order = is_before(420) && !has_extension("GL_ARB_shading_language_420pack");
+        if (begin > 2 && has_order && is_any(at(begin - 3), {"in", "out", "uniform"}))
+            refuse(tokens_[begin - 2],
+                   fmt::format("'{}' stands before 'layout', which came with GLSL 4.20", at(begin - 3)),
+                   fmt::format("write layout(...) {}", at(begin - 3)));
         std::size_t end = begin;
         for (int depth = 1; end < tokens_.size(); ++end) {
             if (at(end) == "(") ++depth;
@@ -267,6 +272,9 @@ class LanguageCheck : TokenCheck {
 
     void check_precision(std::size_t index) {
         const std::string_view next = at(index + 1);
+        if (is_any(next, kPrecisions) && !is_macro(index) && !is_macro(index + 1))
+            refuse(tokens_[index + 1], fmt::format("'{}' stands behind '{}'", next, at(index)),
+                   "state one precision");
         if (is_any(next, {"bool", "bvec2", "bvec3", "bvec4", "double"}) || next.starts_with("dvec") ||
             next.starts_with("dmat"))
             refuse(tokens_[index], fmt::format("'{}' before {}, which has no precision", at(index), next),

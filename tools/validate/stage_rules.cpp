@@ -111,11 +111,16 @@ class StageCheck {
 
     void check_position() {
         const Part position = spirv::built_in_output(module_, spv::BuiltInPosition);
-        if (position.first == Id::none || !usage_.written.contains(position))
-            warn({{pieces_.back()->path, 0, 0}, "", false},
-                 fmt::format("the {} stage never writes gl_Position", name_of(kind_)),
-                 "write it in main(): where the vertex is drawn is undefined");
-        else if (kind_ != StageKind::geometry && !usage_.always_written.contains(position))
+        if (position.first == Id::none || !usage_.written.contains(position)) {
+            const GlslVersion version = version_of(pieces_.front()->text);
+            // Drivers refuse to link it before GLSL 1.40, later it is undefined.
+            const bool is_refused =
+                kind_ == StageKind::vertex && !version.es && version.number < 140 && !is_spirv(dialect_);
+            found_.push_back(diagnostic_at(
+                {{pieces_.back()->path, 0, 0}, "", false}, is_refused ? Severity::error : Severity::warning,
+                fmt::format("the {} stage never writes gl_Position", name_of(kind_)),
+                "write it in main(): where the vertex is drawn is undefined"));
+        } else if (kind_ != StageKind::geometry && !usage_.always_written.contains(position))
             warn(use_of("gl_Position", pieces_), "some paths through main() do not write gl_Position",
                  "write it on all of them: where the vertex is drawn is undefined");
     }

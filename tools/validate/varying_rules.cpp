@@ -242,15 +242,16 @@ class VaryingCheck {
     }
 
     void check_missing(const Variable& input) {
+        const std::string_view root = root_of(input.name);
+        const std::string old = name_in_files(root);
+        const bool is_old = old != root;  // of a family with `compatibility = true`
         std::string message =
             fmt::format("the {} stage reads '{}', which the {} stage does not write", name_of(later_->kind),
-                        with_extents(input.type + " " + input.name, input.array), name_of(earlier_->kind));
-        std::string help =
-            fmt::format("declare and write it as an output of the {} stage", name_of(earlier_->kind));
-        const std::string_view root = root_of(input.name);
-        if (const std::string old = name_in_files(root);
-            old != root)  // of a family with `compatibility = true`
-            help = fmt::format("write {} in the {} stage", old, name_of(earlier_->kind));
+                        with_extents(input.type + " " + (is_old ? old : input.name), input.array),
+                        name_of(earlier_->kind));
+        std::string help = is_old ? fmt::format("write {} in the {} stage", old, name_of(earlier_->kind))
+                                  : fmt::format("declare and write it as an output of the {} stage",
+                                                name_of(earlier_->kind));
         for (const Variable& output : earlier_->interface.outputs) {
             if (output.name != input.name) continue;
             const auto located = [](int location) {
