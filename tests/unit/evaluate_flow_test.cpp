@@ -190,7 +190,7 @@ TEST(Flow, AnEndlessLoopIsAnErrorAtItsPlace) {
     const Result<Outputs> outputs = run<float>(program, invocations, options);
     ASSERT_FALSE(outputs);
     EXPECT_EQ(to_text(outputs.error().front()),
-              "test.glsl:9: error: a loop is not left after 1000 iterations\n");
+              "test.glsl:9: error: a loop takes more than 1000 iterations\n");
 }
 
 }  // namespace

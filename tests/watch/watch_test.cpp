@@ -184,6 +184,17 @@ TEST_P(Watch, SeesFilesThatComeAndGo) {
     ASSERT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
 }
 
+TEST_P(Watch, MissesAFolderThatWasThere) {
+    EXPECT_TRUE(takes([&] { save(folder + "/mine/fog/linear.glsl", "vec4 seen() { return vec4(0.01); }\n"); },
+                      "fog=linear", "vec4(0.01)"));
+    fs::rename(folder + "/mine", folder + "/away");
+    ASSERT_TRUE(await([&] { return take() >= 0 && !application->errors().empty(); }));
+    EXPECT_THAT(application->errors(), HasSubstr("/mine' is no folder any more"));
+    EXPECT_THAT(text_of(folder + "/out/tiny.hpp"), HasSubstr("vec4(0.01)"));
+    fs::rename(folder + "/away", folder + "/mine");
+    ASSERT_TRUE(await([&] { return take() >= 0 && application->errors().empty(); }));
+}
+
 TEST_P(Watch, SeesTheFileThatALinkLeadsTo) {
     const std::string elsewhere = around + "/kept/family.toml";
     std::string family = text_of(folder + "/tiny.toml");

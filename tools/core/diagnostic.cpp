@@ -98,12 +98,12 @@ std::string to_text(const Diagnostic& diagnostic, bool color) {
     const auto severity = static_cast<std::size_t>(diagnostic.severity);
     std::string text = fmt::format("{}: {}{}:{} {}", place_text(diagnostic.place),
                                    color ? kColors[severity] : "", kNames[severity], color ? "\033[0m" : "",
-                                   printable(shortened(diagnostic.message, kLongestMessage)));
+                                   one_line(shortened(diagnostic.message, kLongestMessage)));
     if (!diagnostic.subject.empty()) text += fmt::format(" [{}]", subject_text(diagnostic));
     text += '\n';
     if (!diagnostic.quoted_line.empty()) text += quotation(diagnostic);
     if (!diagnostic.help.empty())
-        text += fmt::format("  help: {}\n", printable(shortened(diagnostic.help, kLongestHelp)));
+        text += fmt::format("  help: {}\n", one_line(shortened(diagnostic.help, kLongestHelp)));
     return text;
 }
 

@@ -70,6 +70,9 @@ Diagnostics check_depfile_names(const std::string& output, const std::set<std::s
         else if (!ninja_reads(file))
             misread.push_back(file);
     Diagnostics warnings;
+    if (std::ranges::all_of(files, [](const std::string& file) { return has_any(file, "="); }))
+        warn({files.begin(), files.end()}, "make takes it for a variable, and will not see the file change",
+             warnings);
     warn(left_out, "build tools will not see the file change", warnings);
     warn(misread, "make reads it, but ninja builds every time", warnings);
     if (!make_reads(output) || !ninja_reads(output) || has_any(output, "=%"))
@@ -81,9 +84,15 @@ std::string emit_depfile(const std::vector<std::string>& outputs, const std::vec
     std::vector<std::string> targets;
     std::ranges::transform(outputs, std::back_inserter(targets), escaped);
     std::string text = fmt::format("{}:", fmt::join(targets, " "));
+    // To make a '=' in the first name means a variable.
+    const auto first = std::ranges::find_if(
+        files, [](const std::string& file) { return make_reads(file) && !has_any(file, "="); });
     std::set<std::string_view> named;
-    for (const std::string& file : files)
+    const auto add = [&](const std::string& file) {
         if (make_reads(file) && named.insert(file).second) text += " \\\n  " + escaped(file);
+    };
+    if (first != files.end()) add(*first);
+    std::ranges::for_each(files, add);
     return text + '\n';
 }
 

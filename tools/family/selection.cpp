@@ -87,13 +87,16 @@ std::uint64_t largest_product(const KeySpace& space, std::size_t strength) {
     return product;
 }
 
-/// How many combinations of the values of `strength` features there are.
+/// How many combinations of the values of `strength` features that vary there are.
 double combinations(const KeySpace& space, std::size_t strength) {
+    const OpenPaths paths(space);
     std::vector<double> of(strength + 1, 0);  // by the number of features, of those up to here
     of[0] = 1;
-    for (std::size_t feature = 0; feature < space.feature_count(); ++feature)
-        for (std::size_t chosen = strength; chosen > 0; --chosen)
-            of[chosen] += of[chosen - 1] * static_cast<double>(space.value_count(feature));
+    for (std::size_t feature = 0; feature < space.feature_count(); ++feature) {
+        const auto values = static_cast<double>(std::ranges::count(paths.allowed(feature), 1));
+        for (std::size_t chosen = strength; chosen > 0 && values > 1; --chosen)
+            of[chosen] += of[chosen - 1] * values;
+    }
     return of[strength];
 }
 

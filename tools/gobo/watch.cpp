@@ -3,8 +3,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -129,6 +132,8 @@ class Watcher {
                               .help = "name files, not standard input or a pipe"});
                 if (is_first) return tl::unexpected(std::move(built).error());
             }
+            if (auto there = refuse_lost_folders(); built && !there)
+                built = tl::unexpected(std::move(there).error());
             do {
                 std::vector<FileQuestion> questions = files.questions();
                 for (const FileQuestion& question : tell(built, start, next != Next::change))
@@ -144,6 +149,19 @@ class Watcher {
     /// What follows a wait: a build as something changed, or a second try to build, or to write what is
     /// built.
     enum class Next { end, change, build, write };
+
+    /// One may not be there yet; without one that was there, other pieces would be taken in silence.
+    Result<void> refuse_lost_folders() {
+        for (const std::string& folder : world_.options.include_folders) {
+            std::error_code error;
+            if (std::filesystem::is_directory(folder, error))
+                folders_.insert(folder);
+            else if (folders_.contains(folder))
+                return fail(Fault::file, fmt::format("-I '{}' is no folder any more", folder),
+                            "put it back, or watch without it");
+        }
+        return {};
+    }
 
     /// Writes what was built, and says so; of a second try not what was said of the first. That what was
     /// written is there is asked, too.
@@ -211,6 +229,7 @@ class Watcher {
     MemoryCache memory_;
     ResultCache& cache_;
     std::unique_ptr<ReloadServer> server_;
+    std::set<std::string> folders_;  ///< of -I, that were there
     Ending ending_;
     FileWatch watch_;
     std::string told_;                ///< the errors of the last state

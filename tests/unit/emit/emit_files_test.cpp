@@ -84,6 +84,7 @@ TEST(Depfile, EscapesWhatMakeWouldRead) {
     EXPECT_EQ(emit_depfile({"a b.hpp"}, {"c#d", "$HOME/e", "back\\slash", "odd\\ name"}),
               "a\\ b.hpp: \\\n  c\\#d \\\n  $$HOME/e \\\n  back\\slash \\\n  odd\\\\\\ name\n");
     EXPECT_EQ(emit_depfile({"a.hpp"}, {"d:e", "left;out", "line\nend"}), "a.hpp: \\\n  d\\:e\n");
+    EXPECT_EQ(emit_depfile({"a.hpp"}, {"a=b/c", "d", "e"}), "a.hpp: \\\n  d \\\n  a=b/c \\\n  e\n");
 }
 
 TEST(Depfile, WarnsOfNamesThatItCannotHold) {
@@ -101,6 +102,11 @@ TEST(Depfile, WarnsOfNamesThatItCannotHold) {
                   "builds every time\n" +
                   help);
     EXPECT_EQ(
+        texts("out/lit.hpp", {"a=b"}),
+        "a=b: warning: a depfile cannot hold this name: make takes it for a variable, and will not see the "
+        "file change\n" +
+            help);
+    EXPECT_EQ(
         texts("out\n/lit.hpp", {}),
         "out /lit.hpp: warning: a depfile cannot hold this name: build tools will not know what it is for\n" +
             help);
@@ -117,8 +123,8 @@ std::string runs_of(const std::string& tool, const std::string& name) {
     };
     put("first", "");
     put(name, "");
-    put("out.d.in", emit_depfile({"out"}, {"first", name}));
-    if (tool == "make") put("out.d", emit_depfile({"out"}, {"first", name}));
+    put("out.d.in", emit_depfile({"out"}, {name, "first"}));
+    if (tool == "make") put("out.d", emit_depfile({"out"}, {name, "first"}));
     put("Makefile", "out:\n\techo ran >>log; touch out\n-include out.d\n");
     put("build.ninja",
         "rule r\n  command = cp out.d.in out.d; echo ran >>log; touch out\n  depfile = out.d\nbuild out: "
@@ -142,7 +148,7 @@ TEST(Depfile, IsReadByMakeAndNinja) {
                            "a\\\\ b",    "a=b", "a%b", "a[1]b", "~a",        "a(b", "a!b",
                            "a@b",        "a,b", "a{b", "-a",    "\xC3\xA4 b"};
     for (const std::string name : names) {
-        EXPECT_TRUE(check_depfile_names("out", {name}).empty()) << name;
+        EXPECT_TRUE(check_depfile_names("out", {"first", name}).empty()) << name;
         for (const std::string tool : {"make", "ninja"})
             EXPECT_EQ(runs_of(tool, name), "112") << tool << " " << name;
     }

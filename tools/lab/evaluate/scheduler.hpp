@@ -272,7 +272,7 @@ class Scheduler {
                                                                  registers_.first_invocation))
                     return error_at(
                         program_.places[block.place],
-                        fmt::format("a loop is not left after {} iterations", options_.iteration_limit));
+                        fmt::format("a loop takes more than {} iterations", options_.iteration_limit));
                 discarded_ |= lanes;
                 go(Program::kEnd);
                 continue;

@@ -15,7 +15,7 @@
 namespace gobo::sanitize {
 
 /// The message of a loop that is given up.
-inline constexpr std::string_view kEndless = "a loop is not left after 65536 iterations";
+inline constexpr std::string_view kEndless = "a loop takes more than 65536 iterations";
 
 /// What one invocation was given.
 using Point = evaluate::EvalPoint;
