@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "compose/piece_marks.hpp"
 #include "core/text.hpp"
 #include "family/key.hpp"
 #include "family/read_family.hpp"
@@ -264,11 +265,12 @@ Result<std::vector<Domain>> constraints_in_comments(const Composition& compositi
     constexpr std::string_view kMark = "// assume:";
     std::vector<Domain> constraints;
     Diagnostics errors;
-    for (const Piece& piece : composition.pieces)
-        for (int line = 1; line <= std::ranges::count(piece.file_text, '\n') + 1; ++line) {
-            const std::string_view text = line_of(piece.file_text, line);
+    for (const Piece& piece : composition.pieces) {
+        int line = 0;
+        for_each_line(piece.file_text, [&](std::string_view text) {
+            ++line;
             const auto mark = text.find(kMark);
-            if (mark == std::string_view::npos) continue;
+            if (mark == std::string_view::npos) return true;
             Domain& domain = constraints.emplace_back();
             domain.name = trim(text.substr(mark + kMark.size()));
             domain.place = {piece.path, line, static_cast<int>(mark) + 1};
@@ -276,7 +278,9 @@ Result<std::vector<Domain>> constraints_in_comments(const Composition& compositi
                 errors.push_back({.place = domain.place,
                                   .message = fmt::format("'{}' is no constraint", domain.name),
                                   .help = std::string(kConstraintHelp)});
-        }
+            return true;
+        });
+    }
     if (!errors.empty()) return tl::unexpected(std::move(errors));
     return constraints;
 }
